@@ -1,0 +1,1 @@
+"""The intermediate representations: step programs over Lie group types, kernels over scalars."""

@@ -1,0 +1,312 @@
+"""Scalar expressions: immutable, hash-consed within a :class:`Space`, ordered by creation.
+
+A space interns every node, so equal expressions are identical objects and sharing is free. Node numbers
+grow with creation and a space belongs to one build, hence operand order and emitted text depend on nothing
+but the input. Nodes simplify only locally (constants, zeros, ones, signs, x - x): sums are never flattened,
+because flattening would destroy sharing.
+
+Operations: ``const`` (a :class:`Number`), ``sym`` (a name), ``add sub mul div neg``, ``pow`` (integer
+exponent >= 2), ``call`` (a function of :data:`FUNCTIONS`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
+
+from codegen.ir.number import Number
+
+FUNCTIONS = (
+    "sqrt",
+    "sin",
+    "cos",
+    "exp",
+    "log",
+    # Stumpff functions c_k(z) = sum_j (-z)^j/(2j+k)!: c_0 = cos sqrt z, c_1 = sin(sqrt z)/sqrt z, ...
+    "stumpff0",
+    "stumpff1",
+    "stumpff2",
+    "stumpff3",
+)
+
+
+class Expr:
+    """One node; made only by its :class:`Space`."""
+
+    __slots__ = ("args", "id", "op", "payload", "space")
+
+    def __init__(self, space: Space, id: int, op: str, args: tuple[Expr, ...], payload: Any) -> None:
+        self.space, self.id, self.op, self.args, self.payload = space, id, op, args, payload
+
+    def __repr__(self) -> str:
+        return text(self)
+
+    def __add__(self, other: Expr | int) -> Expr:
+        return self.space.add(self, self.space.coerce(other))
+
+    def __radd__(self, other: int) -> Expr:
+        return self.space.add(self.space.coerce(other), self)
+
+    def __sub__(self, other: Expr | int) -> Expr:
+        return self.space.sub(self, self.space.coerce(other))
+
+    def __rsub__(self, other: int) -> Expr:
+        return self.space.sub(self.space.coerce(other), self)
+
+    def __mul__(self, other: Expr | int) -> Expr:
+        return self.space.mul(self, self.space.coerce(other))
+
+    def __rmul__(self, other: int) -> Expr:
+        return self.space.mul(self.space.coerce(other), self)
+
+    def __truediv__(self, other: Expr | int) -> Expr:
+        return self.space.div(self, self.space.coerce(other))
+
+    def __rtruediv__(self, other: int) -> Expr:
+        return self.space.div(self.space.coerce(other), self)
+
+    def __neg__(self) -> Expr:
+        return self.space.neg(self)
+
+    def __pow__(self, n: int) -> Expr:
+        return self.space.pow(self, n)
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether this node is the constant 0."""
+        return self is self.space.zero
+
+
+class Space:
+    """An interning table for expressions.
+
+    >>> s = Space(); x, y = s.sym("x"), s.sym("y")
+    >>> (x + y) * 2 is (y + x) * 2
+    True
+    >>> x * 0 - (y - y)
+    0
+    """
+
+    def __init__(self) -> None:
+        self._table: dict[tuple[Any, ...], Expr] = {}
+        self.zero = self.const(Number.rational(0))
+        self.one = self.const(Number.rational(1))
+
+    def _make(self, op: str, args: tuple[Expr, ...] = (), payload: Any = None) -> Expr:
+        key = (op, tuple(a.id for a in args), payload)
+        node = self._table.get(key)
+        if node is None:
+            node = self._table[key] = Expr(self, len(self._table), op, args, payload)
+        return node
+
+    def coerce(self, value: Expr | int | Number) -> Expr:
+        """Return value as a node of this space."""
+        if isinstance(value, Expr):
+            if value.space is not self:
+                raise ValueError("expressions of two spaces meet")
+            return value
+        return self.const(value if isinstance(value, Number) else Number.rational(value))
+
+    def const(self, value: Number) -> Expr:
+        """Return a constant node."""
+        return self._make("const", (), value)
+
+    def sym(self, name: str) -> Expr:
+        """Return the symbol called name."""
+        return self._make("sym", (), name)
+
+    def neg(self, a: Expr) -> Expr:
+        """Return -a."""
+        if a.op == "const":
+            return self.const(-a.payload)
+        if a.op == "neg":
+            return a.args[0]
+        if a.op == "sub":
+            return self._make("sub", (a.args[1], a.args[0]))
+        return self._make("neg", (a,))
+
+    def add(self, a: Expr, b: Expr) -> Expr:
+        """Return a + b."""
+        if a is self.zero:
+            return b
+        if b is self.zero:
+            return a
+        if a.op == b.op == "const" and _joinable(a, b):
+            return self.const(a.payload + b.payload)
+        if b.op == "neg":
+            return self.sub(a, b.args[0])
+        if a.op == "neg":
+            return self.sub(b, a.args[0])
+        if a is b:
+            return self.mul(self.const(Number.rational(2)), a)
+        return self._make("add", (a, b) if a.id < b.id else (b, a))
+
+    def sub(self, a: Expr, b: Expr) -> Expr:
+        """Return a - b."""
+        if a is b:
+            return self.zero
+        if b is self.zero:
+            return a
+        if a is self.zero:
+            return self.neg(b)
+        if a.op == b.op == "const" and _joinable(a, b):
+            return self.const(a.payload - b.payload)
+        if b.op == "neg":
+            return self.add(a, b.args[0])
+        if a.op == "neg":
+            return self.neg(self.add(a.args[0], b))
+        return self._make("sub", (a, b))
+
+    def mul(self, a: Expr, b: Expr) -> Expr:
+        """Return a b; a constant factor stands first."""
+        if b.op == "const":
+            a, b = b, a
+        if a is self.zero or b is self.zero:
+            return self.zero
+        if a.op == "const":
+            if a.payload.is_one:
+                return b
+            if (-a.payload).is_one:
+                return self.neg(b)
+            if b.op == "const" and _joinable(a, b):
+                return self.const(a.payload * b.payload)
+            if b.op == "mul" and b.args[0].op == "const" and _joinable(a, b.args[0]):
+                return self.mul(self.const(a.payload * b.args[0].payload), b.args[1])
+        if a.op == "neg":
+            return self.neg(self.mul(a.args[0], b))
+        if b.op == "neg":
+            return self.mul(self.neg(a), b.args[0]) if a.op == "const" else self.neg(self.mul(a, b.args[0]))
+        if a is b:
+            return self.pow(a, 2)
+        if a.op != "const" and b.id < a.id:
+            a, b = b, a
+        return self._make("mul", (a, b))
+
+    def div(self, a: Expr, b: Expr) -> Expr:
+        """Return a/b; a constant divisor becomes a constant factor."""
+        if b is self.zero:
+            raise ZeroDivisionError("division by the constant 0")
+        if a is self.zero:
+            return self.zero
+        if b.op == "const":
+            return self.mul(self.const(Number.rational(1) / b.payload), a)
+        if a is b:
+            return self.one
+        if a.op == "neg":
+            return self.neg(self.div(a.args[0], b))
+        if b.op == "neg":
+            return self.neg(self.div(a, b.args[0]))
+        return self._make("div", (a, b))
+
+    def pow(self, a: Expr, n: int) -> Expr:
+        """Return a**n for an integer n."""
+        if n < 0:
+            return self.div(self.one, self.pow(a, -n))
+        if n == 0:
+            return self.one
+        if n == 1:
+            return a
+        if a.op == "const":
+            value = a.payload
+            for _ in range(n - 1):
+                value = value * a.payload
+            return self.const(value)
+        if a.op == "neg":
+            power = self.pow(a.args[0], n)
+            return self.neg(power) if n % 2 else power
+        if a.op == "call" and a.payload == "sqrt" and n % 2 == 0:
+            return self.pow(a.args[0], n // 2)
+        return self._make("pow", (a,), n)
+
+    def call(self, function: str, *args: Expr) -> Expr:
+        """Return function(args) for a function of :data:`FUNCTIONS`."""
+        if function not in FUNCTIONS:
+            message = f"unknown scalar function {function}"
+            raise ValueError(message)
+        return self._make("call", args, function)
+
+
+def _joinable(a: Expr, b: Expr) -> bool:
+    """Whether two constants can be folded: balls are not, so that a printer rounds each only once."""
+    x, y = a.payload, b.payload
+    return x.ring is y.ring or x.is_rational or y.is_rational
+
+
+def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] = lambda _: False) -> Iterator[Expr]:
+    """Yield every node below the roots once, arguments before users; nodes where stop holds are leaves."""
+    seen: dict[int, bool] = {}
+    for root in roots:
+        stack = [(root, False)]
+        while stack:
+            node, expanded = stack.pop()
+            if expanded:
+                yield node
+            elif node.id not in seen:
+                seen[node.id] = True
+                stack.append((node, True))
+                if not stop(node):
+                    stack.extend((a, False) for a in reversed(node.args))
+
+
+def evaluate(roots: Iterable[Expr], domain: Any, values: dict[str, Any]) -> list[Any]:
+    """Evaluate roots in a domain (see :mod:`codegen.ir.domain`), symbols taking the given values.
+
+    With an expression domain this is substitution.
+    """
+    roots = list(roots)
+    result: dict[int, Any] = {}
+    for node in walk(roots):
+        args = [result[a.id] for a in node.args]
+        match node.op:
+            case "const":
+                value = domain.number(node.payload)
+            case "sym":
+                value = values[node.payload]
+            case "add":
+                value = args[0] + args[1]
+            case "sub":
+                value = args[0] - args[1]
+            case "mul":
+                value = args[0] * args[1]
+            case "div":
+                value = args[0] / args[1]
+            case "neg":
+                value = -args[0]
+            case "pow":
+                value = power(args[0], node.payload)
+            case _:
+                value = domain.call(node.payload, *args)
+        result[node.id] = value
+    return [result[r.id] for r in roots]
+
+
+def power(x: Any, n: int) -> Any:
+    """Return x**n, n >= 1, by squaring, left to right: printers spell the same products."""
+    result = x
+    for bit in bin(n)[3:]:
+        result = result * result
+        if bit == "1":
+            result = result * x
+    return result
+
+
+def text(root: Expr) -> str:
+    """Spell an expression for people."""
+    parts: dict[int, str] = {}
+    infix = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
+    for node in walk([root]):
+        args = [parts[a.id] for a in node.args]
+        match node.op:
+            case "const":
+                parts[node.id] = node.payload.text()
+            case "sym":
+                parts[node.id] = node.payload
+            case "neg":
+                parts[node.id] = f"-({args[0]})"
+            case "pow":
+                parts[node.id] = f"({args[0]})^{node.payload}"
+            case "call":
+                parts[node.id] = f"{node.payload}({', '.join(args)})"
+            case _:
+                parts[node.id] = f"({args[0]} {infix[node.op]} {args[1]})"
+    return parts[root.id]

@@ -1,0 +1,88 @@
+"""Kernels: a step as scalar assignments and fixed-point loops, ready for a printer.
+
+A kernel is single assignment. A :class:`Loop` repeats its body with the unknowns replaced by their images
+until they stand still; the unknowns keep the values that the last body was computed from, so that body
+values may be read afterwards. A kernel never branches on data apart from loops: it selects.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from codegen.ir.expr import Expr, walk
+
+
+@dataclass(frozen=True)
+class Let:
+    """name = value; symbols in value are inputs, unknowns of an enclosing loop, or earlier names."""
+
+    name: str
+    value: Expr
+
+
+@dataclass(frozen=True)
+class Loop:
+    """Iterate unknowns <- images over body until the largest change stands still at rounding level.
+
+    ``label`` names the block in messages and statistics ("stage 2"); ``starts`` are evaluated before the
+    loop. The iteration has converged when the largest change is at most ``tolerance`` times
+    max(1, largest unknown) and has stopped decreasing (or is zero); after ``limit`` sweeps without that it
+    has failed, and so has a change that is not finite.
+    """
+
+    label: str
+    unknowns: tuple[str, ...]
+    starts: tuple[Expr, ...]
+    body: tuple[Let, ...]
+    images: tuple[Expr, ...]
+    tolerance: float = 2.0**-44
+    limit: int = 100
+
+
+@dataclass(frozen=True)
+class Field:
+    """A named block of scalars in the state, input or output: its names in order, and what it means."""
+
+    name: str
+    symbols: tuple[str, ...]
+    meaning: str
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """One step: state fields, scalar inputs (h, t, run-time parameters), body, new state in field order."""
+
+    name: str
+    state: tuple[Field, ...]
+    scalars: tuple[str, ...]
+    body: tuple[Let | Loop, ...]
+    outputs: tuple[Expr, ...]
+
+    def lets(self) -> Iterator[Let]:
+        """Yield every assignment, those in loops included."""
+        for statement in self.body:
+            if isinstance(statement, Let):
+                yield statement
+            else:
+                yield from statement.body
+
+    def expressions(self) -> Iterator[Expr]:
+        """Yield every expression root in order."""
+        for statement in self.body:
+            if isinstance(statement, Let):
+                yield statement.value
+            else:
+                yield from statement.starts
+                yield from (let.value for let in statement.body)
+                yield from statement.images
+        yield from self.outputs
+
+    def functions(self) -> tuple[str, ...]:
+        """Return the scalar functions that are called, sorted."""
+        return tuple(sorted({n.payload for n in walk(self.expressions()) if n.op == "call"}))
+
+    def used_scalars(self) -> tuple[str, ...]:
+        """Return those of ``scalars`` that some expression reads, in order."""
+        read = {n.payload for n in walk(self.expressions()) if n.op == "sym"}
+        return tuple(s for s in self.scalars if s in read)
