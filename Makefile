@@ -1,0 +1,60 @@
+# Everything a reader of this repository runs. Needs Python 3.11 or later and a C compiler; makes its own .venv.
+#
+#   make demo      derive, check, emit, compile, converge, report: the whole life of a method
+#   make test      the tests that take seconds, doctests and coverage
+#   make test-all  the same with the proofs that take minutes
+#   make lint      ruff, mypy --strict, import-linter
+#   make bench     time this project (benchmarks/)
+
+SHELL := /bin/bash
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+INSTALLED := $(VENV)/.installed
+REPORT := report
+PYTEST := $(BIN)/python -m pytest -n 2 -rs --doctest-modules --cov --cov-report=term orderconds codegen tests
+
+.PHONY: demo test test-all bench lint compiler clean
+.DELETE_ON_ERROR:
+
+# The stamp makes an old environment follow pyproject.toml and constraints.txt. The pins also bind the build backend.
+$(INSTALLED): pyproject.toml constraints.txt
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { \
+	  echo "make: '$(PYTHON)' is missing or older than Python 3.11; install Python >= 3.11 or type: make PYTHON=/path/to/python3.11" >&2; exit 2; }
+	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || { \
+	  echo "make: '$(PYTHON)' cannot create virtual environments (no ensurepip); on Debian or Ubuntu type: apt-get install python3-venv" >&2; exit 2; }
+	$(PYTHON) -m venv $(VENV)
+	PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[test]'
+	@touch $@
+
+compiler:
+	@command -v cc >/dev/null || command -v gcc >/dev/null || command -v clang >/dev/null || { \
+	  echo "make: no C compiler (cc, gcc or clang) on PATH; on Debian or Ubuntu type: apt-get install gcc libc6-dev" >&2; exit 2; }
+
+demo: $(INSTALLED) compiler
+	$(BIN)/orderconds derive vcg --order 3
+	$(BIN)/orderconds check tableaux
+	$(BIN)/orderconds emit rigid_body --method cg:cg3 --method rkmk:rk4 --method cf:cf4 --target c --target python -o $(REPORT)/emitted
+	$(BIN)/orderconds emit dipole --method vcg:gauss1 --method vcg:triple_jump --target c --target python -o $(REPORT)/emitted
+	$(BIN)/orderconds converge rigid_body --method cg:cg3 --method rkmk:rk4 --method cf:cf4
+	$(BIN)/orderconds converge dipole --method vcg:gauss1 --method vcg:triple_jump
+	$(BIN)/orderconds report rigid_body dipole -o $(REPORT)
+	@echo "The report: $(CURDIR)/$(REPORT)/index.html"
+
+test: $(INSTALLED)
+	$(PYTEST) -m 'not slow'
+
+test-all: $(INSTALLED)
+	$(PYTEST)
+
+bench: $(INSTALLED) compiler
+	@set -e; for script in benchmarks/*.py; do echo "$$script"; $(BIN)/python $$script; done
+
+lint: $(INSTALLED)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+clean:
+	rm -rf $(VENV) $(REPORT) build dist .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis .coverage

@@ -1,0 +1,160 @@
+"""The command-line program: one click group whose commands are loaded when they are called, never before.
+
+Built-in commands are known by name. Those of other packages (``codegen`` ships emit, converge, report and
+regenerate) come from the entry-point group ``orderconds.commands``, scanned only when a name is not built in.
+
+Exit statuses: 0 it holds or was done; 1 it ran and a claim or check failed; 2 bad input or usage, with one message
+on stderr; 130 and 141, the shell's own, when interrupted and when the reader of a pipe went away.
+"""
+
+from __future__ import annotations
+
+import difflib
+import importlib
+import os
+import sys
+from importlib import metadata
+from typing import Any, NoReturn
+
+import click
+
+from orderconds import __version__
+from orderconds.errors import InputError, UnknownName
+
+COMMAND_GROUP = "orderconds.commands"
+"""The entry-point group in which other packages offer commands."""
+
+BUILT_IN = {
+    "check": (
+        "orderconds.commands.check",
+        "Decide the exact order of tableaux and compare it with their claims.",
+    ),
+    "cite": ("orderconds.commands.cite", "Print the BibTeX of a tableau's source."),
+    "derive": ("orderconds.commands.derive", "Print the independent order conditions of a family."),
+    "list": ("orderconds.commands.list", "List families, tableaux, and what other packages offer."),
+    "trees": ("orderconds.commands.trees", "Enumerate trees, forests and Lyndon words."),
+}
+"""Built-in commands: name -> (module that holds ``command``, one line for --help)."""
+
+
+class Program(click.Group):
+    """The group of all commands, with this program's exit statuses.
+
+    >>> program.list_commands(click.Context(program))[:3]
+    ['check', 'cite', 'derive']
+    """
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return every command's name: the built-in ones first, then those of other packages."""
+        others = sorted({entry.name for entry in metadata.entry_points(group=COMMAND_GROUP)} - set(BUILT_IN))
+        return [*BUILT_IN, *others]
+
+    def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
+        """Import and return one command; None when nobody offers it."""
+        if name in BUILT_IN:
+            command = importlib.import_module(BUILT_IN[name][0]).command
+        else:
+            entries = [entry for entry in metadata.entry_points(group=COMMAND_GROUP) if entry.name == name]
+            if not entries:
+                return None
+            try:
+                command = entries[0].load()
+            except (ImportError, AttributeError) as error:
+                raise UnknownName(
+                    f"cannot load the command: {error}",
+                    where=f"{name} ({entries[0].value})",
+                    expected="the package that offers it to be installed whole",
+                ) from error
+        if not isinstance(command, click.Command):
+            raise UnknownName(f"{command!r} is no click command", where=f"entry point {name}")
+        return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find the command named by the first argument, or suggest a close one."""
+        name = args[0]
+        command = None if name.startswith("-") else self.get_command(ctx, name)
+        if command is None and not name.startswith("-"):
+            names = self.list_commands(ctx)
+            close = difflib.get_close_matches(name, names, n=1)
+            raise UnknownName(
+                f"there is no command {name!r}",
+                expected=f"one of {', '.join(names)}",
+                hint=f"type: orderconds {close[0] if close else '--help'}",
+            )
+        return super().resolve_command(ctx, args)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """List all commands with one line each; one that cannot be loaded says so instead of ending the help."""
+        rows = []
+        for name in self.list_commands(ctx):
+            if name in BUILT_IN:
+                rows.append((name, BUILT_IN[name][1]))
+                continue
+            try:
+                command = self.get_command(ctx, name)
+            except InputError as error:
+                rows.append((name, f"({error.found})"))
+            else:
+                rows.append((name, command.get_short_help_str(limit=100) if command else ""))
+        with formatter.section("Commands"):
+            formatter.write_dl(rows)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run the command; when the reader of stdout goes away, as ``head`` does, end quietly with 141."""
+        try:
+            result = super().invoke(ctx)
+            sys.stdout.flush()
+        except BrokenPipeError:
+            # The interpreter flushes stdout once more when it exits; let that go nowhere.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            sys.exit(141)
+        return result
+
+    def main(self, *args: Any, **extra: Any) -> NoReturn:
+        """Run one command and exit with its status; every error a user can cause becomes one message."""
+        status = 0
+        try:
+            result = super().main(*args, **{"prog_name": "orderconds", **extra, "standalone_mode": False})
+            status = result if isinstance(result, int) else 0
+        except InputError as error:
+            status = _complain(str(error))
+        except click.exceptions.NoArgsIsHelpError as error:
+            click.echo(error.format_message())
+        except click.UsageError as error:
+            status = _complain(_usage_message(error))
+        except click.ClickException as error:
+            status = _complain(error.format_message())
+        except click.Abort:
+            status = 130
+        except OSError as error:
+            status = _complain(f"{error.filename or 'system'}: {error.strerror or error}")
+        sys.exit(status)
+
+
+def _usage_message(error: click.UsageError) -> str:
+    message = error.format_message().rstrip(".")
+    if error.ctx is None:
+        return message
+    return f"{error.ctx.command_path.partition(' ')[2] or 'usage'}: {message}; type: {error.ctx.command_path} --help"
+
+
+def _complain(message: str) -> int:
+    click.echo(f"orderconds: {message}", err=True)
+    return 2
+
+
+@click.group(cls=Program, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="orderconds")
+def program() -> None:
+    """Derive, prove and compile Lie group integrators."""
+
+
+def main() -> NoReturn:
+    """Run the program on the command line's arguments."""
+    program.main()
+
+
+if __name__ == "__main__":
+    main()

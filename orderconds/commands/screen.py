@@ -1,0 +1,50 @@
+"""What commands print: JSON for machines, tables through rich on a terminal and as plain columns elsewhere."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+import click
+
+
+def is_terminal() -> bool:
+    """Say whether a person is reading stdout; colours, rules and progress are only for them."""
+    return sys.stdout.isatty()
+
+
+def print_json(value: Any) -> None:
+    """Print one JSON document: indented, in the order given, ASCII only."""
+    click.echo(json.dumps(value, indent=2))
+
+
+def print_table(columns: Sequence[str], rows: Sequence[Sequence[str]], indent: int = 0) -> None:
+    """Print rows under column heads; the columns are as wide as their widest entry."""
+    if is_terminal():
+        from rich.console import Console  # a person is watching, so its import time does not matter
+        from rich.padding import Padding
+        from rich.table import Table
+
+        table = Table(*columns, box=None, pad_edge=False, header_style="bold")
+        for row in rows:
+            table.add_row(*row)
+        Console(highlight=False, markup=False).print(Padding(table, (0, 0, 0, indent)))
+        return
+    for line in plain_table(columns, rows):
+        click.echo(" " * indent + line)
+
+
+def plain_table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
+    """Return the lines of a table in plain columns two spaces apart.
+
+    >>> plain_table(["family", "order"], [["rk", "4"], ["rkmk(1)", "3"]])
+    ['family   order', 'rk       4', 'rkmk(1)  3']
+    """
+    lines = [list(columns), *map(list, rows)]
+    widths = [max(len(line[k]) for line in lines) for k in range(len(columns))]
+    return [
+        "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()
+        for line in lines
+    ]
