@@ -1,0 +1,77 @@
+"""One order condition: a tree, a formula in the method's coefficients, and the exact flow's value.
+
+A method has order p iff ``formula = rhs`` for each condition of each order up to p.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from orderconds.formula import Formula, named
+from orderconds.formula.spelling import fraction_latex
+
+
+@dataclass(frozen=True)
+class OrderCondition:
+    """The condition that a method's value on ``tree`` equals ``rhs``, the exact flow's.
+
+    ``family`` is the label of the family (``rkmk(1)``), ``order`` the grade, ``tree`` the canonical text of
+    the tree or word. ``source`` is the formula, or a function that builds it when somebody reads it. ``key``
+    is the family's own encoding, from which its engine evaluates the left-hand side.
+
+    >>> from orderconds.formula import coefficient, index_sum
+    >>> quadrature = OrderCondition("rk", 1, "[]", index_sum(("i",), (), coefficient("b", "i")), Fraction(1))
+    >>> print(quadrature)
+    sum_i b_i = 1
+    """
+
+    family: str
+    order: int
+    tree: str
+    source: Formula | Callable[[], Formula] = field(repr=False, compare=False)
+    rhs: Fraction
+    key: Any = field(default=None, repr=False, compare=False)
+
+    @cached_property
+    def formula(self) -> Formula:
+        """The left-hand side, with readable index names."""
+        return named(self.source if isinstance(self.source, Formula) else self.source())
+
+    @property
+    def expression(self) -> str:
+        """The left-hand side in ASCII."""
+        return self.formula.text()
+
+    @property
+    def latex(self) -> str:
+        """The left-hand side in LaTeX."""
+        return self.formula.latex()
+
+    @property
+    def latex_equation(self) -> str:
+        """The whole equation in LaTeX."""
+        return f"{self.latex} = {fraction_latex(self.rhs)}"
+
+    def sympy(self) -> Any:
+        """Return the equation as ``sympy.Eq`` (SymPy is imported here)."""
+        import sympy
+
+        rhs = sympy.Rational(self.rhs.numerator, self.rhs.denominator)
+        return sympy.Eq(self.formula.sympy(), rhs, evaluate=False)
+
+    def as_json(self) -> dict[str, object]:
+        """Return the JSON object of ``orderconds derive --format json``."""
+        return {
+            "order": self.order,
+            "tree": self.tree,
+            "expression": self.expression,
+            "latex": self.latex,
+            "rhs": str(self.rhs),
+        }
+
+    def __str__(self) -> str:
+        return f"{self.expression} = {self.rhs}"

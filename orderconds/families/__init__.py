@@ -1,0 +1,116 @@
+"""Families of methods: each says how a tableau becomes a series, and which values of it are order conditions.
+
+One module a family, loaded when asked for by name. A module offers ``create(**options)`` that returns a
+:class:`Family`; the options are the family's own (``cutoff`` of RKMK).
+"""
+
+from __future__ import annotations
+
+import difflib
+import inspect
+import re
+from collections.abc import Sequence
+from fractions import Fraction
+from importlib import import_module
+from typing import Any, Protocol
+
+from orderconds.conditions import OrderCondition
+from orderconds.errors import InputError, UnknownName, ZeroWeight
+from orderconds.ring.protocol import Element, Ring
+
+MODULES = {
+    "rk": "orderconds.families.rk",
+    "sprk": "orderconds.families.sprk",
+    "rkmk": "orderconds.families.rkmk",
+    "cg": "orderconds.families.cg",
+    "cf": "orderconds.families.cf",
+    "vcg": "orderconds.families.vcg",
+}
+"""Family name to module, in the order in which ``orderconds list families`` shows them."""
+
+
+class Family(Protocol):
+    """What every family offers."""
+
+    name: str
+    formats: tuple[str, ...]
+    """The tableau formats it reads, the preferred one first."""
+    needs_nonzero_weights: bool
+    """Whether the family divides by the weights b_i."""
+
+    def label(self) -> str:
+        """Return the name with its options, as ``rkmk(1)``."""
+
+    def conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return the independent conditions of exactly this order."""
+
+    def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return the conditions of every tree or word of exactly this order."""
+
+    def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
+        """Return the left-hand sides of ``conditions`` for a method with coefficients in ``ring``.
+
+        Raises :class:`~orderconds.errors.ZeroWeight` where the family divides by a weight that is zero.
+        """
+
+
+def names() -> tuple[str, ...]:
+    """Return the names of all families."""
+    return tuple(MODULES)
+
+
+def get(name: str, **options: Any) -> Family:
+    """Return a family by name, ``get("rkmk", cutoff=1)`` or ``get("rkmk(1)")``.
+
+    Raises :class:`~orderconds.errors.UnknownName` for a name that is not registered and
+    :class:`~orderconds.errors.InputError` for an option the family does not have.
+    """
+    called = re.fullmatch(r"\s*([a-z_]+)\s*(?:\(\s*(\d{1,3})\s*\))?\s*", name)
+    base, argument = called.groups() if called else (name, None)
+    if base not in MODULES:
+        close = difflib.get_close_matches(base, MODULES, n=1)
+        raise UnknownName(
+            f"unknown family {name!r}",
+            expected=f"one of {', '.join(MODULES)}",
+            hint=f"did you mean {close[0]!r}?" if close else "",
+        )
+    create = import_module(MODULES[base]).create
+    accepted = tuple(inspect.signature(create).parameters)
+    if argument is not None and not accepted:
+        raise InputError(f"family {base} takes no argument, found {name!r}", expected=base)
+    if argument is not None:
+        options = {accepted[0]: int(argument), **options}
+    for option in options:
+        if option not in accepted:
+            raise InputError(
+                f"family {base} has no option {option!r}",
+                expected=f"one of {', '.join(accepted)}" if accepted else "no options",
+            )
+    family: Family = create(**options)
+    return family
+
+
+def residuals(
+    family: Family, method: Any, ring: Ring, conditions: Sequence[OrderCondition]
+) -> tuple[Element, ...]:
+    """Return left-hand side minus right-hand side of each condition, elements of ``ring``."""
+    values = family.evaluate(method, ring, conditions)
+    return tuple(value - in_ring(ring, c.rhs) for value, c in zip(values, conditions, strict=True))
+
+
+def in_ring(ring: Ring, q: Fraction) -> Element:
+    """Return a rational number as an element of ``ring``."""
+    return ring.rational(q.numerator, q.denominator)
+
+
+def require_nonzero_weights(label: str, ring: Ring, b: Sequence[Element]) -> None:
+    """Raise :class:`~orderconds.errors.ZeroWeight` unless every weight is known to be non-zero."""
+    for i, weight in enumerate(b, start=1):
+        vanishes = ring.is_zero(weight)
+        if vanishes is None or vanishes:
+            raise ZeroWeight(
+                f"b_{i} = {ring.text(weight)}" + (", which may be zero" if vanishes is None else ""),
+                where=f"family {label}",
+                expected="every weight b_i to be non-zero, since the family divides by it",
+                hint="choose another family, or a tableau without zero weights",
+            )

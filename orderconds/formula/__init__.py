@@ -1,0 +1,53 @@
+r"""Index sums: the form in which people read order conditions.
+
+A formula is built from coefficients (``b_i``, ``a_ij``, ``c_i``, ``ahat_ij``, ``beta_Jj`` ...) by products,
+powers, scaled sums and sums over indices with order relations between them. Engines never evaluate formulas;
+tests do, by brute force, to prove that what is printed is what the engine computes.
+
+>>> b, a, c = coefficient("b", "i"), coefficient("a", "i", "j"), coefficient("c", "j")
+>>> formula = index_sum(("i",), (), product(b, index_sum(("j",), (), product(a, c))))
+>>> formula.text()
+'sum_{i,j} b_i a_ij c_j'
+>>> print(formula.latex())
+\sum_{i,j} b_{i} a_{ij} c_{j}
+"""
+
+from orderconds.formula.nodes import (
+    Coefficient,
+    Formula,
+    IndexSum,
+    Power,
+    Product,
+    Relation,
+    Total,
+    coefficient,
+    coefficients,
+    free_indices,
+    fresh,
+    index_sum,
+    named,
+    one,
+    product,
+    total,
+    zero,
+)
+
+__all__ = [
+    "Coefficient",
+    "Formula",
+    "IndexSum",
+    "Power",
+    "Product",
+    "Relation",
+    "Total",
+    "coefficient",
+    "coefficients",
+    "free_indices",
+    "fresh",
+    "index_sum",
+    "named",
+    "one",
+    "product",
+    "total",
+    "zero",
+]

@@ -1,0 +1,237 @@
+"""The syntax tree of index sums and its smart constructors, which flatten, collect and name.
+
+Bound indices must have names of their own while a formula is being built (:func:`fresh` gives them);
+:func:`named` then renames them readably. Upper-case indices run over exponentials, others over stages.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from orderconds.ring.protocol import Element, Ring
+
+Relation = tuple[str, str, str]
+"""``("i", "<", "j")`` or ``("i", "<=", "j")``: a restriction on two indices of one sum."""
+
+STAGE_NAMES = ("i", "j", "k", "l", "m", "n", "p", "q", "r", "u", "v", "w")
+EXPONENTIAL_NAMES = ("I", "J", "K", "L", "M", "N", "P", "Q", "R", "U", "V", "W")
+
+_numbers = itertools.count(1)
+
+
+class Formula:
+    """A node of the syntax tree: Coefficient, Product, Power, Total or IndexSum."""
+
+    def text(self) -> str:
+        """Spell the formula in ASCII, as ``sum_{i,j} b_i a_ij c_j``."""
+        from orderconds.formula.spelling import TEXT, spell
+
+        return spell(self, TEXT)
+
+    def latex(self) -> str:
+        """Spell the formula for LaTeX's mathematics mode."""
+        from orderconds.formula.spelling import LATEX, spell
+
+        return spell(self, LATEX)
+
+    def sympy(self) -> Any:
+        """Return a SymPy expression; stages run from 1 to ``s``, exponentials to ``m``."""
+        from orderconds.formula.sympy_form import export
+
+        return export(self)
+
+    def evaluate(self, ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element]) -> Element:
+        """Sum by brute force for the Runge-Kutta tableau (A, b), elements of ``ring``.
+
+        Derived are ``c_i = sum_j a_ij``, ``ahat_ij = b_j - b_j a_ji / b_i``, ``chat_i = sum_j ahat_ij``.
+        """
+        from orderconds.formula.brute_force import RungeKuttaTables, value
+
+        return value(self, ring, RungeKuttaTables(ring, A, b))
+
+
+@dataclass(frozen=True)
+class Coefficient(Formula):
+    """A coefficient of the method, as ``a_ij``: name ``a``, indices ``("i", "j")``."""
+
+    name: str
+    indices: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Product(Formula):
+    """A product of factors; the empty product is the number one."""
+
+    factors: tuple[Formula, ...]
+
+
+@dataclass(frozen=True)
+class Power(Formula):
+    """A power ``base^exponent``; a negative exponent divides."""
+
+    base: Formula
+    exponent: int
+
+
+@dataclass(frozen=True)
+class Total(Formula):
+    """A sum of rational multiples of formulas; the empty sum is zero."""
+
+    terms: tuple[tuple[Fraction, Formula], ...]
+
+
+@dataclass(frozen=True)
+class IndexSum(Formula):
+    """A sum of ``body`` over all values of ``indices`` that satisfy ``relations``."""
+
+    indices: tuple[str, ...]
+    relations: tuple[Relation, ...]
+    body: Formula
+
+
+def zero() -> Formula:
+    """Return the empty sum."""
+    return Total(())
+
+
+def one() -> Formula:
+    """Return the empty product."""
+    return Product(())
+
+
+def coefficient(name: str, *indices: str) -> Formula:
+    """Return the coefficient ``name`` with these indices."""
+    return Coefficient(name, indices)
+
+
+def product(*factors: Formula) -> Formula:
+    """Multiply: flatten products, draw numbers to the front, collect equal factors in powers.
+
+    Factors are equal when they differ by the names of bound indices only; a zero factor gives zero.
+    """
+    scale = Fraction(1)
+    collected: dict[Formula, tuple[Formula, int]] = {}
+    for base, exponent in _powers(factors):
+        if isinstance(base, Total) and len(base.terms) <= 1 and exponent > 0:
+            if not base.terms:
+                return zero()
+            number, base = base.terms[0]
+            scale *= number**exponent
+        for inner, power in _powers((base,)):
+            first, seen = collected.get(named(inner), (inner, 0))
+            collected[named(inner)] = (first, seen + exponent * power)
+    powers = tuple(b if e == 1 else Power(b, e) for b, e in collected.values() if e)
+    plain = powers[0] if len(powers) == 1 else Product(powers)
+    return plain if scale == 1 else Total(((scale, plain),))
+
+
+def total(*terms: tuple[Fraction | int, Formula]) -> Formula:
+    """Add rational multiples: flatten totals, collect terms equal up to the names of bound indices."""
+    collected: dict[Formula, tuple[Formula, Fraction]] = {}
+    for scale, term in terms:
+        for inner, part in term.terms if isinstance(term, Total) else ((Fraction(1), term),):
+            key = named(part)
+            first, seen = collected.get(key, (part, Fraction(0)))
+            collected[key] = (first, seen + scale * inner)
+    kept = tuple((scale, term) for term, scale in collected.values() if scale)
+    return kept[0][1] if len(kept) == 1 and kept[0][0] == 1 else Total(kept)
+
+
+def index_sum(indices: Sequence[str], relations: Iterable[Relation], body: Formula) -> Formula:
+    """Sum over indices; sums among the factors of ``body`` and numbers are drawn to the front."""
+    if not indices:
+        return body
+    if isinstance(body, Total) and len(body.terms) <= 1:
+        return total(*((scale, index_sum(indices, relations, inner)) for scale, inner in body.terms))
+    all_indices, all_relations, factors = list(indices), list(relations), []
+    for factor in body.factors if isinstance(body, Product) else (body,):
+        if isinstance(factor, IndexSum):
+            all_indices += factor.indices
+            all_relations += factor.relations
+            factors.append(factor.body)
+        else:
+            factors.append(factor)
+    return IndexSum(tuple(all_indices), tuple(all_relations), product(*factors))
+
+
+def fresh(kind: str = "i") -> str:
+    """Return an index name that no other formula has; upper-case ``kind`` for exponentials."""
+    return f"{kind}#{next(_numbers)}"
+
+
+def named(formula: Formula, names: Mapping[str, str] | None = None) -> Formula:
+    """Name bound indices in reading order: i, j, k ... for stages, I, J, K ... for exponentials.
+
+    Free indices are renamed by ``names``, if they stand there. Sums that differ by the names of bound
+    indices only become identical.
+    """
+    names = names or {}
+    match formula:
+        case Coefficient(name, indices):
+            return Coefficient(name, tuple(names.get(index, index) for index in indices))
+        case Product(factors):
+            return Product(tuple(named(factor, names) for factor in factors))
+        case Power(base, exponent):
+            return Power(named(base, names), exponent)
+        case Total(terms):
+            return Total(tuple((scale, named(term, names)) for scale, term in terms))
+        case IndexSum(indices, relations, body):
+            inner = dict(names)
+            # Free indices that keep their names must not be captured.
+            free = [x for x in free_indices(formula) if x not in names]
+            for index in indices:
+                inner[index] = _next_name(index, [*free, *inner.values()])
+            new = tuple((inner.get(i, i), sign, inner.get(j, j)) for i, sign, j in relations)
+            return IndexSum(tuple(inner[index] for index in indices), new, named(body, inner))
+    raise TypeError(f"not a formula: {formula!r}")
+
+
+def coefficients(formula: Formula) -> Iterator[Coefficient]:
+    """Yield every coefficient that occurs, from left to right."""
+    match formula:
+        case Coefficient():
+            yield formula
+        case Product(factors):
+            for factor in factors:
+                yield from coefficients(factor)
+        case Power(base, _) | IndexSum(_, _, base):
+            yield from coefficients(base)
+        case Total(terms):
+            for _, term in terms:
+                yield from coefficients(term)
+
+
+def free_indices(formula: Formula) -> tuple[str, ...]:
+    """Return the indices that no sum binds, in reading order."""
+    match formula:
+        case Coefficient(_, indices):
+            found: Iterable[str] = indices
+        case Product(factors):
+            found = itertools.chain.from_iterable(free_indices(factor) for factor in factors)
+        case Power(base, _):
+            found = free_indices(base)
+        case Total(terms):
+            found = itertools.chain.from_iterable(free_indices(term) for _, term in terms)
+        case IndexSum(indices, relations, body):
+            inner = itertools.chain(free_indices(body), *((i, j) for i, _, j in relations))
+            found = [index for index in inner if index not in indices]
+        case _:
+            raise TypeError(f"not a formula: {formula!r}")
+    return tuple(dict.fromkeys(found))
+
+
+def _powers(factors: Iterable[Formula]) -> Iterator[tuple[Formula, int]]:
+    for factor in factors:
+        for part in factor.factors if isinstance(factor, Product) else (factor,):
+            yield (part.base, part.exponent) if isinstance(part, Power) else (part, 1)
+
+
+def _next_name(index: str, taken: Iterable[str]) -> str:
+    used = set(taken)
+    pool = EXPONENTIAL_NAMES if index[0].isupper() else STAGE_NAMES
+    endless = itertools.chain(pool, (f"{pool[0]}{n}" for n in itertools.count(1)))
+    return next(name for name in endless if name not in used)

@@ -1,0 +1,58 @@
+"""Formulas as SymPy expressions: coefficients become ``IndexedBase`` entries, index sums become ``Sum``.
+
+SymPy is imported here only, and this module only where somebody asks for an expression.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import sympy
+
+from orderconds.formula.nodes import Coefficient, Formula, IndexSum, Power, Product, Relation, Total
+
+STAGES = sympy.Symbol("s", integer=True, positive=True)
+EXPONENTIALS = sympy.Symbol("m", integer=True, positive=True)
+
+
+def export(formula: Formula) -> Any:
+    """Return the SymPy expression; indices count from 1, lower-case ones to ``s``, upper-case ones to ``m``.
+
+    >>> from orderconds.formula import coefficient, index_sum
+    >>> export(index_sum(("i",), (), coefficient("b", "i")))
+    Sum(b[i], (i, 1, s))
+    """
+    match formula:
+        case Coefficient(name, indices):
+            return sympy.IndexedBase(name)[tuple(_index(index) for index in indices)]
+        case Product(factors):
+            return sympy.Mul(*(export(factor) for factor in factors))
+        case Power(base, exponent):
+            return export(base) ** exponent
+        case Total(terms):
+            return sympy.Add(
+                *(sympy.Rational(q.numerator, q.denominator) * export(term) for q, term in terms)
+            )
+        case IndexSum(indices, relations, body):
+            return sympy.Sum(export(body), *_limits(indices, relations))
+    raise TypeError(f"not a formula: {formula!r}")
+
+
+def _index(name: str) -> Any:
+    return sympy.Symbol(name, integer=True, positive=True)
+
+
+def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[tuple[Any, Any, Any]]:
+    """Turn ``i < j`` into the range 1..j-1 of i, with i summed inside j."""
+    limits, waiting = [], list(indices)
+    while waiting:
+        # SymPy's innermost limit comes first: an index goes once none that waits is bounded by it.
+        index = next(
+            x for x in waiting if not any(high == x and low in waiting for low, _, high in relations)
+        )
+        waiting.remove(index)
+        bounds = [_index(high) - int(sign == "<") for low, sign, high in relations if low == index]
+        last = EXPONENTIALS if index[0].isupper() else STAGES
+        limits.append((_index(index), 1, sympy.Min(*bounds) if bounds else last))
+    return limits
