@@ -1,0 +1,193 @@
+"""Certified real balls (Arb) of a fixed working precision.
+
+A ball encloses one unknown real number. It can prove that number different from zero, never equal to it,
+unless the ball is the single point zero, which is how structural zeros of a tableau survive.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from flint import arb, fmpq
+
+from orderconds.ring.decimals import endpoints, rational_decimal, rational_float
+from orderconds.ring.precision import precision
+
+
+class Balls:
+    """The ring of real balls computed with ``bits`` of precision; equal bits, equal ring.
+
+    >>> R = Balls(128)
+    >>> third = R.rational(1, 3)
+    >>> R.is_zero(third - third) is None, R.is_zero(third), R.is_zero(R.zero)
+    (True, False, True)
+    """
+
+    def __init__(self, bits: int = 256) -> None:
+        self.bits = bits
+        self.name = f"balls({bits})"
+        self.zero = Ball(arb(0), bits)
+        self.one = Ball(arb(1), bits)
+
+    def __repr__(self) -> str:
+        return self.name
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Balls) and other.bits == self.bits
+
+    def __hash__(self) -> int:
+        return self.bits
+
+    def rational(self, p: int, q: int = 1) -> Ball:
+        """Return a ball around p/q, exact where p/q fits the precision."""
+        with precision(self.bits):
+            return Ball(arb(fmpq(p, q)), self.bits)
+
+    def around(self, centre: fmpq, radius: fmpq | int = 0) -> Ball:
+        """Return a ball that contains [centre - radius, centre + radius]."""
+        with precision(self.bits):
+            return Ball(arb(centre) + arb(0, arb(radius)), self.bits)
+
+    def enclose(self, x: arb) -> Ball:
+        """Take a flint ball into this ring."""
+        return Ball(x, self.bits)
+
+    def is_zero(self, x: Ball) -> bool | None:
+        """Return False where zero lies outside x, True for the exact point zero, else None."""
+        if not x.value.contains(0):
+            return False
+        return True if x.value.is_zero() else None
+
+    def text(self, x: Ball) -> str:
+        """Spell x as a tableau coefficient: points exactly, others with ``~`` (one unit in the last digit).
+
+        >>> R = Balls(64)
+        >>> R.text(R.rational(-3, 8)), R.text(R.around(fmpq(81772, 100000), fmpq(1, 100000)))
+        ('-0.375', '0.8177~')
+        """
+        low, high = endpoints(x.value)
+        middle = (low + high) / 2
+        if low == high:
+            return rational_decimal(middle, 4 + int(middle.p).bit_length() + int(middle.q).bit_length())
+        places = _supported_places(high - middle)
+        unit = fmpq(10) ** -places
+        figures = int((middle / unit).round())
+        if places <= 0:
+            return f"{figures}~*10^{-places}"
+        sign, body = ("-" if figures < 0 else ""), str(abs(figures)).rjust(places + 1, "0")
+        return f"{sign}{body[:-places]}.{body[-places:]}~"
+
+    def key(self, x: Ball) -> tuple[int, ...]:
+        """Return the exact ends as integers."""
+        low, high = endpoints(x.value)
+        return int(low.p), int(low.q), int(high.p), int(high.q)
+
+    def approximate(self, x: Ball, digits: int = 20) -> str:
+        """Return the midpoint as a decimal; how many of its digits hold is what :meth:`radius` says."""
+        low, high = endpoints(x.value)
+        return rational_decimal((low + high) / 2, digits)
+
+    def nearest_float(self, x: Ball) -> float:
+        """Return the double nearest to the midpoint."""
+        low, high = endpoints(x.value)
+        return rational_float((low + high) / 2)
+
+    def radius(self, x: Ball, digits: int = 3) -> str:
+        """Return the radius as a decimal."""
+        low, high = endpoints(x.value)
+        return rational_decimal((high - low) / 2, digits)
+
+    def ball(self, x: Ball, bits: int) -> arb:
+        """Return the ball itself; more bits cannot be had."""
+        return x.value
+
+
+def _supported_places(radius: fmpq) -> int:
+    """Return the most decimal places d with radius + half a unit <= one unit, that is 10^-d >= 2 radius."""
+    places = len(str(int(radius.q))) - len(str(int(radius.p)))
+    while fmpq(10) ** -places < 2 * radius:
+        places -= 1
+    return places
+
+
+class Ball:
+    """A real number enclosed by the flint ball ``value``; arithmetic runs at ``bits`` of precision."""
+
+    __slots__ = ("bits", "value")
+
+    def __init__(self, value: arb, bits: int) -> None:
+        self.value = value
+        self.bits = bits
+
+    def __repr__(self) -> str:
+        return f"Ball({self.value.str(12)})"
+
+    def _other(self, other: Any) -> Any:
+        if isinstance(other, Ball):
+            return other.value
+        return other if isinstance(other, int | fmpq) else NotImplemented
+
+    def __add__(self, other: Any) -> Ball:
+        if (y := self._other(other)) is NotImplemented:
+            return NotImplemented
+        with precision(self.bits):
+            return Ball(self.value + y, self.bits)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> Ball:
+        if (y := self._other(other)) is NotImplemented:
+            return NotImplemented
+        with precision(self.bits):
+            return Ball(self.value - y, self.bits)
+
+    def __rsub__(self, other: Any) -> Ball:
+        if (y := self._other(other)) is NotImplemented:
+            return NotImplemented
+        with precision(self.bits):
+            return Ball(y - self.value, self.bits)
+
+    def __mul__(self, other: Any) -> Ball:
+        if (y := self._other(other)) is NotImplemented:
+            return NotImplemented
+        with precision(self.bits):
+            return Ball(self.value * y, self.bits)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Any) -> Ball:
+        if (y := self._other(other)) is NotImplemented:
+            return NotImplemented
+        with precision(self.bits):
+            return _finite(self.value / y, self.bits)
+
+    def __rtruediv__(self, other: Any) -> Ball:
+        if (y := self._other(other)) is NotImplemented:
+            return NotImplemented
+        with precision(self.bits):
+            return _finite(y / self.value, self.bits)
+
+    def __neg__(self) -> Ball:
+        with precision(self.bits):
+            return Ball(-self.value, self.bits)
+
+    def __pow__(self, n: int) -> Ball:
+        with precision(self.bits):
+            return _finite(self.value**n, self.bits)
+
+    def __eq__(self, other: object) -> bool:
+        """Two balls are the same enclosure; whether the numbers agree is for :meth:`Balls.is_zero`."""
+        return isinstance(other, Ball) and endpoints(self.value) == endpoints(other.value)
+
+    def __hash__(self) -> int:
+        return hash(Balls(self.bits).key(self))
+
+    def __float__(self) -> float:
+        return Balls(self.bits).nearest_float(self)
+
+
+def _finite(x: arb, bits: int) -> Ball:
+    """Refuse the indefinite result of dividing by a ball that contains zero."""
+    if not x.is_finite():
+        raise ZeroDivisionError("division by a ball that contains zero")
+    return Ball(x, bits)

@@ -1,0 +1,93 @@
+"""Exact numbers as decimals and doubles, rounded once and correctly.
+
+A number is given as a rational or as an enclosure that can be asked for more bits; the enclosure is refined
+until both of its ends round to the same answer, so the result never depends on a working precision.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from flint import arb, fmpq
+
+Rounded = TypeVar("Rounded", str, float)
+Enclosure = Callable[[int], Any]
+"""A real number as a function from bits of precision to a ball that contains it."""
+
+
+def endpoints(ball: arb) -> tuple[fmpq, fmpq]:
+    """Return the exact lower and upper ends of a finite ball."""
+    middle, radius = _dyadic(ball.mid()), _dyadic(ball.rad())
+    return middle - radius, middle + radius
+
+
+def _dyadic(x: arb) -> fmpq:
+    mantissa, exponent = x.man_exp()
+    power = fmpq(2) ** int(exponent)
+    return fmpq(mantissa) * power
+
+
+def rational_decimal(x: fmpq, digits: int) -> str:
+    """Spell x with ``digits`` significant digits, ties to even; an exact decimal drops its trailing zeros.
+
+    >>> rational_decimal(fmpq(2, 3), 5), rational_decimal(fmpq(-1, 8), 20)
+    ('0.66667', '-0.125')
+    >>> rational_decimal(fmpq(1, 3 * 10**9), 4)
+    '3.333e-10'
+    """
+    p, q = abs(int(x.p)), int(x.q)
+    if p == 0:
+        return "0"
+    exponent = len(str(p)) - len(str(q))  # 10^exponent <= p/q < 10^(exponent+1), up to the correction below
+    if p * 10 ** max(-exponent, 0) < q * 10 ** max(exponent, 0):
+        exponent -= 1
+    shift = digits - 1 - exponent
+    scaled, rest = divmod(p * 10 ** max(shift, 0), divisor := q * 10 ** max(-shift, 0))
+    if 2 * rest > divisor or (2 * rest == divisor and scaled % 2):
+        scaled += 1
+        if scaled == 10**digits:
+            scaled, exponent = scaled // 10, exponent + 1
+    figures = str(scaled)
+    if rest == 0:
+        figures = figures.rstrip("0")
+    return ("-" if x < 0 else "") + _spell(figures, exponent)
+
+
+def _spell(figures: str, exponent: int) -> str:
+    """Place the point: plain notation near one, scientific far from it."""
+    if -5 <= exponent < 0:
+        return "0." + "0" * (-exponent - 1) + figures
+    if 0 <= exponent < 25:
+        figures = figures.ljust(exponent + 1, "0")
+        whole, part = figures[: exponent + 1], figures[exponent + 1 :]
+        return f"{whole}.{part}" if part else whole
+    part = figures[1:]
+    return f"{figures[0]}{'.' + part if part else ''}e{exponent:+03d}"
+
+
+def decimal(enclosure: Enclosure, digits: int) -> str:
+    """Spell an irrational number, known through its enclosures, correctly rounded to ``digits`` digits."""
+    return _agreed(enclosure, lambda x: rational_decimal(x, digits), 4 * digits + 32)
+
+
+def nearest_float(enclosure: Enclosure) -> float:
+    """Return the double nearest to a number known through its enclosures."""
+    return _agreed(enclosure, rational_float, 96)
+
+
+def rational_float(x: fmpq) -> float:
+    """Return the double nearest to x (integer division in Python rounds correctly).
+
+    >>> rational_float(fmpq(1, 3))
+    0.3333333333333333
+    """
+    return int(x.p) / int(x.q)
+
+
+def _agreed(enclosure: Enclosure, rounding: Callable[[fmpq], Rounded], bits: int) -> Rounded:
+    while True:
+        low, high = endpoints(enclosure(bits))
+        if (answer := rounding(low)) == rounding(high):
+            return answer
+        bits *= 2

@@ -1,0 +1,190 @@
+"""Truncated power series in h over any base ring: h^0 ... h^order are kept, the rest is dropped.
+
+Run over this ring, a step program yields the exact Taylor coefficients of its local error.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from orderconds.ring.protocol import Element, Ring
+
+
+class PowerSeries:
+    """The ring base[[h]]/(h^(order+1)).
+
+    >>> from orderconds.ring import QQ
+    >>> R = PowerSeries(QQ, 3)
+    >>> R.text(R.one / (R.one - 2 * R.h))
+    '1 + 2*h + 4*h^2 + 8*h^3'
+    """
+
+    def __init__(self, base: Ring, order: int) -> None:
+        self.base, self.order = base, order
+        self.name = f"{base.name}[[h]]/h^{order + 1}"
+        self.zero = Series(self, (base.zero,) * (order + 1))
+        self.one = self.constant(base.one)
+        self.h = self.from_coefficients((base.zero, base.one))
+
+    def __repr__(self) -> str:
+        return self.name
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, PowerSeries) and (other.base, other.order) == (self.base, self.order)
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.order))
+
+    def rational(self, p: int, q: int = 1) -> Series:
+        """Return the constant series p/q."""
+        return self.constant(self.base.rational(p, q))
+
+    def constant(self, x: Element) -> Series:
+        """Take an element of the base ring as a constant."""
+        return Series(self, (x, *self.zero.coefficients[1:]))
+
+    def from_coefficients(self, coefficients: tuple[Element, ...]) -> Series:
+        """Return the series with the given first coefficients, truncated or filled with zeros."""
+        kept = coefficients[: self.order + 1]
+        return Series(self, (*kept, *((self.base.zero,) * (self.order + 1 - len(kept)))))
+
+    def is_zero(self, x: Series) -> bool | None:
+        """Decide that every kept coefficient vanishes; None where the base ring cannot tell."""
+        verdicts = [self.base.is_zero(c) for c in x.coefficients]
+        return False if False in verdicts else None if None in verdicts else True
+
+    def text(self, x: Series) -> str:
+        """Spell x by ascending powers of h; coefficients that are sums stand in parentheses."""
+        terms = []
+        for power, c in enumerate(x.coefficients):
+            if self.base.is_zero(c) is True:
+                continue
+            spelled = self.base.text(c)
+            if power == 0:
+                terms.append(spelled)
+                continue
+            if " " in spelled:
+                spelled = f"({spelled})"
+            h = "h" if power == 1 else f"h^{power}"
+            terms.append({"1": h, "-1": f"-{h}"}.get(spelled, f"{spelled}*{h}"))
+        return " + ".join(terms).replace("+ -", "- ") if terms else "0"
+
+    def key(self, x: Series) -> tuple[Any, ...]:
+        """Return the keys of the coefficients."""
+        return tuple(self.base.key(c) for c in x.coefficients)
+
+    def approximate(self, x: Series, digits: int = 20) -> str:
+        """Spell x with decimal coefficients."""
+        spelled = [self.base.approximate(c, digits) for c in x.coefficients]
+        return "[" + ", ".join(spelled) + "]"
+
+    def valuation(self, x: Series) -> int:
+        """Return the lowest power of h whose coefficient is not proved zero; order + 1 for zero."""
+        for power, c in enumerate(x.coefficients):
+            if self.base.is_zero(c) is not True:
+                return power
+        return self.order + 1
+
+
+class Series:
+    """A truncated power series; ``coefficients[k]`` multiplies h^k.
+
+    Operands may be series of the same ring, elements of the base ring, or ints.
+    """
+
+    __slots__ = ("coefficients", "ring")
+
+    def __init__(self, ring: PowerSeries, coefficients: tuple[Element, ...]) -> None:
+        self.ring = ring
+        self.coefficients = coefficients
+
+    def __repr__(self) -> str:
+        return f"Series({self.ring.text(self)})"
+
+    def _constant(self, other: Any) -> Element:
+        """Return an operand that is no series as an element of the base ring."""
+        return self.ring.base.rational(other) if isinstance(other, int) else other
+
+    def _same(self, other: Series) -> tuple[Element, ...]:
+        if other.ring != self.ring:
+            raise TypeError(f"series of different rings: {self.ring} and {other.ring}")
+        return other.coefficients
+
+    def __add__(self, other: Any) -> Series:
+        if isinstance(other, Series):
+            pairs = zip(self.coefficients, self._same(other), strict=True)
+            return Series(self.ring, tuple(x + y for x, y in pairs))
+        return Series(self.ring, (self.coefficients[0] + self._constant(other), *self.coefficients[1:]))
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Series:
+        return Series(self.ring, tuple(-x for x in self.coefficients))
+
+    def __sub__(self, other: Any) -> Series:
+        if isinstance(other, Series):
+            pairs = zip(self.coefficients, self._same(other), strict=True)
+            return Series(self.ring, tuple(x - y for x, y in pairs))
+        return Series(self.ring, (self.coefficients[0] - self._constant(other), *self.coefficients[1:]))
+
+    def __rsub__(self, other: Any) -> Series:
+        negated = -self
+        return negated + other
+
+    def __mul__(self, other: Any) -> Series:
+        if not isinstance(other, Series):
+            factor = self._constant(other)
+            return Series(self.ring, tuple(x * factor for x in self.coefficients))
+        base, size = self.ring.base, self.ring.order + 1
+        result = [base.zero] * size
+        right = [(j, y) for j, y in enumerate(self._same(other)) if base.is_zero(y) is not True]
+        for i, x in enumerate(self.coefficients):
+            if base.is_zero(x) is True:
+                continue
+            for j, y in right:
+                if i + j >= size:
+                    break
+                result[i + j] = result[i + j] + x * y
+        return Series(self.ring, tuple(result))
+
+    __rmul__ = __mul__
+
+    def reciprocal(self) -> Series:
+        """Return 1/x for a unit x, by b_n = -b_0 sum_{k>=1} x_k b_{n-k}."""
+        unit = self.coefficients[0]
+        if self.ring.base.is_zero(unit) is True:
+            raise ZeroDivisionError("division by a power series without constant term")
+        first = self.ring.base.one / unit
+        result = [first]
+        for n in range(1, self.ring.order + 1):
+            total = self.ring.base.zero
+            for k in range(1, n + 1):
+                total = total + self.coefficients[k] * result[n - k]
+            result.append(-first * total)
+        return Series(self.ring, tuple(result))
+
+    def __truediv__(self, other: Any) -> Series:
+        if isinstance(other, Series):
+            self._same(other)
+            return self * other.reciprocal()
+        divisor = self._constant(other)
+        return Series(self.ring, tuple(x / divisor for x in self.coefficients))
+
+    def __rtruediv__(self, other: Any) -> Series:
+        inverse = self.reciprocal()
+        return inverse * other
+
+    def __pow__(self, n: int) -> Series:
+        base = self if n >= 0 else self.reciprocal()
+        result = self.ring.one
+        for _ in range(abs(n)):
+            result = result * base
+        return result
+
+    def __eq__(self, other: object) -> bool:
+        return (
+            isinstance(other, Series) and other.ring == self.ring and other.coefficients == self.coefficients
+        )
+
+    def __hash__(self) -> int:
+        return hash((self.ring.name, self.ring.key(self)))

@@ -1,0 +1,36 @@
+"""The one place that touches flint's working precision, which is global to the process.
+
+Everything else asks for bits here and gets the caller's precision back afterwards, so two rings of different
+precision, or a user's own use of python-flint, never see each other.
+"""
+
+from __future__ import annotations
+
+from types import TracebackType
+
+from flint import ctx
+
+
+class precision:  # noqa: N801 - reads as the statement it is: with precision(200): ...
+    """Run a block with ``bits`` of working precision for balls, then restore what was there.
+
+    >>> from flint import arb
+    >>> with precision(200):
+    ...     third = arb(1) / 3
+    >>> third.rel_accuracy_bits() > 190
+    True
+    """
+
+    __slots__ = ("before", "bits")
+
+    def __init__(self, bits: int) -> None:
+        self.bits = bits
+
+    def __enter__(self) -> None:
+        self.before = ctx.prec
+        ctx.prec = self.bits
+
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        ctx.prec = self.before

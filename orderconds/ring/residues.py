@@ -1,0 +1,138 @@
+"""Residues modulo a prime, many samples at once: the ring in which ranks of conditions are computed.
+
+An element is a vector of independent residues; a random vector stands for as many random tableaux. The prime
+is below 2^31, so that products fit in 64 bits.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+PRIMES = (2147483647, 2147483629)
+"""The two largest primes below 2^31."""
+
+
+class Residues:
+    """The ring (Z/prime)^samples, a quotient of Q wherever denominators avoid the prime.
+
+    >>> R = Residues(101, 2)
+    >>> R.text(R.rational(1, 2) * 2 + R.one)
+    '[2 2]'
+    """
+
+    def __init__(self, prime: int = PRIMES[0], samples: int = 1) -> None:
+        if not 2 < prime < 2**31:
+            raise ValueError(f"prime {prime} must lie between 3 and 2^31")
+        self.prime, self.samples = prime, samples
+        self.name = f"residues({prime})"
+        self.zero = self.rational(0)
+        self.one = self.rational(1)
+
+    def __repr__(self) -> str:
+        return self.name
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Residues) and (other.prime, other.samples) == (self.prime, self.samples)
+
+    def __hash__(self) -> int:
+        return hash((self.prime, self.samples))
+
+    def rational(self, p: int, q: int = 1) -> Residue:
+        """Return p/q in every sample; ZeroDivisionError where the prime divides q."""
+        p, q = int(p) % self.prime, int(q) % self.prime
+        if q == 0:
+            raise ZeroDivisionError(f"denominator divisible by {self.prime}")
+        value = p * pow(q, -1, self.prime) % self.prime
+        return Residue(self, np.full(self.samples, value, dtype=np.int64))
+
+    def element(self, values: NDArray[np.int64]) -> Residue:
+        """Return the element with the given values, shape (samples,), reduced modulo the prime."""
+        return Residue(self, np.asarray(values, dtype=np.int64) % self.prime)
+
+    def random(self, generator: np.random.Generator) -> Residue:
+        """Return independent uniform residues."""
+        return Residue(self, generator.integers(0, self.prime, self.samples, dtype=np.int64))
+
+    def is_zero(self, x: Residue) -> bool:
+        """Decide that every sample vanishes."""
+        return not x.values.any()
+
+    def text(self, x: Residue) -> str:
+        """Spell the vector of residues."""
+        return str(x.values)
+
+    def key(self, x: Residue) -> tuple[int, ...]:
+        """Return the residues as integers."""
+        return tuple(int(v) for v in x.values)
+
+    def approximate(self, x: Residue, digits: int = 20) -> str:
+        """Return the residues; they have no size to approximate."""
+        return self.text(x)
+
+
+class Residue:
+    """A vector of residues, shape (samples,), with componentwise arithmetic."""
+
+    __slots__ = ("ring", "values")
+    __array_ufunc__ = None  # numpy scalars on the left must give way to __radd__ and friends
+
+    def __init__(self, ring: Residues, values: NDArray[np.int64]) -> None:
+        self.ring, self.values = ring, values
+
+    def __repr__(self) -> str:
+        return f"Residue({self.values} mod {self.ring.prime})"
+
+    def _values(self, other: Any) -> Any:
+        return other.values if isinstance(other, Residue) else int(other) % self.ring.prime
+
+    def _wrap(self, values: NDArray[np.int64]) -> Residue:
+        return Residue(self.ring, values % self.ring.prime)
+
+    def __add__(self, other: Any) -> Residue:
+        return self._wrap(self.values + self._values(other))
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> Residue:
+        return self._wrap(self.values - self._values(other))
+
+    def __rsub__(self, other: Any) -> Residue:
+        return self._wrap(self._values(other) - self.values)
+
+    def __neg__(self) -> Residue:
+        return self._wrap(-self.values)
+
+    def __mul__(self, other: Any) -> Residue:
+        return self._wrap(self.values * self._values(other))
+
+    __rmul__ = __mul__
+
+    def reciprocal(self) -> Residue:
+        """Return 1/x by Fermat's x^(p-2); ZeroDivisionError where a sample is zero."""
+        if not self.values.all():
+            raise ZeroDivisionError(f"a sample is zero modulo {self.ring.prime}")
+        result, square, n = self.ring.one, self, self.ring.prime - 2
+        while n:
+            if n & 1:
+                result = result * square
+            square, n = square * square, n >> 1
+        return result
+
+    def __truediv__(self, other: Any) -> Residue:
+        divisor = other if isinstance(other, Residue) else self.ring.rational(other)
+        return self * divisor.reciprocal()
+
+    def __rtruediv__(self, other: Any) -> Residue:
+        inverse = self.reciprocal()
+        return inverse * other
+
+    def __eq__(self, other: object) -> bool:
+        return (
+            isinstance(other, Residue) and other.ring == self.ring and not (self.values - other.values).any()
+        )
+
+    def __hash__(self) -> int:
+        return hash(self.ring.key(self))
