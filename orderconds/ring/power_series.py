@@ -128,8 +128,7 @@ class Series:
         return Series(self.ring, (self.coefficients[0] - self._constant(other), *self.coefficients[1:]))
 
     def __rsub__(self, other: Any) -> Series:
-        negated = -self
-        return negated + other
+        return (-self).__add__(other)
 
     def __mul__(self, other: Any) -> Series:
         if not isinstance(other, Series):
@@ -171,8 +170,7 @@ class Series:
         return Series(self.ring, tuple(x / divisor for x in self.coefficients))
 
     def __rtruediv__(self, other: Any) -> Series:
-        inverse = self.reciprocal()
-        return inverse * other
+        return self.reciprocal().__mul__(other)
 
     def __pow__(self, n: int) -> Series:
         base = self if n >= 0 else self.reciprocal()

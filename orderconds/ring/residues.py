@@ -126,8 +126,7 @@ class Residue:
         return self * divisor.reciprocal()
 
     def __rtruediv__(self, other: Any) -> Residue:
-        inverse = self.reciprocal()
-        return inverse * other
+        return self.reciprocal().__mul__(other)
 
     def __eq__(self, other: object) -> bool:
         return (

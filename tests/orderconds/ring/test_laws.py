@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 import pytest
-from flint import fmpq
+from flint import ctx, fmpq
 from hypothesis import given
 from hypothesis import strategies as st
 
-from orderconds.ring import QQ, Balls, Polynomials, PowerSeries, Residues, Ring
+from orderconds.ring import QQ, Ball, Balls, Polynomials, PowerSeries, Residues, Ring
+from orderconds.ring.decimals import endpoints
 
 SMALL = st.fractions(min_value=-9, max_value=9, max_denominator=12)
 SERIES = PowerSeries(QQ, 4)
@@ -75,14 +77,19 @@ def test_division_inverts_multiplication(ring: Ring, f: Any, data: st.DataObject
     assert ring.is_zero(1 / unit * unit - ring.one)
 
 
+def encloses(x: Ball, exact: Any) -> bool:
+    low, high = endpoints(x.value)
+    return bool(low <= fmpq(exact.numerator, exact.denominator) <= high)
+
+
 @given(f=SMALL, g=SMALL)
 def test_ball_arithmetic_contains_the_exact_result(f: Any, g: Any) -> None:
     ring = Balls(60)
     p, q = (ring.rational(x.numerator, x.denominator) for x in (f, g))
     for found, exact in ((p + q, f + g), (p - q, f - g), (p * q, f * g)):
-        assert found.value.contains(fmpq(exact.numerator, exact.denominator))
+        assert encloses(found, exact)
     if g:
-        assert (p / q).value.contains(fmpq((f / g).numerator, (f / g).denominator))
+        assert encloses(p / q, f / g)
 
 
 def test_a_ball_never_proves_zero_but_structural_zero_stays() -> None:
@@ -100,8 +107,6 @@ def test_dividing_by_a_ball_that_contains_zero_is_refused() -> None:
 
 
 def test_working_precision_belongs_to_the_ring_and_is_given_back() -> None:
-    from flint import ctx
-
     before = ctx.prec
     fine, coarse = Balls(500), Balls(40)
     assert (fine.one / 3).value.rel_accuracy_bits() > 480
@@ -109,7 +114,7 @@ def test_working_precision_belongs_to_the_ring_and_is_given_back() -> None:
     assert ctx.prec == before
 
 
-@given(f=st.fractions(min_value=-100, max_value=100), digits=st.integers(1, 30))
+@given(f=st.fractions(min_value=-100, max_value=100), digits=st.integers(3, 30))
 def test_the_spelling_of_a_ball_encloses_it(f: Any, digits: int) -> None:
     ring = Balls(200)
     x = ring.around(fmpq(f.numerator, f.denominator), fmpq(1, 10**digits))
@@ -117,7 +122,8 @@ def test_the_spelling_of_a_ball_encloses_it(f: Any, digits: int) -> None:
     assert text.endswith("~")
     places = len(text.split(".")[1]) - 1 if "." in text else 0
     centre, unit = fmpq(int(text[:-1].replace(".", ""))) / fmpq(10) ** places, fmpq(1, 10**places)
-    assert (ring.around(centre, unit)).value.contains(x.value)
+    low, high = endpoints(x.value)
+    assert centre - unit <= low <= high <= centre + unit
 
 
 def test_a_geometric_series_sums_to_its_reciprocal() -> None:
@@ -136,8 +142,6 @@ def test_series_of_series_and_series_of_polynomials_work_alike() -> None:
 
 @given(p=st.integers(-(10**40), 10**40), q=st.integers(1, 10**40), digits=st.integers(1, 30))
 def test_decimals_of_rationals_are_within_half_a_unit(p: int, q: int, digits: int) -> None:
-    from fractions import Fraction
-
     x = Fraction(p, q)
     text = QQ.approximate(fmpq(p, q), digits)
     spelled = Fraction(text)
@@ -152,6 +156,4 @@ def test_decimals_of_rationals_are_within_half_a_unit(p: int, q: int, digits: in
 
 @given(p=st.integers(-(10**25), 10**25), q=st.integers(1, 10**25))
 def test_doubles_of_rationals_are_correctly_rounded(p: int, q: int) -> None:
-    from fractions import Fraction
-
     assert QQ.nearest_float(fmpq(p, q)) == float(Fraction(p, q))
