@@ -3,8 +3,8 @@
 Built-in commands are known by name. Those of other packages (``codegen`` ships emit, converge, report and
 regenerate) come from the entry-point group ``orderconds.commands``, scanned only when a name is not built in.
 
-Exit statuses: 0 it holds or was done; 1 it ran and a claim or check failed; 2 bad input or usage, with one message
-on stderr; 130 and 141, the shell's own, when interrupted and when the reader of a pipe went away.
+Exit statuses: 0 it holds or was done; 1 it ran and a claim or check failed; 2 bad input or usage, with one
+message on stderr; 130 and 141, the shell's own, when interrupted and when the reader of a pipe went away.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ COMMAND_GROUP = "orderconds.commands"
 BUILT_IN = {
     "check": (
         "orderconds.commands.check",
-        "Decide the exact order of tableaux and compare it with their claims.",
+        "Find the exact order of tableaux and compare it with their claims.",
     ),
     "cite": ("orderconds.commands.cite", "Print the BibTeX of a tableau's source."),
     "derive": ("orderconds.commands.derive", "Print the independent order conditions of a family."),
@@ -86,7 +86,7 @@ class Program(click.Group):
         return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """List all commands with one line each; one that cannot be loaded says so instead of ending the help."""
+        """List all commands with one line each; one that cannot be loaded says so."""
         rows = []
         for name in self.list_commands(ctx):
             if name in BUILT_IN:
@@ -137,7 +137,8 @@ def _usage_message(error: click.UsageError) -> str:
     message = error.format_message().rstrip(".")
     if error.ctx is None:
         return message
-    return f"{error.ctx.command_path.partition(' ')[2] or 'usage'}: {message}; type: {error.ctx.command_path} --help"
+    path = error.ctx.command_path
+    return f"{path.partition(' ')[2] or 'usage'}: {message}; type: {path} --help"
 
 
 def _complain(message: str) -> int:

@@ -1,1 +1,1 @@
-"""The program's own commands, one module each; each module's ``command`` is a click command returning its status."""
+"""The program's own commands, a module each, whose ``command`` is a click command that returns its status."""

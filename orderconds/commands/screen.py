@@ -1,4 +1,4 @@
-"""What commands print: JSON for machines, tables through rich on a terminal and as plain columns elsewhere."""
+"""What commands print: JSON for machines, tables through rich on a terminal, plain columns elsewhere."""
 
 from __future__ import annotations
 

@@ -1,0 +1,153 @@
+"""Laurent polynomials over Q: polynomials in which monomials, as the weights b_i, may be divided by.
+
+Families that divide by b_i (SPRK, VCG) are written out for a fixed number of stages over this ring. An element
+is a flint polynomial over a monomial without common factor, so equal elements are equal pairs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
+
+Exponents = tuple[int, ...]
+
+
+class LaurentPolynomials:
+    """The ring Q[names, 1/names], terms in degree-lexicographic order of their numerators.
+
+    >>> R = LaurentPolynomials(["b1", "b2"])
+    >>> b1, b2 = R.generators
+    >>> R.text((b1 + b2) / b1 - 1)
+    'b1^-1*b2'
+    """
+
+    def __init__(self, names: Sequence[str]) -> None:
+        self.names = tuple(names)
+        self.name = f"QQ[{', '.join(self.names)}, inverses]"
+        self._context = fmpq_mpoly_ctx.get(list(self.names), "deglex")
+        self.unit: Exponents = (0,) * len(self.names)
+        self.zero, self.one = self.rational(0), self.rational(1)
+        self.generators = tuple(Laurent(self, g, self.unit) for g in self._context.gens())
+
+    def __repr__(self) -> str:
+        return self.name
+
+    def rational(self, p: int, q: int = 1) -> Laurent:
+        """Return the constant p/q."""
+        return Laurent(self, self._context.constant(fmpq(p, q)), self.unit)
+
+    def monomial(self, exponents: Exponents, scale: Any = 1) -> fmpq_mpoly:
+        """Return scale times the product of the variables to these powers, none of them negative."""
+        return self._context.from_dict({exponents: scale})
+
+    def is_zero(self, x: Laurent) -> bool:
+        """Decide x = 0."""
+        return bool(x.numerator.is_zero())
+
+    def terms(self, x: Laurent) -> tuple[tuple[Exponents, fmpq], ...]:
+        """Return ((exponents, coefficient), ...), leading term first."""
+        return tuple(
+            (tuple(int(e) - d for e, d in zip(exponents, x.denominator, strict=True)), c)
+            for exponents, c in x.numerator.terms()
+        )
+
+    def text(self, x: Laurent) -> str:
+        """Spell x expanded, leading term first."""
+        return " + ".join(self._spell(*term) for term in self.terms(x)).replace("+ -", "- ") or "0"
+
+    def key(self, x: Laurent) -> tuple[Any, ...]:
+        """Return the terms with integer numerators and denominators."""
+        return tuple((exponents, int(c.p), int(c.q)) for exponents, c in self.terms(x))
+
+    def approximate(self, x: Laurent, digits: int = 20) -> str:
+        """Spell x; its coefficients are rational and stay so."""
+        return self.text(x)
+
+    def _spell(self, exponents: Exponents, c: fmpq) -> str:
+        powers = [n if e == 1 else f"{n}^{e}" for n, e in zip(self.names, exponents, strict=True) if e]
+        sign = "-" if c < 0 else ""
+        return sign + "*".join(powers if abs(c) == 1 and powers else [str(abs(c)), *powers])
+
+
+class Laurent:
+    """An element numerator / x^denominator of ``ring``, in lowest terms."""
+
+    __slots__ = ("denominator", "numerator", "ring")
+
+    def __init__(self, ring: LaurentPolynomials, numerator: fmpq_mpoly, denominator: Exponents) -> None:
+        self.ring, self.numerator, self.denominator = ring, numerator, denominator
+
+    def __repr__(self) -> str:
+        return self.ring.text(self)
+
+    def _lowest(self, numerator: fmpq_mpoly, denominator: Exponents) -> Laurent:
+        ring = self.ring
+        if numerator.is_zero():
+            return ring.zero
+        if any(denominator):
+            shared = numerator.gcd(ring.monomial(denominator))
+            numerator = numerator / shared
+            powers = shared.monoms()[0]
+            denominator = tuple(d - int(e) for d, e in zip(denominator, powers, strict=True))
+        return Laurent(ring, numerator, denominator)
+
+    def _other(self, other: object) -> Laurent | None:
+        if isinstance(other, int):
+            return self.ring.rational(other)
+        return other if isinstance(other, Laurent) else None
+
+    def __add__(self, other: object) -> Laurent:
+        y = self._other(other)
+        if y is None:
+            return NotImplemented
+        if self.denominator == y.denominator:
+            return self._lowest(self.numerator + y.numerator, self.denominator)
+        common = tuple(map(max, self.denominator, y.denominator))
+        scaled = [
+            x.numerator * self.ring.monomial(tuple(c - d for c, d in zip(common, x.denominator, strict=True)))
+            for x in (self, y)
+        ]
+        return self._lowest(scaled[0] + scaled[1], common)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Laurent:
+        return Laurent(self.ring, -self.numerator, self.denominator)
+
+    def __sub__(self, other: object) -> Laurent:
+        y = self._other(other)
+        return NotImplemented if y is None else self + -y
+
+    def __rsub__(self, other: object) -> Laurent:
+        return -self + other
+
+    def __mul__(self, other: object) -> Laurent:
+        y = self._other(other)
+        if y is None:
+            return NotImplemented
+        denominator = tuple(d + e for d, e in zip(self.denominator, y.denominator, strict=True))
+        return self._lowest(self.numerator * y.numerator, denominator)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: object) -> Laurent:
+        """Divide by a non-zero monomial; raise ZeroDivisionError for anything else."""
+        y = self._other(other)
+        if y is None:
+            return NotImplemented
+        terms = self.ring.terms(y)
+        if len(terms) != 1:
+            raise ZeroDivisionError(f"{y!r} is no unit of {self.ring}")
+        exponents, scale = terms[0]
+        up = self.ring.monomial(tuple(max(0, -e) for e in exponents), 1 / scale)
+        down = tuple(d + max(0, e) for d, e in zip(self.denominator, exponents, strict=True))
+        return self._lowest(self.numerator * up, down)
+
+    def __eq__(self, other: object) -> bool:
+        y = self._other(other)
+        return y is not None and self.numerator == y.numerator and self.denominator == y.denominator
+
+    def __hash__(self) -> int:
+        return hash(self.ring.key(self))
