@@ -1,0 +1,251 @@
+"""The action series of a variational Lie group method: one coefficient for every action tree, over any ring.
+
+Expanding the step about (q0, mu1) gives each stage velocity and momentum as a sum over the trees of
+:mod:`orderconds.series.action_trees`, with coefficients (stage i, weight b_i)
+
+- ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for ``t = (w, M)``,
+- ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [u x v in stage j's group element]``,
+- ``psi_{L(w)}(i) = (1/b_i) [x reverse(w) in the update's]``,
+
+where Phi_w(i) is the coefficient of the word w in stage i's group element, and x stands once for a variation of
+the velocity of stage i. The method has order p iff ``sum_i b_i tau_t(i)`` has the exact flow's value for every
+tree with at most p vertices. How a family turns velocities into group elements is all that differs: products
+of exponentials here (VCG, VCF), one exponential of a Lie series in :mod:`orderconds.series.action_lie`.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Sequence
+from math import factorial
+
+from orderconds.ring.protocol import Element, Ring
+from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, Word, words
+
+Stages = list[Element]
+"""One ring element a stage."""
+
+Exponential = tuple[tuple[int, Element], ...]
+"""The exponent of one exponential: (stage, coefficient) pairs, zeros left out."""
+
+Row = tuple[Exponential, ...]
+"""The exponentials of one group element; the first acts first."""
+
+
+class ActionSeries(ABC):
+    """Coefficients of one method over one ring; every value is computed once.
+
+    ``weights`` are the b_i, all invertible in ``ring``. Row ``stages`` (the last) is the update's.
+    """
+
+    def __init__(self, ring: Ring, weights: Sequence[Element]) -> None:
+        self.ring, self.weights, self.stages = ring, tuple(weights), len(weights)
+        self.reciprocals = tuple(ring.one / b for b in weights)
+        self._tau: dict[Velocity, Stages] = {}
+        self._psi: dict[Momentum, Stages] = {}
+        self._products: dict[Momenta, Stages] = {(): [ring.one] * self.stages}
+        self._insertions: dict[tuple[Word, Word], list[Stages]] = {}
+
+    @abstractmethod
+    def coefficient(self, row: int, word: Word) -> Element:
+        """Return the coefficient of a word in the group element of a stage, or of the update (the last row)."""
+
+    @abstractmethod
+    def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
+        """Return the coefficient of u x v there, x standing once for a variation of that stage's velocity."""
+
+    def tau(self, tree: Velocity) -> Stages:
+        """Return tau_t at every stage."""
+        found = self._tau.get(tree)
+        if found is None:
+            found = self._tau[tree] = self._velocity(tree)
+        return found
+
+    def _velocity(self, tree: Velocity) -> Stages:
+        factors = self.psi_product(tree.momenta)
+        if not tree.word:
+            return factors
+        phi = [self.coefficient(i, tree.word) for i in range(self.stages)]
+        return [a * b for a, b in zip(phi, factors, strict=True)] if tree.momenta else phi
+
+    def psi(self, tree: Momentum) -> Stages:
+        """Return psi_p at every stage."""
+        found = self._psi.get(tree)
+        if found is None:
+            found = self._psi[tree] = self._force(tree) if isinstance(tree, Force) else self._transport(tree.word)
+        return found
+
+    def psi_product(self, momenta: Momenta) -> Stages:
+        """Return the product of psi_p over a multiset, at every stage."""
+        found = self._products.get(momenta)
+        if found is None:
+            rest, last = self.psi_product(momenta[:-1]), self.psi(momenta[-1])
+            found = [a * b for a, b in zip(rest, last, strict=True)] if momenta[:-1] else last
+            self._products[momenta] = found
+        return found
+
+    def _force(self, tree: Force) -> Stages:
+        inserted = self.stage_insertions(tree.before, tree.after)
+        scaled = [b * m for b, m in zip(self.weights, self.psi_product(tree.momenta), strict=True)]
+        return [
+            self.reciprocals[i] * self._sum(a * row[i] for a, row in zip(scaled, inserted, strict=True))
+            for i in range(self.stages)
+        ]
+
+    def stage_insertions(self, before: Word, after: Word) -> list[Stages]:
+        """Return :meth:`insertion` for every stage j (outer) and varied stage i (inner)."""
+        found = self._insertions.get((before, after))
+        if found is None:
+            every = range(self.stages)
+            found = [[self.insertion(j, i, before, after) for i in every] for j in every]
+            self._insertions[before, after] = found
+        return found
+
+    def _transport(self, word: Word) -> Stages:
+        backwards = word[::-1]
+        return [
+            self.reciprocals[i] * self.insertion(self.stages, i, (), backwards) for i in range(self.stages)
+        ]
+
+    def _sum(self, terms: Iterable[Element]) -> Element:
+        total = self.ring.zero
+        for term in terms:
+            total = total + term
+        return total
+
+    def condition(self, tree: Velocity) -> Element:
+        """Return sum_i b_i tau_t(i): the coefficient of a tree in the update, and of its elementary Hamiltonian.
+
+        Nothing that only this tree needs is kept, so that all trees of an order fit in memory.
+        """
+        known = self._tau.get(tree)
+        values = self._velocity(tree) if known is None else known
+        return self._sum(b * v for b, v in zip(self.weights, values, strict=True))
+
+    def update_words(self, vertices: int) -> dict[Word, Element]:
+        """Return the coefficient of every word with at most that many vertices in the update's group element.
+
+        With ``F(t)`` the right-invariant field of t at (q0, mu1), divided by its symmetry, the step moves a
+        function f by ``f(q1) = sum_w coefficient(w) F(t_1) ... F(t_k) f (q0)``, the field of the first letter
+        being the first to move the point. The momentum follows from the same coefficients:
+        ``<mubar0, x> = sum_w coefficient(reverse w) <mu1, ad t_1 ... ad t_k x> + sum_t coefficient(t) D_q H(x v | M)``
+        for ``t = (v, M)``, mubar0 the initial momentum and x acting before v.
+        """
+        return {
+            word: self.coefficient(self.stages, word)
+            for n in range(vertices + 1)
+            for word in words(n)
+        }
+
+
+class CommutatorFreeSeries(ActionSeries):
+    """The action series of a method whose stages and update are products of exponentials (VCG, VCF).
+
+    ``rows`` are the stages' exponentials and then the update's; b_i is the sum of the update's coefficients at
+    stage i. Equation (3.18) for VCG; for VCF the discrete Lagrangian of the same form, whose Hamilton equations
+    carry each exponential's own coefficient.
+    """
+
+    def __init__(self, ring: Ring, rows: Sequence[Row]) -> None:
+        update = rows[-1]
+        weights = [ring.zero] * (len(rows) - 1)
+        for exponential in update:
+            for stage, value in exponential:
+                weights[stage] = weights[stage] + value
+        super().__init__(ring, weights)
+        self.rows = tuple(rows)
+        self._prefix: list[dict[Word, Stages]] = [{} for _ in rows]
+        self._suffix: list[dict[Word, Stages]] = [{} for _ in rows]
+        self._inverse_factorial = [ring.one]
+
+    def coefficient(self, row: int, word: Word) -> Element:
+        """Return sum_{J_1 <= ... <= J_k} prod phi_{J_l}(t_l) / prod (run lengths)!."""
+        return self._before(row, word)[-1]
+
+    def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
+        """Return the coefficient of u x v; the run of length r + 1 + r' through x gets 1/(r + 1 + r')!."""
+        total = self.ring.zero
+        for place, exponential in enumerate(self.rows[row]):
+            for varied, value in exponential:
+                if varied == stage:
+                    total = total + value * self._through(row, place, before, after)
+        return total
+
+    def _through(self, row: int, place: int, before: Word, after: Word) -> Element:
+        """Return the coefficient of u x v with x, counted once, in one given exponential."""
+        exponential, length = self.rows[row][place], len(before)
+        left, run = [], self.ring.one
+        for r in range(length + 1):
+            left.append(run * self._before(row, before[: length - r])[place])
+            if r < length:
+                run = run * self._exponent(exponential, before[length - 1 - r])
+        right, run = [], self.ring.one
+        for r in range(len(after) + 1):
+            right.append(run * self._after(row, after[r:])[place + 1])
+            if r < len(after):
+                run = run * self._exponent(exponential, after[r])
+        return self._sum(
+            a * b * self._reciprocal(j + 1 + k) if j + k else a * b
+            for j, a in enumerate(left)
+            for k, b in enumerate(right)
+        )
+
+    def _exponent(self, exponential: Exponential, tree: Velocity) -> Element:
+        """Return the coefficient of one tree in one exponent."""
+        values = self.tau(tree)
+        return self._sum(value * values[stage] for stage, value in exponential)
+
+    def _reciprocal(self, n: int) -> Element:
+        while len(self._inverse_factorial) <= n:
+            self._inverse_factorial.append(self.ring.rational(1, factorial(len(self._inverse_factorial))))
+        return self._inverse_factorial[n]
+
+    def _before(self, row: int, word: Word) -> Stages:
+        """Return the word's coefficient in the exponentials before place J, for J = 0..m."""
+        known = self._prefix[row].get(word)
+        if known is not None:
+            return known
+        exponentials = self.rows[row]
+        if not word:
+            values = [self.ring.one] * (len(exponentials) + 1)
+        else:
+            shorter = [self._before(row, word[:k]) for k in range(len(word))]
+            values = [self.ring.zero]
+            for place, exponential in enumerate(exponentials):
+                total, run = values[place], self.ring.one
+                for r in range(1, len(word) + 1):
+                    run = run * self._exponent(exponential, word[-r])
+                    term = run * shorter[-r][place]
+                    total = total + (term * self._reciprocal(r) if r > 1 else term)
+                values.append(total)
+        self._prefix[row][word] = values
+        return values
+
+    def _after(self, row: int, word: Word) -> Stages:
+        """Return the word's coefficient in the exponentials from place J on, for J = 0..m."""
+        known = self._suffix[row].get(word)
+        if known is not None:
+            return known
+        exponentials = self.rows[row]
+        if not word:
+            values = [self.ring.one] * (len(exponentials) + 1)
+        else:
+            shorter = [self._after(row, word[k:]) for k in range(1, len(word) + 1)]
+            values = [self.ring.zero]
+            for place in reversed(range(len(exponentials))):
+                total, run = values[-1], self.ring.one
+                for r in range(1, len(word) + 1):
+                    run = run * self._exponent(exponentials[place], word[r - 1])
+                    term = run * shorter[r - 1][place + 1]
+                    total = total + (term * self._reciprocal(r) if r > 1 else term)
+                values.append(total)
+            values.reverse()
+        self._suffix[row][word] = values
+        return values
+
+
+def crouch_grossman_rows(ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element]) -> tuple[Row, ...]:
+    """Return the exponentials of a Butcher tableau read as VCG: one for each coefficient that is not zero."""
+    return tuple(
+        tuple(((j, a),) for j, a in enumerate(row) if ring.is_zero(a) is not True) for row in (*A, b)
+    )

@@ -1,0 +1,92 @@
+"""The exact flow's action series: iterated integrals over [0, 1], as univariate polynomials over Q.
+
+A stage becomes a time s, sums over stages become ordered integrals, a_ji becomes 1 for i earlier than j, and
+1/b_i drops:
+
+- ``Phi_w(s)`` is the iterated integral of tau over 0 <= s_1 <= ... <= s_k <= s;
+- ``psi_{L(t_1...t_k)}(s)`` that over 1 >= s_1 >= ... >= s_k >= s;
+- ``psi_{H(u*v|M)}(s) = int_s^1 prod_{p in M} psi_p(s') Phi_u(s) Phi_v(s, s') ds'``, where the word v is read
+  between s and s': ``Phi_v(s, s') = sum_k (-1)^k Phi_{reverse v[:k]}(s) Phi_{v[k:]}(s')``.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cache
+from typing import Any
+
+from flint import fmpq_poly
+
+from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, Word, words
+
+Polynomial = Any  # flint ships no types
+
+
+def _from_zero(f: Polynomial) -> Polynomial:
+    return f.integral()
+
+
+def _to_one(f: Polynomial) -> Polynomial:
+    primitive = f.integral()
+    return primitive(1) - primitive
+
+
+@cache
+def tau(tree: Velocity) -> Polynomial:
+    """Return the exact coefficient of a g-valued tree at time s."""
+    return phi(tree.word) * psi_product(tree.momenta)
+
+
+@cache
+def phi(word: Word) -> Polynomial:
+    """Return the exact coefficient of a word in the group element at time s."""
+    return _from_zero(phi(word[:-1]) * tau(word[-1])) if word else fmpq_poly([1])
+
+
+@cache
+def psi(tree: Momentum) -> Polynomial:
+    """Return the exact coefficient of a g*-valued tree at time s."""
+    if not isinstance(tree, Force):
+        return _transport(tree.word)
+    total, after = fmpq_poly(), tree.after
+    for k in range(len(after) + 1):
+        term = phi(after[:k][::-1]) * _later(after[k:], tree.momenta)
+        total = total - term if k % 2 else total + term
+    return phi(tree.before) * total
+
+
+@cache
+def _transport(word: Word) -> Polynomial:
+    return _to_one(_transport(word[:-1]) * tau(word[-1])) if word else fmpq_poly([1])
+
+
+@cache
+def _later(word: Word, momenta: Momenta) -> Polynomial:
+    return _to_one(psi_product(momenta) * phi(word))
+
+
+@cache
+def psi_product(momenta: Momenta) -> Polynomial:
+    """Return the product of exact psi_p over a multiset."""
+    return psi_product(momenta[:-1]) * psi(momenta[-1]) if momenta else fmpq_poly([1])
+
+
+def condition(tree: Velocity) -> Fraction:
+    """Return the exact value of a tree's coefficient, the right-hand side of its order condition.
+
+    >>> from orderconds.series.action_trees import velocities
+    >>> [str(condition(t)) for t in velocities(2)]
+    ['1/2', '1/2', '1/2']
+    """
+    return update((tree,))
+
+
+def update(word: Word) -> Fraction:
+    """Return the exact coefficient of a word in the flow's group element at time 1."""
+    value = phi(word)(1)
+    return Fraction(int(value.p), int(value.q))
+
+
+def update_words(vertices: int) -> dict[Word, Fraction]:
+    """Return :func:`update` for every word with at most that many vertices."""
+    return {word: update(word) for n in range(vertices + 1) for word in words(n)}

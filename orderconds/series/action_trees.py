@@ -1,0 +1,312 @@
+"""The trees of the action series on T*G: what a variational Lie group method composes out of one Hamiltonian.
+
+Every vertex is a copy of H, except that a :class:`Transport` costs nothing. Two mutually recursive kinds:
+
+- g-valued ``t = (word w of t's, multiset M of p's)``, a :class:`Velocity`: ``D_mu H`` differentiated along the
+  word of right-invariant fields w (the first letter acts first) and along the covectors of M;
+- g*-valued ``p``: a :class:`Force` ``H(u * v | M)``, which is ``D_q H`` with its own direction standing in the
+  word between u and v, or a :class:`Transport` ``L(t_1 ... t_k)``, the covector ``x -> <mu, ad t_1 ... ad t_k x>``.
+
+A velocity names at the same time the elementary Hamiltonian that has its root vertex without the outgoing leg:
+``o(w | M)`` is the coefficient of ``H_{q..mu..}[w; M]`` in the generating function. Nodes are interned, so that
+identity is equality, and every list has one canonical order: simplest to read first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from math import factorial, prod
+
+
+class _Node:
+    """What the three kinds share: interned, with its number of copies of H, a reading cost and a canonical text."""
+
+    __slots__ = ("cost", "key", "symmetry", "text", "vertices")
+
+    vertices: int
+    cost: int
+    symmetry: int
+    text: str
+    key: tuple[int, int, int, str]
+
+    def _describe(self, vertices: int, cost: int, symmetry: int, text: str) -> None:
+        self.vertices, self.cost, self.symmetry, self.text = vertices, cost, symmetry, text
+        self.key = (vertices, cost, len(text), text)
+
+    def __str__(self) -> str:
+        return self.text
+
+    __repr__ = __str__
+
+
+class Velocity(_Node):
+    """The g-valued tree t = (w, M); made by :func:`velocity`."""
+
+    __slots__ = ("momenta", "word")
+
+    def __init__(self, word: Word, momenta: Momenta) -> None:
+        self.word, self.momenta = word, momenta
+        children: list[_Node] = [*word, *momenta]
+        inner = _inside(" ".join(t.text for t in word), momenta)
+        self._describe(
+            1 + sum(c.vertices for c in children),
+            _nesting(word) + sum(p.cost for p in momenta) + _mixing(word),
+            _symmetry(word, momenta),
+            f"o({inner})" if inner else "o",
+        )
+
+
+class Force(_Node):
+    """The g*-valued tree H(u * v | M); made by :func:`force`."""
+
+    __slots__ = ("after", "before", "momenta")
+
+    def __init__(self, before: Word, after: Word, momenta: Momenta) -> None:
+        self.before, self.after, self.momenta = before, after, momenta
+        children: list[_Node] = [*before, *after, *momenta]
+        letters = " ".join([*(t.text for t in before), "*", *(t.text for t in after)])
+        self._describe(
+            1 + sum(c.vertices for c in children),
+            3 + _nesting(before + after) + sum(p.cost for p in momenta) + 6 * (len(before) + len(after)),
+            _symmetry(before + after, momenta),
+            f"f({_inside(letters, momenta)})",
+        )
+
+
+class Transport(_Node):
+    """The g*-valued tree L(w), w not empty; made by :func:`transport`."""
+
+    __slots__ = ("word",)
+
+    def __init__(self, word: Word) -> None:
+        self.word = word
+        self._describe(
+            sum(t.vertices for t in word),
+            4 + _nesting(word) + 6 * (len(word) - 1),
+            _symmetry(word, ()),
+            f"L({' '.join(t.text for t in word)})",
+        )
+
+
+Momentum = Force | Transport
+Word = tuple[Velocity, ...]
+Momenta = tuple[Momentum, ...]
+
+
+def _inside(letters: str, momenta: Momenta) -> str:
+    return letters + ("|" + " ".join(p.text for p in momenta) if momenta else "")
+
+
+def _nesting(word: Word) -> int:
+    """A bushy tree reads better than a tall one: what stands inside letters counts double."""
+    return sum(2 + 2 * t.cost for t in word if t.vertices > 1)
+
+
+def _mixing(word: Word) -> int:
+    """Words of one repeated letter are powers of a sum; any other needs sums over ordered indices."""
+    return 0 if len(set(word)) <= 1 else 5 * (len(word) - 1)
+
+
+def _symmetry(word: Word, momenta: Momenta) -> int:
+    repeats = prod(factorial(momenta.count(p)) for p in dict.fromkeys(momenta))
+    return repeats * prod(t.symmetry for t in word) * prod(p.symmetry for p in momenta)
+
+
+@cache
+def _velocity(word: Word, momenta: Momenta) -> Velocity:
+    return Velocity(word, momenta)
+
+
+@cache
+def _force(before: Word, after: Word, momenta: Momenta) -> Force:
+    return Force(before, after, momenta)
+
+
+@cache
+def transport(word: Word) -> Transport:
+    """Return L(w): ``x -> <mu, ad t_1 ... ad t_k x>`` at the end of the step.
+
+    >>> transport((velocity(),))
+    L(o)
+    """
+    if not word:
+        raise ValueError("L needs a letter: the empty word is mu itself")
+    return Transport(word)
+
+
+def multiset(momenta: Momenta) -> Momenta:
+    """Return the canonical order of a multiset of g*-valued trees."""
+    return tuple(sorted(momenta, key=lambda p: p.key))
+
+
+def velocity(word: Word = (), momenta: Momenta = ()) -> Velocity:
+    """Return the g-valued tree (w, M); the order inside M does not matter, that inside w does.
+
+    >>> velocity((velocity(),), (force(), transport((velocity(),))))
+    o(o|f(*) L(o))
+    """
+    return _velocity(word, multiset(momenta))
+
+
+def force(before: Word = (), after: Word = (), momenta: Momenta = ()) -> Force:
+    """Return the g*-valued tree H(u * v | M).
+
+    >>> force((velocity(),), (), (force(),))
+    f(o *|f(*))
+    """
+    return _force(before, after, multiset(momenta))
+
+
+@cache
+def velocities(vertices: int) -> tuple[Velocity, ...]:
+    """Return every g-valued tree with that many copies of H, simplest first.
+
+    >>> [len(velocities(n)) for n in range(1, 5)]
+    [1, 3, 17, 111]
+    >>> velocities(2)
+    (o(o), o(|f(*)), o(|L(o)))
+    """
+    found = [
+        velocity(word, momenta)
+        for k in range(vertices)
+        for word in words(k)
+        for momenta in multisets(vertices - 1 - k)
+    ]
+    return tuple(sorted(found, key=lambda t: t.key))
+
+
+@cache
+def words(vertices: int) -> tuple[Word, ...]:
+    """Return every word of g-valued trees with that many copies of H in all."""
+    if vertices == 0:
+        return ((),)
+    return tuple(
+        (*start, last) for k in range(1, vertices + 1) for start in words(vertices - k) for last in velocities(k)
+    )
+
+
+@cache
+def momenta(vertices: int) -> Momenta:
+    """Return every g*-valued tree with that many copies of H, simplest first.
+
+    >>> [len(momenta(n)) for n in range(1, 5)]
+    [2, 8, 48, 328]
+    """
+    found: list[Momentum] = [
+        force(before, after, others)
+        for j in range(vertices)
+        for before in words(j)
+        for k in range(vertices - j)
+        for after in words(k)
+        for others in multisets(vertices - 1 - j - k)
+    ]
+    found += [transport(word) for word in words(vertices) if word]
+    return tuple(sorted(found, key=lambda p: p.key))
+
+
+@cache
+def multisets(vertices: int) -> tuple[Momenta, ...]:
+    """Return every multiset of g*-valued trees with that many copies of H in all."""
+    return tuple(_multisets(vertices, vertices, None))
+
+
+def _multisets(vertices: int, largest: int, bound: int | None) -> Iterator[Momenta]:
+    """Yield multisets in decreasing order of (vertices, place in the list); bound is the last place used."""
+    if vertices == 0:
+        yield ()
+        return
+    for size in range(1, min(vertices, largest) + 1):
+        places = momenta(size)
+        stop = len(places) if bound is None or size < largest else bound + 1
+        for place in range(stop):
+            for rest in _multisets(vertices - size, size, place):
+                yield (*rest, places[place])
+
+
+def tree_counts(order: int) -> tuple[int, ...]:
+    """Return the numbers of unrooted trees, elementary Hamiltonians, with 1..order vertices.
+
+    U = Lie(T) - T P with T = x W E(P), P = x W^2 E(P) + W - 1, W = 1/(1 - T): the most independent
+    conditions there can be.
+
+    >>> tree_counts(6)
+    (1, 1, 6, 28, 174, 1096)
+    """
+    t, p = _generating_functions(order)
+    lie = _lie_counts(t, order)
+    edges = [sum(t[k] * p[n - k] for k in range(n + 1)) for n in range(order + 1)]
+    return tuple(lie[n] - edges[n] for n in range(1, order + 1))
+
+
+def _generating_functions(order: int) -> tuple[list[int], list[int]]:
+    """Iterate the equations of T and P until their first coefficients stand."""
+    size = order + 1
+
+    def times(a: list[int], b: list[int]) -> list[int]:
+        return [sum(a[k] * b[n - k] for k in range(n + 1)) for n in range(size)]
+
+    t, p = [0] * size, [0] * size
+    for _ in range(2 * size):
+        w = [1] + [0] * order
+        for n in range(1, size):
+            w[n] = sum(t[k] * w[n - k] for k in range(1, n + 1))
+        e = [1] + [0] * order  # n e_n = sum_k (sum_{d|k} d p_d) e_{n-k}: Euler transform
+        for n in range(1, size):
+            e[n] = sum(sum(d * p[d] for d in range(1, k + 1) if k % d == 0) * e[n - k] for k in range(1, n + 1)) // n
+        we = times(w, e)
+        t, p = [0, *we[:-1]], [0, *times(w, we)[:-1]]
+        p = [a + b for a, b in zip(p, [0, *w[1:]], strict=True)]
+    return t, p
+
+
+def _lie_counts(t: list[int], order: int) -> list[int]:
+    """Return the dimensions of the free Lie algebra over t_n letters of weight n (Witt's formula)."""
+    power = [0] * (order + 1)  # n [x^n] log 1/(1 - T)
+    for n in range(1, order + 1):
+        power[n] = n * t[n] + sum(t[k] * power[n - k] for k in range(1, n))
+    return [0] + [
+        sum(_moebius(d) * power[n // d] for d in range(1, n + 1) if n % d == 0) // n for n in range(1, order + 1)
+    ]
+
+
+def _moebius(n: int) -> int:
+    sign, k = 1, 2
+    while n > 1:
+        if n % k == 0:
+            n //= k
+            if n % k == 0:
+                return 0
+            sign = -sign
+        k += 1
+    return sign
+
+
+def hamiltonian(tree: Velocity) -> str:
+    """Return the elementary Hamiltonian that a tree names; ``m`` stands for mu, ``ad(x) y = [x, y]``.
+
+    Arguments before the semicolon are right-invariant derivatives in q, the first one acting first.
+
+    >>> hamiltonian(velocity((velocity(), velocity())))
+    'H_qq(H_m, H_m)'
+    >>> hamiltonian(velocity((), (force(), transport((velocity(),)))))
+    'H_mm(; H_q(.), <m, ad(H_m) .>)'
+    """
+    return _derivative(tree.word, None, (), tree.momenta, "")
+
+
+def _derivative(before: Word, slot: str | None, after: Word, momenta: Momenta, output: str) -> str:
+    letters = [*map(_vector, before), *([slot] if slot else []), *map(_vector, after)]
+    index = "q" * len(letters) + "m" * len(momenta) + output
+    inner = ", ".join(letters) + ("; " + ", ".join(map(_covector, momenta)) if momenta else "")
+    return ("H_" + index if index else "H") + (f"({inner})" if inner else "")
+
+
+def _vector(tree: Velocity) -> str:
+    return _derivative(tree.word, None, (), tree.momenta, "m")
+
+
+def _covector(tree: Momentum) -> str:
+    if isinstance(tree, Force):
+        return _derivative(tree.before, ".", tree.after, tree.momenta, "")
+    return "<m, " + " ".join(f"ad({_vector(t)})" for t in tree.word) + " .>"
