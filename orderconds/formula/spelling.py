@@ -20,12 +20,15 @@ class Alphabet:
     opening: str
     closing: str
     signs: Mapping[str, str]
+    reversed_signs: Mapping[str, str]
     always_braces: bool
     latex_fractions: bool
 
 
-TEXT = Alphabet({}, "sum", "(", ")", {"<": "<", "<=": "<="}, False, False)
-LATEX = Alphabet(HATS, r"\sum", r"\Bigl(", r"\Bigr)", {"<": "<", "<=": r"\le "}, True, True)
+TEXT = Alphabet({}, "sum", "(", ")", {"<": "<", "<=": "<="}, {"<": ">", "<=": ">="}, False, False)
+LATEX = Alphabet(
+    HATS, r"\sum", r"\Bigl(", r"\Bigr)", {"<": "<", "<=": r"\le "}, {"<": ">", "<=": r"\ge "}, True, True
+)
 
 
 def spell(formula: Formula, alphabet: Alphabet) -> str:
@@ -43,7 +46,7 @@ def spell(formula: Formula, alphabet: Alphabet) -> str:
         case Total(terms):
             return _terms(terms, alphabet)
         case IndexSum(indices, relations, body):
-            below = _subscript(_chains(indices, relations, alphabet.signs), alphabet)
+            below = _subscript(_chains(indices, relations, alphabet), alphabet)
             summand = _bracketed(body, alphabet) if isinstance(body, Total) else spell(body, alphabet)
             return f"{alphabet.total}{below} {summand}"
     raise TypeError(f"not a formula: {formula!r}")
@@ -92,20 +95,39 @@ def _terms(terms: Sequence[tuple[Fraction, Formula]], alphabet: Alphabet) -> str
     return written or "0"
 
 
-def _chains(indices: Sequence[str], relations: Sequence[Relation], signs: Mapping[str, str]) -> str:
-    """Write indices below a summation sign, relations joined in chains where they can be: ``i<j<k,l``."""
+def _chains(indices: Sequence[str], relations: Sequence[Relation], alphabet: Alphabet) -> str:
+    """Write indices below a summation sign, relations joined in chains where they can be: ``i<j<k,l``.
+
+    A chain above an index that this sum does not bind is written downwards, ``k>j>i``, so that a summed index
+    always stands first.
+    """
     waiting = list(relations)
     drawn: list[str] = []
     chains = []
-    for start in sorted(indices, key=lambda x: any(x == upper for _, _, upper in relations)):
+    for start in sorted(
+        indices, key=lambda x: any(x == upper and low in indices for low, _, upper in relations)
+    ):
         if start in drawn:
             continue
-        chain, last = start, start
+        links: list[Relation] = []
+        last = start
         drawn.append(start)
         while link := next((r for r in waiting if r[0] == last), None):
             waiting.remove(link)
-            chain, last = f"{chain}{signs[link[1]]}{link[2]}", link[2]
+            links.append(link)
+            last = link[2]
             drawn.append(last)
+        below = next((r for r in waiting if r[2] == start and r[0] not in indices), None)
+        if below and last in indices:
+            waiting.remove(below)
+            downwards = [below, *links][::-1]
+            chain = last + "".join(alphabet.reversed_signs[sign] + low for low, sign, _ in downwards)
+        else:
+            chain = start + "".join(alphabet.signs[sign] + high for _, sign, high in links)
         chains.append(chain)
-    chains += [f"{low}{signs[sign]}{high}" for low, sign, high in waiting]
+    for low, sign, high in waiting:
+        upwards = low in indices
+        chains.append(
+            low + alphabet.signs[sign] + high if upwards else high + alphabet.reversed_signs[sign] + low
+        )
     return ",".join(chains)

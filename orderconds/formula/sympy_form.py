@@ -44,7 +44,7 @@ def _index(name: str) -> Any:
 
 
 def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[tuple[Any, Any, Any]]:
-    """Turn ``i < j`` into the range 1..j-1 of i, with i summed inside j."""
+    """Turn ``i < j`` into the range 1..j-1 of i, with i summed inside j; j from i+1 for i free."""
     limits, waiting = [], list(indices)
     while waiting:
         # SymPy's innermost limit comes first: an index goes once none that waits is bounded by it.
@@ -54,5 +54,11 @@ def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[tuple
         waiting.remove(index)
         bounds = [_index(high) - int(sign == "<") for low, sign, high in relations if low == index]
         last = EXPONENTIALS if index[0].isupper() else STAGES
-        limits.append((_index(index), 1, sympy.Min(*bounds) if bounds else last))
+        lowest = [
+            _index(low) + int(sign == "<")
+            for low, sign, high in relations
+            if high == index and low not in indices
+        ]
+        start = sympy.Max(*lowest) if lowest else 1
+        limits.append((_index(index), start, sympy.Min(*bounds) if bounds else last))
     return limits

@@ -7,10 +7,11 @@ Expanding the step about (q0, mu1) gives each stage velocity and momentum as a s
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [u x v in stage j's group element]``,
 - ``psi_{L(w)}(i) = (1/b_i) [x reverse(w) in the update's]``,
 
-where Phi_w(i) is the coefficient of the word w in stage i's group element, and x stands once for a variation of
-the velocity of stage i. The method has order p iff ``sum_i b_i tau_t(i)`` has the exact flow's value for every
-tree with at most p vertices. How a family turns velocities into group elements is all that differs: products
-of exponentials here (VCG, VCF), one exponential of a Lie series in :mod:`orderconds.series.action_lie`.
+where Phi_w(i) is the coefficient of the word w in stage i's group element, and x stands once for a
+variation of the velocity of stage i. The method has order p iff ``sum_i b_i tau_t(i)`` has the exact flow's
+value for every tree with at most p vertices. How a family turns velocities into group elements is all that
+differs: products of exponentials here (VCG, VCF), one exponential of a Lie series in
+:mod:`orderconds.series.action_lie`.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ class ActionSeries(ABC):
 
     @abstractmethod
     def coefficient(self, row: int, word: Word) -> Element:
-        """Return the coefficient of a word in the group element of a stage, or of the update (the last row)."""
+        """Return the coefficient of a word in a stage's group element, or the update's (the last row)."""
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
@@ -72,7 +73,9 @@ class ActionSeries(ABC):
         """Return psi_p at every stage."""
         found = self._psi.get(tree)
         if found is None:
-            found = self._psi[tree] = self._force(tree) if isinstance(tree, Force) else self._transport(tree.word)
+            found = self._psi[tree] = (
+                self._force(tree) if isinstance(tree, Force) else self._transport(tree.word)
+            )
         return found
 
     def psi_product(self, momenta: Momenta) -> Stages:
@@ -114,7 +117,7 @@ class ActionSeries(ABC):
         return total
 
     def condition(self, tree: Velocity) -> Element:
-        """Return sum_i b_i tau_t(i): the coefficient of a tree in the update, and of its elementary Hamiltonian.
+        """Return sum_i b_i tau_t(i): a tree's coefficient in the update, and its Hamiltonian's.
 
         Nothing that only this tree needs is kept, so that all trees of an order fit in memory.
         """
@@ -128,22 +131,18 @@ class ActionSeries(ABC):
         With ``F(t)`` the right-invariant field of t at (q0, mu1), divided by its symmetry, the step moves a
         function f by ``f(q1) = sum_w coefficient(w) F(t_1) ... F(t_k) f (q0)``, the field of the first letter
         being the first to move the point. The momentum follows from the same coefficients:
-        ``<mubar0, x> = sum_w coefficient(reverse w) <mu1, ad t_1 ... ad t_k x> + sum_t coefficient(t) D_q H(x v | M)``
-        for ``t = (v, M)``, mubar0 the initial momentum and x acting before v.
+        ``<mubar0, x> = sum_w coefficient(reverse w) <mu1, ad t_1 ... ad t_k x> + sum_t coefficient(t) D_q
+        H(x v | M)`` for ``t = (v, M)``, mubar0 the initial momentum and x acting before v.
         """
-        return {
-            word: self.coefficient(self.stages, word)
-            for n in range(vertices + 1)
-            for word in words(n)
-        }
+        return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}
 
 
 class CommutatorFreeSeries(ActionSeries):
     """The action series of a method whose stages and update are products of exponentials (VCG, VCF).
 
-    ``rows`` are the stages' exponentials and then the update's; b_i is the sum of the update's coefficients at
-    stage i. Equation (3.18) for VCG; for VCF the discrete Lagrangian of the same form, whose Hamilton equations
-    carry each exponential's own coefficient.
+    ``rows`` are the stages' exponentials and then the update's; b_i is the sum of the update's coefficients
+    at stage i. Equation (3.18) for VCG; for VCF the discrete Lagrangian of the same form, whose Hamilton
+    equations carry each exponential's own coefficient.
     """
 
     def __init__(self, ring: Ring, rows: Sequence[Row]) -> None:

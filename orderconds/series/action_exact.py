@@ -13,42 +13,36 @@ from __future__ import annotations
 
 from fractions import Fraction
 from functools import cache
-from typing import Any
 
-from flint import fmpq_poly
-
+from orderconds.ring.univariate import (
+    ONE,
+    ZERO,
+    UnivariatePolynomial,
+    integral_from_zero,
+    integral_to_one,
+    value_at_one,
+)
 from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, Word, words
-
-Polynomial = Any  # flint ships no types
-
-
-def _from_zero(f: Polynomial) -> Polynomial:
-    return f.integral()
-
-
-def _to_one(f: Polynomial) -> Polynomial:
-    primitive = f.integral()
-    return primitive(1) - primitive
 
 
 @cache
-def tau(tree: Velocity) -> Polynomial:
+def tau(tree: Velocity) -> UnivariatePolynomial:
     """Return the exact coefficient of a g-valued tree at time s."""
     return phi(tree.word) * psi_product(tree.momenta)
 
 
 @cache
-def phi(word: Word) -> Polynomial:
+def phi(word: Word) -> UnivariatePolynomial:
     """Return the exact coefficient of a word in the group element at time s."""
-    return _from_zero(phi(word[:-1]) * tau(word[-1])) if word else fmpq_poly([1])
+    return integral_from_zero(phi(word[:-1]) * tau(word[-1])) if word else ONE
 
 
 @cache
-def psi(tree: Momentum) -> Polynomial:
+def psi(tree: Momentum) -> UnivariatePolynomial:
     """Return the exact coefficient of a g*-valued tree at time s."""
     if not isinstance(tree, Force):
         return _transport(tree.word)
-    total, after = fmpq_poly(), tree.after
+    total, after = ZERO, tree.after
     for k in range(len(after) + 1):
         term = phi(after[:k][::-1]) * _later(after[k:], tree.momenta)
         total = total - term if k % 2 else total + term
@@ -56,19 +50,19 @@ def psi(tree: Momentum) -> Polynomial:
 
 
 @cache
-def _transport(word: Word) -> Polynomial:
-    return _to_one(_transport(word[:-1]) * tau(word[-1])) if word else fmpq_poly([1])
+def _transport(word: Word) -> UnivariatePolynomial:
+    return integral_to_one(_transport(word[:-1]) * tau(word[-1])) if word else ONE
 
 
 @cache
-def _later(word: Word, momenta: Momenta) -> Polynomial:
-    return _to_one(psi_product(momenta) * phi(word))
+def _later(word: Word, momenta: Momenta) -> UnivariatePolynomial:
+    return integral_to_one(psi_product(momenta) * phi(word))
 
 
 @cache
-def psi_product(momenta: Momenta) -> Polynomial:
+def psi_product(momenta: Momenta) -> UnivariatePolynomial:
     """Return the product of exact psi_p over a multiset."""
-    return psi_product(momenta[:-1]) * psi(momenta[-1]) if momenta else fmpq_poly([1])
+    return psi_product(momenta[:-1]) * psi(momenta[-1]) if momenta else ONE
 
 
 def condition(tree: Velocity) -> Fraction:
@@ -83,8 +77,7 @@ def condition(tree: Velocity) -> Fraction:
 
 def update(word: Word) -> Fraction:
     """Return the exact coefficient of a word in the flow's group element at time 1."""
-    value = phi(word)(1)
-    return Fraction(int(value.p), int(value.q))
+    return value_at_one(phi(word))
 
 
 def update_words(vertices: int) -> dict[Word, Fraction]:

@@ -2,14 +2,15 @@
 
 Every vertex is a copy of H, except that a :class:`Transport` costs nothing. Two mutually recursive kinds:
 
-- g-valued ``t = (word w of t's, multiset M of p's)``, a :class:`Velocity`: ``D_mu H`` differentiated along the
-  word of right-invariant fields w (the first letter acts first) and along the covectors of M;
-- g*-valued ``p``: a :class:`Force` ``H(u * v | M)``, which is ``D_q H`` with its own direction standing in the
-  word between u and v, or a :class:`Transport` ``L(t_1 ... t_k)``, the covector ``x -> <mu, ad t_1 ... ad t_k x>``.
+- g-valued ``t = (word w of t's, multiset M of p's)``, a :class:`Velocity`: ``D_mu H`` differentiated along
+  the word of right-invariant fields w (the first letter acts first) and along the covectors of M;
+- g*-valued ``p``: a :class:`Force` ``H(u * v | M)``, which is ``D_q H`` with its own direction standing in
+  the word between u and v, or a :class:`Transport` ``L(t_1 ... t_k)``, the covector ``x -> <mu, ad t_1 ...
+  ad t_k x>``.
 
-A velocity names at the same time the elementary Hamiltonian that has its root vertex without the outgoing leg:
-``o(w | M)`` is the coefficient of ``H_{q..mu..}[w; M]`` in the generating function. Nodes are interned, so that
-identity is equality, and every list has one canonical order: simplest to read first.
+A velocity names at the same time the elementary Hamiltonian that has its root vertex without the outgoing
+leg: ``o(w | M)`` is the coefficient of ``H_{q..mu..}[w; M]`` in the generating function. Nodes are
+interned, so that identity is equality, and every list has one canonical order: simplest to read first.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from math import factorial, prod
 
 
 class _Node:
-    """What the three kinds share: interned, with its number of copies of H, a reading cost and a canonical text."""
+    """What the three kinds share: number of copies of H, a reading cost, symmetry, canonical text."""
 
     __slots__ = ("cost", "key", "symmetry", "text", "vertices")
 
@@ -182,7 +183,10 @@ def words(vertices: int) -> tuple[Word, ...]:
     if vertices == 0:
         return ((),)
     return tuple(
-        (*start, last) for k in range(1, vertices + 1) for start in words(vertices - k) for last in velocities(k)
+        (*start, last)
+        for k in range(1, vertices + 1)
+        for start in words(vertices - k)
+        for last in velocities(k)
     )
 
 
@@ -253,7 +257,10 @@ def _generating_functions(order: int) -> tuple[list[int], list[int]]:
             w[n] = sum(t[k] * w[n - k] for k in range(1, n + 1))
         e = [1] + [0] * order  # n e_n = sum_k (sum_{d|k} d p_d) e_{n-k}: Euler transform
         for n in range(1, size):
-            e[n] = sum(sum(d * p[d] for d in range(1, k + 1) if k % d == 0) * e[n - k] for k in range(1, n + 1)) // n
+            e[n] = (
+                sum(sum(d * p[d] for d in range(1, k + 1) if k % d == 0) * e[n - k] for k in range(1, n + 1))
+                // n
+            )
         we = times(w, e)
         t, p = [0, *we[:-1]], [0, *times(w, we)[:-1]]
         p = [a + b for a, b in zip(p, [0, *w[1:]], strict=True)]
@@ -266,7 +273,8 @@ def _lie_counts(t: list[int], order: int) -> list[int]:
     for n in range(1, order + 1):
         power[n] = n * t[n] + sum(t[k] * power[n - k] for k in range(1, n))
     return [0] + [
-        sum(_moebius(d) * power[n // d] for d in range(1, n + 1) if n % d == 0) // n for n in range(1, order + 1)
+        sum(_moebius(d) * power[n // d] for d in range(1, n + 1) if n % d == 0) // n
+        for n in range(1, order + 1)
     ]
 
 

@@ -1,0 +1,83 @@
+"""What the variational families share: action conditions, their independent sets, their left-hand sides."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from functools import cache, partial
+from typing import TYPE_CHECKING, Any
+
+from orderconds.conditions import OrderCondition
+from orderconds.families.action_formula import ActionFormula, multiplier
+from orderconds.ring.protocol import Element, Ring
+from orderconds.series import action_exact
+from orderconds.series.action_trees import Velocity, hamiltonian, velocities
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from orderconds.ring.residues import Residues
+    from orderconds.series.action import ActionSeries
+
+
+class ActionFamily(ABC):
+    """A family whose conditions are ``sum_i b_i tau_t(i)`` = exact, one for each g-valued action tree t.
+
+    The conditions of order n are those of the trees with n copies of H. ``all_conditions`` needs no rank, so
+    checking a tableau needs no NumPy; ``conditions`` picks the independent ones, simplest first.
+    """
+
+    name: str
+    formats: tuple[str, ...]
+    needs_nonzero_weights = True
+
+    def label(self) -> str:
+        """Return the name with its options."""
+        return self.name
+
+    @abstractmethod
+    def series(self, method: Any, ring: Ring) -> ActionSeries:
+        """Return the action series of a method; raises ZeroWeight for a weight that vanishes."""
+
+    @abstractmethod
+    def random_series(self, ring: Residues, generator: np.random.Generator, stages: int) -> ActionSeries:
+        """Return the action series of random members of the family, one for each sample of the ring."""
+
+    @abstractmethod
+    def formula(self) -> ActionFormula:
+        """Return the writer of the family's index sums."""
+
+    def conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return the independent conditions of exactly this order, simplest trees preferred."""
+        return tuple(map(self._condition, _independent(self, order)[-1]))
+
+    def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return every tree's condition of exactly this order, simplest first."""
+        return tuple(map(self._condition, velocities(order)))
+
+    def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
+        """Return the left-hand sides, as printed, for a method with coefficients in ``ring``."""
+        series = self.series(method, ring)
+        return tuple(series.condition(c.key) * multiplier(c.key) for c in conditions)
+
+    def elementary_hamiltonian(self, condition: OrderCondition) -> str:
+        """Return the elementary Hamiltonian whose coefficient a condition fixes."""
+        return hamiltonian(condition.key)
+
+    def _condition(self, tree: Velocity) -> OrderCondition:
+        return OrderCondition(
+            family=self.label(),
+            order=tree.vertices,
+            tree=tree.text,
+            source=partial(self.formula().condition, tree),
+            rhs=action_exact.condition(tree) * multiplier(tree),
+            key=tree,
+        )
+
+
+@cache
+def _independent(family: ActionFamily, order: int) -> tuple[tuple[Velocity, ...], ...]:
+    # One stage more than the number of different values a sum over i needs to tell the trees apart.
+    from orderconds.series.action_rank import independent_trees
+
+    return independent_trees(partial(family.random_series, stages=max(order - 1, 2)), order)

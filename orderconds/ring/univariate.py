@@ -1,0 +1,46 @@
+"""Polynomials over Q in one variable, the time s: what iterated integrals over [0, 1] are made of.
+
+Elements are flint's ``fmpq_poly``, unwrapped; they carry ``+ - *`` themselves.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+from flint import fmpq_poly
+
+UnivariatePolynomial = Any
+"""A flint ``fmpq_poly``, which ships no types."""
+
+ZERO = fmpq_poly()
+ONE = fmpq_poly([1])
+
+
+def integral_from_zero(f: UnivariatePolynomial) -> UnivariatePolynomial:
+    """Return the polynomial ``s -> int_0^s f``.
+
+    >>> integral_from_zero(ONE)
+    x
+    """
+    return f.integral()
+
+
+def integral_to_one(f: UnivariatePolynomial) -> UnivariatePolynomial:
+    """Return the polynomial ``s -> int_s^1 f``.
+
+    >>> integral_to_one(ONE)
+    (-1)*x + 1
+    """
+    primitive = f.integral()
+    return primitive(1) - primitive
+
+
+def value_at_one(f: UnivariatePolynomial) -> Fraction:
+    """Return f(1).
+
+    >>> value_at_one(integral_from_zero(integral_from_zero(ONE)))
+    Fraction(1, 2)
+    """
+    value = f(1)
+    return Fraction(int(value.p), int(value.q))

@@ -1,0 +1,1 @@
+"""Series of methods and of exact flows, truncated by order, over any ring."""

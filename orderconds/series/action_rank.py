@@ -1,0 +1,97 @@
+"""Independent action conditions: rank modulo products of lower ones, on random tableaux modulo a prime.
+
+A condition of order n is superfluous if its value, for every method, is a combination of the other values of
+order n and of products of values of lower order. The values at many random methods decide that, vectorised;
+greedy pivots in the canonical order keep the simplest trees.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from orderconds.ring.rank import pivot_columns
+from orderconds.ring.residues import PRIMES, Residue, Residues
+from orderconds.series.action import ActionSeries
+from orderconds.series.action_trees import Velocity, tree_counts, velocities
+
+RandomSeries = Callable[[Residues, np.random.Generator], ActionSeries]
+"""Makes the action series of random methods of a family, one a sample."""
+
+SPARE_SAMPLES = 24
+"""Rows beyond the largest possible rank, so that chance does not hide a dependence."""
+
+BLOCK = 256
+"""Samples evaluated together: enough to hide the interpreter, few enough for order 6 to fit in memory."""
+
+
+def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity, ...], ...]:
+    """Return, for each order 1..order, the trees whose conditions are independent of simpler and lower ones.
+
+    Computed modulo two primes, which must agree on the ranks; the rank found modulo a prime can only be too
+    small, so the larger set is kept.
+    """
+    found = [_independent(family, order, prime) for prime in PRIMES]
+    return max(found, key=lambda trees: [len(of_order) for of_order in trees])
+
+
+def _independent(family: RandomSeries, order: int, prime: int) -> tuple[tuple[Velocity, ...], ...]:
+    chosen: list[tuple[Velocity, ...]] = []
+    generators: list[tuple[int, Residue]] = []
+    values = _sample(family, order, prime)
+    for n in range(1, order + 1):
+        decomposable = list(products(generators, n))
+        trees = velocities(n)
+        pivots = pivot_columns([*decomposable, *(values[t] for t in trees)])
+        kept = tuple(trees[p - len(decomposable)] for p in pivots if p >= len(decomposable))
+        chosen.append(kept)
+        generators += [(n, values[t]) for t in kept]
+    return tuple(chosen)
+
+
+def _sample(family: RandomSeries, order: int, prime: int) -> dict[Velocity, Residue]:
+    """Return every condition to the given order at as many random methods as the rank may need."""
+    trees = [t for n in range(1, order + 1) for t in velocities(n)]
+    count = _largest_rank(order) + SPARE_SAMPLES
+    blocks: list[list[NDArray[np.int64]]] = []
+    generator = np.random.default_rng(prime)
+    for start in range(0, count, BLOCK):
+        series = family(Residues(prime, min(BLOCK, count - start)), generator)
+        blocks.append([series.condition(t).values for t in trees])
+    ring = Residues(prime, count)
+    return {t: ring.element(np.concatenate(parts)) for t, *parts in zip(trees, *blocks, strict=True)}
+
+
+def _largest_rank(order: int) -> int:
+    """Return how many independent conditions and products of them there can be at one order.
+
+    The generating function of polynomials in U_1 + U_2 + ... graded unknowns.
+    """
+    unknowns = tree_counts(order)
+    count = [1] + [0] * order
+    for degree, number in enumerate(unknowns, start=1):
+        for _ in range(number):
+            for n in range(degree, order + 1):
+                count[n] += count[n - degree]
+    return count[order]
+
+
+def products(generators: Sequence[tuple[int, Residue]], degree: int) -> Iterator[Residue]:
+    """Yield every monomial of exactly that degree in generators given as (degree, value)."""
+    yield from _monomials(generators, degree, 0, None)
+
+
+def _monomials(
+    generators: Sequence[tuple[int, Residue]], degree: int, start: int, so_far: Residue | None
+) -> Iterator[Residue]:
+    if degree == 0:
+        if so_far is not None:
+            yield so_far
+        return
+    for place in range(start, len(generators)):
+        weight, value = generators[place]
+        if weight <= degree:
+            term = value if so_far is None else so_far * value
+            yield from _monomials(generators, degree - weight, place, term)
