@@ -1,0 +1,64 @@
+"""Elementary weights of Runge-Kutta and partitioned Runge-Kutta methods: B-series over any ring (HLW III.1).
+
+Each subtree has one vector over the stages, computed once: the product over its branches of
+``sum_j a_ij tau_branch(j)``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Sequence
+from typing import Generic, TypeVar
+
+from orderconds.ring.protocol import Element, Ring
+
+TreeT = TypeVar("TreeT", bound=Hashable)
+
+
+class ElementaryWeights(Generic[TreeT]):
+    """The numbers ``sum_i b_i tau_t(i)`` of a method, for trees of any encoding.
+
+    ``matrices`` are s x s coefficient matrices, one for each kind of edge, over ``ring``; ``branches`` gives the
+    branches of a tree, each the kind of its edge and the subtree.
+    """
+
+    def __init__(
+        self,
+        ring: Ring,
+        matrices: Sequence[Sequence[Sequence[Element]]],
+        b: Sequence[Element],
+        branches: Callable[[TreeT], Sequence[tuple[int, TreeT]]],
+    ) -> None:
+        self._ring, self._branches = ring, branches
+        self._matrices = [[sparse(ring, row) for row in matrix] for matrix in matrices]
+        self._b = sparse(ring, b)
+        self._stages = len(b)
+        self._vectors: dict[TreeT, tuple[Element, ...]] = {}
+        self._sums: dict[tuple[int, TreeT], tuple[Element, ...]] = {}
+
+    def __call__(self, tree: TreeT) -> Element:
+        """Return the elementary weight of a tree."""
+        return self._dot(self._b, self.stages(tree))
+
+    def stages(self, tree: TreeT) -> tuple[Element, ...]:
+        """Return tau_tree(i) for each stage i."""
+        if tree not in self._vectors:
+            vector = [self._ring.one] * self._stages
+            for branch in self._branches(tree):
+                vector = [x * y for x, y in zip(vector, self._summed(branch), strict=True)]
+            self._vectors[tree] = tuple(vector)
+        return self._vectors[tree]
+
+    def _summed(self, branch: tuple[int, TreeT]) -> tuple[Element, ...]:
+        if branch not in self._sums:
+            kind, tree = branch
+            vector = self.stages(tree)
+            self._sums[branch] = tuple(self._dot(row, vector) for row in self._matrices[kind])
+        return self._sums[branch]
+
+    def _dot(self, row: Sequence[tuple[int, Element]], vector: Sequence[Element]) -> Element:
+        return sum((weight * vector[j] for j, weight in row), self._ring.zero)
+
+
+def sparse(ring: Ring, row: Sequence[Element]) -> tuple[tuple[int, Element], ...]:
+    """Return the entries of a row that are not known to be zero, each with its place."""
+    return tuple((place, entry) for place, entry in enumerate(row) if ring.is_zero(entry) is not True)

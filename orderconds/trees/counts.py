@@ -1,0 +1,79 @@
+"""How many trees there are, from generating functions: independent of every enumeration.
+
+Section numbers are those of OEIS: A000081, A000108, A000238, A000151.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from math import comb
+
+
+def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
+    """Count multisets: from the number of kinds of weight 1, 2, ... to that of multisets of weight 1, 2, ...
+
+    >>> euler_transform([1, 1, 1, 1])
+    (1, 2, 3, 5)
+    """
+    divided = [sum(d * counts[d - 1] for d in range(1, n + 1) if n % d == 0) for n in range(1, len(counts) + 1)]
+    found = [1]
+    for n in range(1, len(counts) + 1):
+        found.append(sum(divided[k - 1] * found[n - k] for k in range(1, n + 1)) // n)
+    return tuple(found[1:])
+
+
+def rooted_tree_count(vertices: int, kinds: int = 1) -> int:
+    """Count rooted trees whose edges are of so many kinds (A000081; A000151 for two kinds).
+
+    >>> [rooted_tree_count(n) for n in range(1, 9)], [rooted_tree_count(n, kinds=2) for n in range(1, 7)]
+    ([1, 1, 2, 4, 9, 20, 48, 115], [1, 2, 7, 26, 107, 458])
+    """
+    counts = [1]
+    while len(counts) < vertices:
+        counts = [1, *euler_transform([kinds * count for count in counts])]
+    return counts[vertices - 1] if vertices > 0 else 0
+
+
+def ordered_tree_count(vertices: int) -> int:
+    """Count ordered trees (the Catalan numbers, A000108).
+
+    >>> [ordered_tree_count(n) for n in range(1, 9)]
+    [1, 1, 2, 5, 14, 42, 132, 429]
+    """
+    return comb(2 * vertices - 2, vertices - 1) // vertices if vertices > 0 else 0
+
+
+def ordered_forest_count(vertices: int) -> int:
+    """Count ordered forests: remove the root of a tree with one vertex more.
+
+    >>> [ordered_forest_count(n) for n in range(6)]
+    [1, 1, 2, 5, 14, 42]
+    """
+    return ordered_tree_count(vertices + 1)
+
+
+def directed_free_tree_count(vertices: int) -> int:
+    """Count free trees with directed edges (A000238): rooted ones less those rooted at an edge (Otter).
+
+    >>> [directed_free_tree_count(n) for n in range(1, 9)]
+    [1, 1, 3, 8, 27, 91, 350, 1376]
+    """
+    rooted = [rooted_tree_count(n, kinds=2) for n in range(vertices + 1)]
+    return rooted[vertices] - sum(rooted[k] * rooted[vertices - k] for k in range(1, vertices))
+
+
+def lyndon_word_count(weight: int, letters: Callable[[int], int]) -> int:
+    """Count Lyndon words of a weight when there are ``letters(k)`` letters of weight k.
+
+    Words factor uniquely into falling Lyndon words, so that prod (1 - x^n)^-L(n) = 1/(1 - sum letters(k) x^k).
+
+    >>> [lyndon_word_count(n, ordered_tree_count) for n in range(1, 10)]
+    [1, 1, 3, 8, 25, 75, 245, 800, 2700]
+    """
+    words = [1]
+    for n in range(1, weight + 1):
+        words.append(sum(letters(k) * words[n - k] for k in range(1, n + 1)))
+    found: list[int] = []
+    for n in range(1, weight + 1):
+        found.append(words[n] - euler_transform([*found, 0])[-1])
+    return found[-1] if found else 0

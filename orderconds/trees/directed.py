@@ -1,0 +1,142 @@
+"""Rooted and free trees whose edges carry a direction: the trees of symplectic partitioned methods.
+
+The edge from parent i to child j is of kind 0 when it stands for a_ij (it points away from the root) and of kind 1
+when it stands for ahat_ij (it points to the root). As b_i ahat_ij = b_i b_j - b_j a_ji, moving the root across an
+edge changes its kind, not its direction, so that conditions belong to free trees.
+
+Encoding: bytes in preorder, ``2 level + kind``; branches stand in falling order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+from itertools import combinations_with_replacement, pairwise, product
+
+DirectedTree = bytes
+Branch = tuple[int, DirectedTree]
+"""The kind of the edge that leads to a subtree, and the subtree."""
+
+_LOWERED = bytes((0, 1)) + bytes(range(254))
+
+
+def branches(tree: DirectedTree) -> tuple[Branch, ...]:
+    r"""Return the branches at the root.
+
+    >>> branches(b"\0\2\3")
+    ((0, b'\x00'), (1, b'\x00'))
+    """
+    starts = [place for place in range(1, len(tree)) if tree[place] >> 1 == 1]
+    found = []
+    for start, end in pairwise([*starts, len(tree)]):
+        child = tree[start:end].translate(_LOWERED)
+        found.append((child[0], b"\0" + child[1:]))
+    return tuple(found)
+
+
+def joined(below: tuple[Branch, ...] | list[Branch]) -> DirectedTree:
+    """Join branches to a root, in canonical order."""
+    raised = (bytes((2 + kind,)) + bytes(level + 2 for level in child[1:]) for kind, child in below)
+    return b"\0" + b"".join(sorted(raised, reverse=True))
+
+
+def density(tree: DirectedTree) -> int:
+    r"""Return gamma, the product of the sizes of all subtrees.
+
+    >>> density(b"\0\2\3")
+    3
+    """
+    result = len(tree)
+    for _, child in branches(tree):
+        result *= density(child)
+    return result
+
+
+def text(tree: DirectedTree) -> str:
+    r"""Write a tree in brackets, ``^`` before each subtree that hangs from an ahat-edge.
+
+    >>> text(b"\0\3\2")
+    '[^..]'
+    """
+    below = branches(tree)
+    inside = "".join(("^" if kind else "") + text(child) for kind, child in below)
+    return f"[{inside}]" if below else "."
+
+
+@lru_cache(maxsize=32)
+def directed_rooted_trees(vertices: int) -> tuple[DirectedTree, ...]:
+    """Return every rooted tree with directed edges once (the trees of a PRK method with b = bhat).
+
+    >>> [text(tree) for tree in directed_rooted_trees(3)]
+    ['[[.]]', '[[^.]]', '[^[.]]', '[^[^.]]', '[..]', '[^..]', '[^.^.]']
+    """
+    if vertices < 1:
+        return ()
+    return tuple(joined(below) for below in _multisets(vertices - 1, vertices - 1))
+
+
+def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
+    """Return every free tree with directed edges once, as the rooted tree that :func:`representative` chooses.
+
+    >>> [text(tree) for tree in directed_free_trees(3)]
+    ['[..]', '[^.^.]', '[[.]]']
+    """
+    # Each free tree has either one centroid, and no branch there has half of the vertices, or two, joined by an
+    # edge that leads from one half to the other.
+    central = [
+        tree
+        for tree in directed_rooted_trees(vertices)
+        if all(2 * len(child) < vertices for _, child in branches(tree))
+    ]
+    if vertices % 2 == 0:
+        halves = directed_rooted_trees(vertices // 2)
+        central += [joined([*branches(first), (0, second)]) for first, second in product(halves, halves)]
+    chosen = [representative(tree) for tree in central]
+    return tuple(sorted(chosen, key=lambda tree: (_simplicity(tree), tree)))
+
+
+def representative(tree: DirectedTree) -> DirectedTree:
+    """Return, of all rootings of a tree, the one whose condition reads most simply.
+
+    That is: as few edges as can be of the rarer kind, then least height, then fewest ahat.
+    """
+    return min(rootings(tree), key=lambda rooting: (_simplicity(rooting), rooting))
+
+
+def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
+    """Yield the tree rooted at each of its vertices in turn, edges keeping their directions."""
+    yield joined(list(branches(tree)))
+    below = branches(tree)
+    for place, (kind, child) in enumerate(below):
+        rest = joined([*below[:place], *below[place + 1 :]])
+        yield from _rootings_beyond(joined([*branches(child), (1 - kind, rest)]), (1 - kind, rest))
+
+
+def _rootings_beyond(tree: DirectedTree, behind: Branch) -> Iterator[DirectedTree]:
+    yield tree
+    below = list(branches(tree))
+    below.remove(behind)
+    for place, (kind, child) in enumerate(below):
+        rest = joined([*below[:place], *below[place + 1 :], behind])
+        yield from _rootings_beyond(joined([*branches(child), (1 - kind, rest)]), (1 - kind, rest))
+
+
+def _simplicity(tree: DirectedTree) -> tuple[int, int, int]:
+    hats = sum(level & 1 for level in tree[1:])
+    return min(hats, len(tree) - 1 - hats), max(tree) >> 1, hats
+
+
+@lru_cache(maxsize=256)
+def _multisets(vertices: int, largest: int) -> tuple[list[Branch], ...]:
+    """Return all multisets of branches with this many vertices in all, none with more than ``largest``."""
+    if vertices == 0:
+        return ([],)
+    if largest == 0:
+        return ()
+    single = [(kind, tree) for kind in (0, 1) for tree in directed_rooted_trees(largest)]
+    return tuple(
+        [*chosen, *rest]
+        for times in range(vertices // largest, -1, -1)
+        for chosen in combinations_with_replacement(single, times)
+        for rest in _multisets(vertices - times * largest, largest - 1)
+    )

@@ -1,0 +1,137 @@
+"""Level sequences: a forest is the bytes of its vertices' levels in preorder, roots at level 0.
+
+A tree is a forest with one root. Bytes hash and compare fast, and a subtree is a slice.
+Texts are written in brackets: ``.`` is one vertex, ``[..]`` a root with two leaves; the trees of a forest are
+separated by spaces.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+from itertools import pairwise
+from math import factorial, prod
+
+from orderconds.errors import InputError
+
+Tree = bytes
+Forest = bytes
+
+_RAISED = bytes(range(1, 256)) + b"\xff"
+_LOWERED = b"\x00" + bytes(range(255))
+_LARGEST = 250
+
+
+def trees_of(forest: Forest) -> tuple[Tree, ...]:
+    r"""Split a forest into its trees.
+
+    >>> trees_of(b"\0\1\0")
+    (b'\x00\x01', b'\x00')
+    """
+    roots = [place for place, level in enumerate(forest) if level == 0]
+    return tuple(forest[start:end] for start, end in pairwise([*roots, len(forest)]))
+
+
+@lru_cache(maxsize=1 << 16)
+def children(tree: Tree) -> tuple[Tree, ...]:
+    """Return the subtrees that hang from the root, from left to right."""
+    return trees_of(branches(tree))
+
+
+def branches(tree: Tree) -> Forest:
+    r"""Return the forest that remains when the root is removed (Butcher's B-).
+
+    >>> branches(b"\0\1\2\1")
+    b'\x00\x01\x00'
+    """
+    return tree[1:].translate(_LOWERED)
+
+
+def rooted_at_new_vertex(forest: Forest) -> Tree:
+    r"""Join the roots of a forest to a new root (Butcher's B+).
+
+    >>> rooted_at_new_vertex(b"\0\1\0")
+    b'\x00\x01\x02\x01'
+    """
+    return b"\0" + forest.translate(_RAISED)
+
+
+def density(forest: Forest) -> int:
+    r"""Return gamma, the product of the sizes of all subtrees (HLW III.1, Definition 1.10).
+
+    >>> density(b"\0\1\2\1")
+    8
+    """
+    result = 1
+    # A subtree ends where the level next falls to that of its root or below; read from the right.
+    behind: list[int] = []
+    for place in range(len(forest) - 1, -1, -1):
+        while behind and forest[behind[-1]] > forest[place]:
+            behind.pop()
+        result *= (behind[-1] if behind else len(forest)) - place
+        behind.append(place)
+    return result
+
+
+def symmetry(tree: Tree) -> int:
+    r"""Return sigma, the order of the group of symmetries of an unordered rooted tree (HLW III.1, Def. 1.7).
+
+    The tree must be canonical (see :func:`canonical`), so that equal subtrees stand as equal bytes.
+
+    >>> symmetry(b"\0\1\1\1")
+    6
+    """
+    below = children(tree)
+    repeated = {child: below.count(child) for child in below}
+    return prod(factorial(times) * symmetry(child) ** times for child, times in repeated.items())
+
+
+def canonical(tree: Tree) -> Tree:
+    r"""Return the level sequence that is greatest among all orderings of the branches, at every vertex.
+
+    >>> canonical(b"\0\1\1\2")
+    b'\x00\x01\x02\x01'
+    """
+    ordered = sorted((canonical(child) for child in children(tree)), reverse=True)
+    return rooted_at_new_vertex(b"".join(ordered))
+
+
+def text(forest: Forest) -> str:
+    r"""Write a tree or forest in brackets.
+
+    >>> text(b"\0\1\2\1"), text(b"\0\1\0"), text(b"")
+    ('[[.].]', '[.] .', '')
+    """
+    return " ".join(_bracket(tree) for tree in trees_of(forest))
+
+
+def parse(written: str) -> Forest:
+    r"""Read a tree or forest in brackets; spaces and commas between trees are optional.
+
+    >>> parse("[[.],.]") == b"\0\1\2\1"
+    True
+
+    Raises :class:`~orderconds.errors.InputError` for anything else than balanced brackets, each with something
+    in it, and dots.
+    """
+    levels, depth = bytearray(), 0
+    if len(written) > 4 * _LARGEST:
+        raise InputError("a tree text that is too long", expected=f"at most {_LARGEST} vertices")
+    compact = re.sub(r"[\s,]", "", written)
+    for place, sign in enumerate(compact):
+        before = compact[place - 1 : place]
+        if sign in ".[":
+            levels.append(depth)
+            depth += sign == "["
+        elif sign == "]" and depth and before != "[":
+            depth -= 1
+        else:
+            raise InputError(f"{sign!r} in tree {written!r}", expected="dots and balanced brackets, as [[.].]")
+    if depth:
+        raise InputError(f"unbalanced brackets in tree {written!r}", expected="balanced ones, as [[.].]")
+    return bytes(levels)
+
+
+def _bracket(tree: Tree) -> str:
+    below = children(tree)
+    return f"[{''.join(_bracket(child) for child in below)}]" if below else "."

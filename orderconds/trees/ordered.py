@@ -1,0 +1,45 @@
+"""Ordered (planar) rooted trees and ordered forests, each level sequence from the one before it, in place.
+
+The sequences of n levels that start at 0 and never rise by more than one are exactly the ordered forests with n
+vertices, and those that never return to 0 are the trees; both are listed in falling lexicographic order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from orderconds.trees.levels import Forest, Tree
+
+_RISING = bytes(range(256))
+
+
+def ordered_trees(vertices: int) -> Iterator[Tree]:
+    """Yield every ordered tree with this many vertices once.
+
+    >>> from orderconds.trees.levels import text
+    >>> [text(tree) for tree in ordered_trees(4)]
+    ['[[[.]]]', '[[..]]', '[[.].]', '[.[.]]', '[...]']
+    """
+    return _sequences(vertices, lowest=1) if vertices > 0 else iter(())
+
+
+def ordered_forests(vertices: int) -> Iterator[Forest]:
+    """Yield every ordered forest with this many vertices once; for none, the empty forest.
+
+    >>> from orderconds.trees.levels import text
+    >>> [text(forest) for forest in ordered_forests(3)]
+    ['[[.]]', '[..]', '[.] .', '. [.]', '. . .']
+    """
+    return _sequences(vertices, lowest=0)
+
+
+def _sequences(vertices: int, lowest: int) -> Iterator[bytes]:
+    levels, bottom = bytearray(range(vertices)), bytes((lowest,))
+    while True:
+        yield bytes(levels)
+        # The last level that can fall does, and what follows rises as steeply as it may.
+        last = len(levels.rstrip(bottom)) - 1
+        if last < 1:
+            return
+        start = levels[last] - 1
+        levels[last:] = _RISING[start : start + vertices - last]

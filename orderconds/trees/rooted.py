@@ -1,0 +1,32 @@
+"""Unordered rooted trees by their canonical level sequences, each from the one before it, in place.
+
+T. Beyer and S. M. Hedetniemi, "Constant time generation of rooted trees", SIAM J. Comput. 9 (1980) 706-712.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from orderconds.trees.levels import Tree
+
+
+def rooted_trees(vertices: int) -> Iterator[Tree]:
+    """Yield every rooted tree with this many vertices once, canonical, from the tall tree to the bushy one.
+
+    >>> from orderconds.trees.levels import text
+    >>> [text(tree) for tree in rooted_trees(4)]
+    ['[[[.]]]', '[[..]]', '[[.].]', '[...]']
+    """
+    if vertices < 1:
+        return
+    levels = bytearray(range(vertices))
+    while True:
+        yield bytes(levels)
+        # The last vertex that is not a child of the root moves up; what follows repeats its left neighbour.
+        last = len(levels.rstrip(b"\1")) - 1
+        if last < 1:
+            return
+        parent = levels.rindex(levels[last] - 1, 0, last)
+        period = levels[parent:last]
+        copies = (vertices - last) // len(period) + 1
+        levels[last:] = (period * copies)[: vertices - last]

@@ -1,0 +1,76 @@
+"""Lyndon words: those smaller than each of their proper suffixes; their coordinates generate all others'.
+
+The shuffle algebra over the rationals is the polynomial algebra in the Lyndon words (Radford 1979; Reutenauer,
+Free Lie Algebras, Thm 6.1): a group-like series is given by its values on them, and these values are independent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, TypeVar
+
+Letter = TypeVar("Letter")
+
+
+def lyndon_words(
+    letters: Sequence[Letter], weight: int, weigh: Callable[[Letter], int] = lambda letter: 1
+) -> Iterator[tuple[Letter, ...]]:
+    """Yield the Lyndon words of exactly this weight, in lexicographic order.
+
+    ``letters`` stand in rising order; ``weigh`` gives each its weight, a positive integer, in any order.
+
+    >>> ["".join(word) for word in lyndon_words("AB", 4)]
+    ['AAAB', 'AABB', 'ABBB']
+    >>> list(lyndon_words((2, 1), 4, weigh=int))
+    [(2, 1, 1)]
+    """
+    weights = [weigh(letter) for letter in letters]
+    if any(w < 1 for w in weights):
+        raise ValueError("letters need positive weights")
+    # K. Cattell, F. Ruskey et al., J. Algorithms 37 (2000) 267, with weights in place of lengths: a prefix of a
+    # Lyndon word with period p goes on with the letter p places before, or with a greater one and no period.
+    places: list[int] = []
+
+    def extend(period: int, left: int) -> Iterator[tuple[Letter, ...]]:
+        if left == 0:
+            if period == len(places):
+                yield tuple(letters[place] for place in places)
+            return
+        least = places[-period] if places else 0
+        for place in range(least, len(letters)):
+            if weights[place] <= left:
+                places.append(place)
+                keeps = len(places) > 1 and place == least
+                yield from extend(period if keeps else len(places), left - weights[place])
+                places.pop()
+
+    if weight > 0:
+        yield from extend(1, weight)
+
+
+def lyndon_factors(word: Sequence[Letter], key: Callable[[Letter], Any] | None = None) -> list[tuple[Letter, ...]]:
+    """Factor a word into Lyndon words that do not rise (J.-P. Duval, J. Algorithms 4 (1983) 363).
+
+    >>> ["".join(factor) for factor in lyndon_factors("BANANA")]
+    ['B', 'AN', 'AN', 'A']
+    """
+    keys: list[Any] = [key(letter) if key else letter for letter in word]
+    factors, start = [], 0
+    while start < len(word):
+        end, repeat = start + 1, start
+        while end < len(word) and keys[repeat] <= keys[end]:
+            repeat = start if keys[repeat] < keys[end] else repeat + 1
+            end += 1
+        while start <= repeat:
+            factors.append(tuple(word[start : start + end - repeat]))
+            start += end - repeat
+    return factors
+
+
+def is_lyndon(word: Sequence[Letter], key: Callable[[Letter], Any] | None = None) -> bool:
+    """Tell whether a word is a Lyndon word; the empty word is none.
+
+    >>> is_lyndon("AAB"), is_lyndon("ABAB")
+    (True, False)
+    """
+    return len(lyndon_factors(word, key)) == 1

@@ -1,0 +1,76 @@
+"""The two products of words: shuffles, which multiply values, and concatenation, which multiplies series."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
+from math import factorial
+from typing import Any
+
+Word = tuple[Any, ...]
+Series = dict[Word, Fraction]
+"""Words with their non-zero coefficients."""
+
+
+def shuffle(u: Sequence[Any], v: Sequence[Any]) -> Counter[Word]:
+    """Return all words that interleave u and v, with multiplicities.
+
+    >>> sorted(("".join(word), times) for word, times in shuffle("AB", "A").items())
+    [('AAB', 2), ('ABA', 1)]
+    """
+    row: list[Counter[Word]] = [Counter({tuple(v[:n]): 1}) for n in range(len(v) + 1)]
+    for letter in u:
+        below = row
+        row = [Counter({(*word, letter): times for word, times in below[0].items()})]
+        for place, other in enumerate(v, start=1):
+            words: Counter[Word] = Counter()
+            for word, times in below[place].items():
+                words[(*word, letter)] += times
+            for word, times in row[place - 1].items():
+                words[(*word, other)] += times
+            row.append(words)
+    return row[len(v)]
+
+
+def add(*scaled: tuple[Fraction | int, Mapping[Word, Fraction]]) -> Series:
+    """Add rational multiples of series."""
+    result: Series = {}
+    for scale, series in scaled:
+        for word, value in series.items():
+            result[word] = result.get(word, Fraction(0)) + scale * value
+    return {word: value for word, value in result.items() if value}
+
+
+def concatenate(
+    x: Mapping[Word, Fraction], y: Mapping[Word, Fraction], weight: int, weigh: Callable[[Any], int] = lambda a: 1
+) -> Series:
+    """Multiply two series by concatenation, dropping words heavier than ``weight``."""
+    result: Series = {}
+    heavy = {word: sum(map(weigh, word)) for word in (*x, *y)}
+    for u, a in x.items():
+        for v, b in y.items():
+            if heavy[u] + heavy[v] <= weight:
+                result[u + v] = result.get(u + v, Fraction(0)) + a * b
+    return {word: value for word, value in result.items() if value}
+
+
+def exponential(x: Mapping[Word, Fraction], weight: int, weigh: Callable[[Any], int] = lambda a: 1) -> Series:
+    """Return exp(x) to a weight, for a series without constant term."""
+    result: Series = {(): Fraction(1)}
+    power: Series = {(): Fraction(1)}
+    for n in range(1, weight + 1):
+        power = concatenate(power, x, weight, weigh)
+        result = add((1, result), (Fraction(1, factorial(n)), power))
+    return result
+
+
+def logarithm(x: Mapping[Word, Fraction], weight: int, weigh: Callable[[Any], int] = lambda a: 1) -> Series:
+    """Return log(x) to a weight, for a series with constant term 1."""
+    rest = add((1, x), (-1, {(): Fraction(1)}))
+    result: Series = {}
+    power: Series = {(): Fraction(1)}
+    for n in range(1, weight + 1):
+        power = concatenate(power, rest, weight, weigh)
+        result = add((1, result), (Fraction((-1) ** (n + 1), n), power))
+    return result
