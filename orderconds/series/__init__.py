@@ -1,5 +1,6 @@
 """Series of methods and of exact flows, truncated by order, over any ring.
 
-``b_series``: rooted trees, coloured or not. ``lie_butcher``: ordered forests, for products of exponentials and the
-exact flow. ``dexpinv``: the single exponential of a Runge-Kutta-Munthe-Kaas method. ``action``: variational methods.
+``b_series``: rooted trees, coloured or not. ``lie_butcher``: ordered forests, for products of exponentials
+and the exact flow. ``dexpinv``: the single exponential of a Runge-Kutta-Munthe-Kaas method. ``action``:
+variational methods.
 """

@@ -17,8 +17,8 @@ TreeT = TypeVar("TreeT", bound=Hashable)
 class ElementaryWeights(Generic[TreeT]):
     """The numbers ``sum_i b_i tau_t(i)`` of a method, for trees of any encoding.
 
-    ``matrices`` are s x s coefficient matrices, one for each kind of edge, over ``ring``; ``branches`` gives the
-    branches of a tree, each the kind of its edge and the subtree.
+    ``matrices`` are s x s coefficient matrices, one for each kind of edge, over ``ring``; ``branches``
+    gives the branches of a tree, each the kind of its edge and the subtree.
     """
 
     def __init__(

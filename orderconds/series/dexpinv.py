@@ -1,9 +1,9 @@
-"""The series of a Runge-Kutta-Munthe-Kaas method, computed from its definition in the free associative algebra.
+"""The series of a Runge-Kutta-Munthe-Kaas method, from its definition in the free associative algebra.
 
-Stage arguments ``u_i = h sum_j a_ij dexpinv_{(r),u_j} k_j``, ``k_j = f(exp(u_j) y0)``, step ``exp(h sum_j b_j
-dexpinv_{(r),u_j} k_j)``; dexpinv_{(r),u} x = sum_{k<=r} B_k/k! ad_u^k x with B_1 = -1/2 (HLW IV.8.3).
-Letters are ordered trees. In a word the first letter acts first, so the product xy of two elements, in which y acts
-first, reads y's word before x's.
+Stage arguments ``u_i = h sum_j a_ij dexpinv_{(r),u_j} k_j``, ``k_j = f(exp(u_j) y0)``, step ``exp(h sum_j
+b_j dexpinv_{(r),u_j} k_j)``; dexpinv_{(r),u} x = sum_{k<=r} B_k/k! ad_u^k x with B_1 = -1/2 (HLW IV.8.3).
+Letters are ordered trees. In a word the first letter acts first, so the product xy of two elements, in
+which y acts first, reads y's word before x's.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
+from itertools import pairwise
 from math import comb, factorial
 
 from orderconds.ring.protocol import Element, Ring
@@ -95,7 +96,7 @@ class DexpinvSeries:
 
 @lru_cache(maxsize=64)
 def dexpinv_terms(longest: int) -> tuple[tuple[Fraction, int, int], ...]:
-    """Return (B_k/k! comb(k, m) (-1)^m, m, k - m) for the terms u^(k-m) x u^m of dexpinv with k <= ``longest``.
+    """Return (B_k/k! comb(k, m) (-1)^m, m, k - m) for the terms u^(k-m) x u^m of dexpinv, k <= ``longest``.
 
     >>> [(str(q), m, n) for q, m, n in dexpinv_terms(1)]
     [('1', 0, 0), ('-1/2', 0, 1), ('1/2', 1, 0)]
@@ -128,4 +129,4 @@ def _cuts(word: Forest) -> list[int]:
 def _pointed(word: Forest) -> list[tuple[int, Tree, int]]:
     """Return each letter of a word with the places where it begins and where what follows it begins."""
     cuts = [0, *_cuts(word), len(word)]
-    return [(start, word[start:end], end) for start, end in zip(cuts[:-1], cuts[1:], strict=True)]
+    return [(start, word[start:end], end) for start, end in pairwise(cuts)]

@@ -1,11 +1,12 @@
 """Lie-Butcher series: values on ordered forests of products of exponentials and of the exact flow.
 
-A forest is a word of ordered trees, the first acting first. For g = exp(X_m) ... exp(X_1) with X_J a combination of
-trees, and k = f(g y0), the coefficient of a word is
+A forest is a word of ordered trees, the first acting first. For g = exp(X_m) ... exp(X_1) with X_J a
+combination of trees, and k = f(g y0), the coefficient of a word is
 
     sum over J_1 <= ... <= J_k of prod x_{J_l}(t_l) / prod (run lengths)!
 
-and the tree whose branches are that word has this value in k (Owren and Marthinsen, BIT 39 (1999) 116; HLW IV.8).
+and the tree whose branches are that word has this value in k (Owren and Marthinsen, BIT 39 (1999) 116; HLW
+IV.8).
 """
 
 from __future__ import annotations
@@ -34,8 +35,8 @@ class ForestSeries(Protocol):
 class WordCoefficients:
     """Coefficients of words of trees in one product of exponentials, the first one acting first.
 
-    ``letter(J, tree)`` is the coefficient of a tree in the exponent of number J. For each word the partial sums
-    over the first exponentials are kept, so that one word more costs one sweep over the exponentials.
+    ``letter(J, tree)`` is the coefficient of a tree in the exponent of number J. For each word the partial
+    sums over the first exponentials are kept, so that one word more costs one sweep over the exponentials.
     """
 
     def __init__(self, ring: Ring, exponentials: int, letter: Callable[[int, Tree], Element]) -> None:
@@ -56,13 +57,15 @@ class WordCoefficients:
             letters = trees_of(word)[::-1]
             for number in range(self._exponentials):
                 coefficient, run = found[-1], self._ring.one
-                # The last letters of the word, r of them, come from this exponential; the others from before it.
+                # The last r letters of the word come from this exponential, the others from before it.
                 for r, (head, tree) in enumerate(zip(heads, letters, strict=True), start=1):
                     run = run * self._letter(number, tree)
                     if self._ring.is_zero(run) is True:
                         break
                     share = head[number] * run
-                    coefficient = coefficient + (share if r == 1 else share * _inverse_factorial(self._ring, r))
+                    coefficient = coefficient + (
+                        share if r == 1 else share * _inverse_factorial(self._ring, r)
+                    )
                 found.append(coefficient)
             self._prefixes[word] = tuple(found)
         return self._prefixes[word]
@@ -71,11 +74,14 @@ class WordCoefficients:
 class ExponentialsSeries:
     """The series of a commutator-free method: products of exponentials of combinations of stage values.
 
-    ``stages[i]`` are the exponentials that lead from y0 to stage i, ``update`` those of the step, each a sparse row
-    of coefficients over the stages; the first acts first. Stages may depend on each other in any way (implicit).
+    ``stages[i]`` are the exponentials that lead from y0 to stage i, ``update`` those of the step, each a
+    sparse row of coefficients over the stages; the first acts first. Stages may depend on each other in any
+    way (implicit).
     """
 
-    def __init__(self, ring: Ring, stages: Sequence[Sequence[SparseRow]], update: Sequence[SparseRow]) -> None:
+    def __init__(
+        self, ring: Ring, stages: Sequence[Sequence[SparseRow]], update: Sequence[SparseRow]
+    ) -> None:
         self._ring = ring
         self._values: dict[Tree, tuple[Element, ...]] = {}
         self._stages = [self._words(rows) for rows in stages]
@@ -112,9 +118,9 @@ class ExponentialsSeries:
 def exact_value(forest: Forest) -> Fraction:
     r"""Return the value of the exact flow on a forest, by left grafting.
 
-    The flow g of g' = f(g y0) g has the iterated integral of its letters on each word, the first letter earliest;
-    by homogeneity the integral over [0, s] is e s^n for n vertices, and d/ds removes the last letter, whose
-    own value is that of the word of its branches.
+    The flow g of g' = f(g y0) g has the iterated integral of its letters on each word, the first letter
+    earliest; by homogeneity the integral over [0, s] is e s^n for n vertices, and d/ds removes the last
+    letter, whose own value is that of the word of its branches.
 
     >>> str(exact_value(b"\0\1\1\2")), str(exact_value(b"\0\1\2\1"))
     ('1/12', '1/24')
@@ -128,8 +134,8 @@ def exact_value(forest: Forest) -> Fraction:
 def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
     """Return the values of a series on every ordered forest with ``order`` vertices.
 
-    Less the exact flow's, these are the coefficients of the elementary differential operators in the local error's
-    leading term.
+    Less the exact flow's, these are the coefficients of the elementary differential operators in the local
+    error's leading term.
     """
     return {forest: series(forest) for forest in ordered_forests(order)}
 

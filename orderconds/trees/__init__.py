@@ -1,6 +1,6 @@
 """Trees and forests as bytes: the level sequence in preorder, the root at level 0.
 
-``rooted`` enumerates unordered rooted trees, ``ordered`` planar ones and their forests, ``directed`` rooted and
-free trees whose edges carry a direction; ``levels`` holds what all level sequences share, ``counts`` the numbers
-that generating functions foretell.
+``rooted`` enumerates unordered rooted trees, ``ordered`` planar ones and their forests, ``directed`` rooted
+and free trees whose edges carry a direction; ``levels`` holds what all level sequences share, ``counts``
+the numbers that generating functions foretell.
 """

@@ -15,7 +15,9 @@ def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
     >>> euler_transform([1, 1, 1, 1])
     (1, 2, 3, 5)
     """
-    divided = [sum(d * counts[d - 1] for d in range(1, n + 1) if n % d == 0) for n in range(1, len(counts) + 1)]
+    divided = [
+        sum(d * counts[d - 1] for d in range(1, n + 1) if n % d == 0) for n in range(1, len(counts) + 1)
+    ]
     found = [1]
     for n in range(1, len(counts) + 1):
         found.append(sum(divided[k - 1] * found[n - k] for k in range(1, n + 1)) // n)
@@ -65,7 +67,8 @@ def directed_free_tree_count(vertices: int) -> int:
 def lyndon_word_count(weight: int, letters: Callable[[int], int]) -> int:
     """Count Lyndon words of a weight when there are ``letters(k)`` letters of weight k.
 
-    Words factor uniquely into falling Lyndon words, so that prod (1 - x^n)^-L(n) = 1/(1 - sum letters(k) x^k).
+    Words factor uniquely into falling Lyndon words, so that prod (1 - x^n)^-L(n) = 1/(1 - sum letters(k)
+    x^k).
 
     >>> [lyndon_word_count(n, ordered_tree_count) for n in range(1, 10)]
     [1, 1, 3, 8, 25, 75, 245, 800, 2700]

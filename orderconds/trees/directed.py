@@ -1,8 +1,8 @@
 """Rooted and free trees whose edges carry a direction: the trees of symplectic partitioned methods.
 
-The edge from parent i to child j is of kind 0 when it stands for a_ij (it points away from the root) and of kind 1
-when it stands for ahat_ij (it points to the root). As b_i ahat_ij = b_i b_j - b_j a_ji, moving the root across an
-edge changes its kind, not its direction, so that conditions belong to free trees.
+The edge from parent i to child j is of kind 0 when it stands for a_ij (it points away from the root) and of
+kind 1 when it stands for ahat_ij (it points to the root). As b_i ahat_ij = b_i b_j - b_j a_ji, moving the
+root across an edge changes its kind, not its direction, so that conditions belong to free trees.
 
 Encoding: bytes in preorder, ``2 level + kind``; branches stand in falling order.
 """
@@ -76,13 +76,13 @@ def directed_rooted_trees(vertices: int) -> tuple[DirectedTree, ...]:
 
 
 def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
-    """Return every free tree with directed edges once, as the rooted tree that :func:`representative` chooses.
+    """Return every free tree with directed edges once, rooted as :func:`representative` chooses.
 
     >>> [text(tree) for tree in directed_free_trees(3)]
     ['[..]', '[^.^.]', '[[.]]']
     """
-    # Each free tree has either one centroid, and no branch there has half of the vertices, or two, joined by an
-    # edge that leads from one half to the other.
+    # A free tree has either one centroid, where no branch has half of the vertices, or two, joined by an edge
+    # that leads from one half to the other.
     central = [
         tree
         for tree in directed_rooted_trees(vertices)

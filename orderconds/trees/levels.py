@@ -111,8 +111,8 @@ def parse(written: str) -> Forest:
     >>> parse("[[.],.]") == b"\0\1\2\1"
     True
 
-    Raises :class:`~orderconds.errors.InputError` for anything else than balanced brackets, each with something
-    in it, and dots.
+    Raises :class:`~orderconds.errors.InputError` for anything else than balanced brackets, each with
+    something in it, and dots.
     """
     levels, depth = bytearray(), 0
     if len(written) > 4 * _LARGEST:
@@ -126,7 +126,9 @@ def parse(written: str) -> Forest:
         elif sign == "]" and depth and before != "[":
             depth -= 1
         else:
-            raise InputError(f"{sign!r} in tree {written!r}", expected="dots and balanced brackets, as [[.].]")
+            raise InputError(
+                f"{sign!r} in tree {written!r}", expected="dots and balanced brackets, as [[.].]"
+            )
     if depth:
         raise InputError(f"unbalanced brackets in tree {written!r}", expected="balanced ones, as [[.].]")
     return bytes(levels)

@@ -1,7 +1,8 @@
 """Ordered (planar) rooted trees and ordered forests, each level sequence from the one before it, in place.
 
-The sequences of n levels that start at 0 and never rise by more than one are exactly the ordered forests with n
-vertices, and those that never return to 0 are the trees; both are listed in falling lexicographic order.
+The sequences of n levels that start at 0 and never rise by more than one are exactly the ordered forests
+with n vertices, and those that never return to 0 are the trees; both are listed in falling lexicographic
+order.
 """
 
 from __future__ import annotations

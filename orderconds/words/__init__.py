@@ -1,5 +1,5 @@
 """Words over a graded alphabet: Lyndon words, shuffles and concatenation, free Lie elements, BCH.
 
-A word is a tuple of letters, a series a mapping from words to rational numbers. Words t_1 ... t_k are written in
-the order of action: t_1 acts first.
+A word is a tuple of letters, a series a mapping from words to rational numbers. Words t_1 ... t_k are
+written in the order of action: t_1 acts first.
 """

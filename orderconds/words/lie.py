@@ -1,7 +1,8 @@
 """Free Lie elements: the Lyndon basis, and the Baker-Campbell-Hausdorff series in it.
 
-The standard bracketing of a Lyndon word w is w plus greater words of the same letters, so that coordinates follow
-from the coefficients of Lyndon words by forward substitution (Reutenauer, Free Lie Algebras, Thm 5.1).
+The standard bracketing of a Lyndon word w is w plus greater words of the same letters, so that coordinates
+follow from the coefficients of Lyndon words by forward substitution (Reutenauer, Free Lie Algebras, Thm
+5.1).
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
 """Lyndon words: those smaller than each of their proper suffixes; their coordinates generate all others'.
 
-The shuffle algebra over the rationals is the polynomial algebra in the Lyndon words (Radford 1979; Reutenauer,
-Free Lie Algebras, Thm 6.1): a group-like series is given by its values on them, and these values are independent.
+The shuffle algebra over the rationals is the polynomial algebra in the Lyndon words (Radford 1979;
+Reutenauer, Free Lie Algebras, Thm 6.1): a group-like series is given by its values on them, and these
+values are independent.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ def lyndon_words(
     weights = [weigh(letter) for letter in letters]
     if any(w < 1 for w in weights):
         raise ValueError("letters need positive weights")
-    # K. Cattell, F. Ruskey et al., J. Algorithms 37 (2000) 267, with weights in place of lengths: a prefix of a
+    # K. Cattell et al., J. Algorithms 37 (2000) 267, with weights in place of lengths: a prefix of a
     # Lyndon word with period p goes on with the letter p places before, or with a greater one and no period.
     places: list[int] = []
 
@@ -48,7 +49,9 @@ def lyndon_words(
         yield from extend(1, weight)
 
 
-def lyndon_factors(word: Sequence[Letter], key: Callable[[Letter], Any] | None = None) -> list[tuple[Letter, ...]]:
+def lyndon_factors(
+    word: Sequence[Letter], key: Callable[[Letter], Any] | None = None
+) -> list[tuple[Letter, ...]]:
     """Factor a word into Lyndon words that do not rise (J.-P. Duval, J. Algorithms 4 (1983) 363).
 
     >>> ["".join(factor) for factor in lyndon_factors("BANANA")]

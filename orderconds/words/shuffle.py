@@ -43,7 +43,10 @@ def add(*scaled: tuple[Fraction | int, Mapping[Word, Fraction]]) -> Series:
 
 
 def concatenate(
-    x: Mapping[Word, Fraction], y: Mapping[Word, Fraction], weight: int, weigh: Callable[[Any], int] = lambda a: 1
+    x: Mapping[Word, Fraction],
+    y: Mapping[Word, Fraction],
+    weight: int,
+    weigh: Callable[[Any], int] = lambda a: 1,
 ) -> Series:
     """Multiply two series by concatenation, dropping words heavier than ``weight``."""
     result: Series = {}

@@ -1,0 +1,111 @@
+"""Commutator-free methods: each stage and the update is a product of exponentials of combinations of stages.
+
+exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, the first acting first; stage i alike with alpha_iJj
+(Celledoni, Marthinsen and Owren, FGCS 19 (2003) 341). A stage that starts from another one has that one's
+exponentials before its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from itertools import pairwise
+from math import factorial, prod
+from typing import Any
+
+from orderconds.families.cg import crouch_grossman_series
+from orderconds.families.ordered_forests import OrderedForestFamily
+from orderconds.formula import Formula, coefficient, fresh, index_sum, one, product, total
+from orderconds.ring.protocol import Element, Ring
+from orderconds.series.b_series import sparse
+from orderconds.series.lie_butcher import ExponentialsSeries
+from orderconds.trees.levels import Forest, Tree, branches, trees_of
+from orderconds.words.compositions import compositions
+
+Exponentials = tuple[tuple[Element, ...], ...]
+
+
+class CommutatorFreeFamily(OrderedForestFamily):
+    """Commutator-free methods; a Runge-Kutta tableau is read with one stage in each exponential.
+
+    >>> [str(condition) for condition in create().conditions(2)]
+    ['sum_{I,i} beta_Ii c_i = 1/2']
+    """
+
+    name = "cf"
+    formats: tuple[str, ...] = ("cf", "rk")
+
+    def label(self) -> str:
+        """Return ``cf``."""
+        return self.name
+
+    def series(self, method: Any, ring: Ring) -> ExponentialsSeries:
+        """Return the series of a step; ``method`` has ``stages`` and ``update``, or ``A`` and ``b``."""
+        if not hasattr(method, "update"):
+            return crouch_grossman_series(method, ring)
+        *stages, update = [[sparse(ring, row) for row in rows] for rows in exponentials(method)]
+        return ExponentialsSeries(ring, stages, update)
+
+    def formula(self, forest: Forest) -> Formula:
+        """Return the index sum of the scaled value on a forest."""
+        return _word(forest, lambda J, j: coefficient("beta", J, j), None)
+
+
+def create() -> CommutatorFreeFamily:
+    """Return the family."""
+    return CommutatorFreeFamily()
+
+
+def exponentials(method: Any) -> list[Exponentials]:
+    """Return the exponentials from y0 to each stage and, last, to the step; rows over all stages."""
+    found: list[Exponentials] = []
+    for stage in (*method.stages, method.update):
+        before = found[stage.start] if stage.start is not None else ()
+        found.append((*before, *stage.exponentials))
+    return found
+
+
+def coefficient_tables(method: Any, ring: Ring) -> dict[str, Any]:
+    """Return the tables alpha_iJj, beta_Jj and c_i that the formulas name, filled up with zeros."""
+    stages = len(method.stages)
+    *rows, update = exponentials(method)
+    most = max(1, *(len(row) for row in rows))
+    empty = (ring.zero,) * stages
+    return {
+        "alpha": [[*row, *([empty] * (most - len(row)))] for row in rows],
+        "beta": update,
+        "c": [sum((x for row in own for x in row), ring.zero) for own in rows],
+    }
+
+
+def _word(word: Forest, row: Callable[[str, str], Formula], row_sum: Formula | None) -> Formula:
+    """Return length! times the coefficient of a word in the product of exponentials of ``row``."""
+    letters = trees_of(word)
+    if len(set(letters)) == 1:
+        alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None
+        J = fresh("J")
+        first = alone or index_sum((J,), (), _letter(letters[0], J, row))
+        return product(*([first] * len(letters)))
+    terms = []
+    for runs in compositions(len(letters)):
+        numbers = [fresh("J") for _ in runs]
+        factors = [_letter(tree, J, row) for tree, J in zip(letters, _repeated(numbers, runs), strict=True)]
+        order = [(first, "<", then) for first, then in pairwise(numbers)]
+        weight = Fraction(factorial(len(letters)), prod(map(factorial, runs)))
+        terms.append((weight, index_sum(numbers, order, product(*factors))))
+    return total(*terms)
+
+
+def _letter(tree: Tree, J: str, row: Callable[[str, str], Formula]) -> Formula:
+    j = fresh()
+    return index_sum((j,), (), product(row(J, j), _stage(tree, j)))
+
+
+def _stage(tree: Tree, i: str) -> Formula:
+    if len(tree) == 1:
+        return one()
+    return _word(branches(tree), lambda J, j: coefficient("alpha", i, J, j), coefficient("c", i))
+
+
+def _repeated(numbers: Sequence[str], runs: Sequence[int]) -> list[str]:
+    return [number for number, length in zip(numbers, runs, strict=True) for _ in range(length)]

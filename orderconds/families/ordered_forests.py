@@ -1,0 +1,92 @@
+"""What the families on ordered forests share: conditions are the values on Lyndon words of ordered trees.
+
+The step of a Lie group method and the exact flow are group-like, so their values on Lyndon words generate all
+others by shuffles (see ``words.lyndon``). Letters are ordered by falling size, ties as enumerated.
+
+Each condition is multiplied by the factorials of the lengths of its word and of the words below its
+vertices, so that it reads sum_i b_i c_i^2 = 1/3 and not 1/2 sum_i b_i c_i^2 = 1/6.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from functools import lru_cache, partial
+from math import factorial, prod
+from typing import Any
+
+from orderconds.conditions import OrderCondition
+from orderconds.formula import Formula
+from orderconds.ring.protocol import Element, Ring
+from orderconds.series.lie_butcher import ForestSeries, exact_value
+from orderconds.trees.levels import Forest, branches, text, trees_of
+from orderconds.trees.ordered import ordered_forests, ordered_trees
+from orderconds.words.lyndon import lyndon_words
+
+
+class OrderedForestFamily(ABC):
+    """A family whose step has a Lie-Butcher series."""
+
+    name: str
+    formats: tuple[str, ...]
+    needs_nonzero_weights = False
+
+    @abstractmethod
+    def label(self) -> str:
+        """Return the name with its options."""
+
+    @abstractmethod
+    def series(self, method: Any, ring: Ring) -> ForestSeries:
+        """Return the values of one step of ``method`` on ordered forests, elements of ``ring``."""
+
+    @abstractmethod
+    def formula(self, forest: Forest) -> Formula:
+        """Return the index sum of ``scale(forest)`` times the value on a forest."""
+
+    def conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return the conditions of this order, one a Lyndon word over ordered trees."""
+        return self._of(lyndon_forests(order))
+
+    def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return the conditions of this order, one an ordered forest."""
+        return self._of(tuple(ordered_forests(order)))
+
+    def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
+        """Return the step's values on the words of ``conditions``, each times its scale."""
+        series = self.series(method, ring)
+        return tuple(series(condition.key) * scale(condition.key) for condition in conditions)
+
+    def _of(self, forests: Sequence[Forest]) -> tuple[OrderCondition, ...]:
+        return tuple(
+            OrderCondition(
+                self.label(),
+                len(forest),
+                text(forest),
+                partial(self.formula, forest),
+                exact_value(forest) * scale(forest),
+                forest,
+            )
+            for forest in forests
+        )
+
+
+@lru_cache(maxsize=1 << 16)
+def scale(forest: Forest) -> int:
+    r"""Return the product of the factorials of the numbers of branches, at every vertex and in the word.
+
+    >>> scale(b"\0\1\1\0")
+    4
+    """
+    below = trees_of(forest)
+    return factorial(len(below)) * prod(scale(branches(tree)) for tree in below if len(tree) > 1)
+
+
+@lru_cache(maxsize=32)
+def lyndon_forests(order: int) -> tuple[Forest, ...]:
+    """Return the Lyndon words over ordered trees with ``order`` vertices, as forests.
+
+    >>> [text(forest) for forest in lyndon_forests(3)]
+    ['[[.]]', '[..]', '[.] .']
+    """
+    letters = [tree for vertices in range(order, 0, -1) for tree in ordered_trees(vertices)]
+    return tuple(b"".join(word) for word in lyndon_words(letters, order, weigh=len))

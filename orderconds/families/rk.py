@@ -1,0 +1,79 @@
+"""Runge-Kutta methods: one condition a rooted tree, its elementary weight = 1/gamma (HLW III.1, Thm 1.5)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from functools import lru_cache, partial
+from typing import Any
+
+from orderconds.conditions import OrderCondition
+from orderconds.formula import Formula, coefficient, fresh, index_sum, product
+from orderconds.ring.protocol import Element, Ring
+from orderconds.series.b_series import ElementaryWeights
+from orderconds.trees.levels import Tree, children, density, text
+from orderconds.trees.rooted import rooted_trees
+
+
+class RungeKuttaFamily:
+    """Runge-Kutta methods for ordinary differential equations.
+
+    >>> [str(condition) for condition in create().conditions(3)]
+    ['sum_{i,j} b_i a_ij c_j = 1/6', 'sum_i b_i c_i^2 = 1/3']
+    """
+
+    name = "rk"
+    formats: tuple[str, ...] = ("rk",)
+    needs_nonzero_weights = False
+
+    def label(self) -> str:
+        """Return ``rk``."""
+        return self.name
+
+    def conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return the conditions of this order, one a rooted tree; they are independent (HLW III.1, Ex. 5)."""
+        return _conditions(order)
+
+    def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return the same conditions."""
+        return _conditions(order)
+
+    def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
+        """Return elementary weights; ``method`` has ``A`` and ``b`` over ``ring``."""
+        weights = ElementaryWeights[Tree](ring, (method.A,), method.b, _branches)
+        return tuple(weights(condition.key) for condition in conditions)
+
+
+def create() -> RungeKuttaFamily:
+    """Return the family."""
+    return RungeKuttaFamily()
+
+
+@lru_cache(maxsize=32)
+def _conditions(order: int) -> tuple[OrderCondition, ...]:
+    return tuple(
+        OrderCondition("rk", order, text(tree), partial(_weight, tree), Fraction(1, density(tree)), tree)
+        for tree in rooted_trees(order)
+    )
+
+
+@lru_cache(maxsize=1 << 16)
+def _branches(tree: Tree) -> tuple[tuple[int, Tree], ...]:
+    return tuple((0, child) for child in children(tree))
+
+
+def _weight(tree: Tree) -> Formula:
+    i = fresh()
+    return index_sum((i,), (), product(coefficient("b", i), _stage(tree, i)))
+
+
+def _stage(tree: Tree, i: str) -> Formula:
+    # Leaves first, as people write: b_i c_i a_ij c_j.
+    return product(*(_branch(child, i) for child in sorted(children(tree), key=lambda child: len(child) > 1)))
+
+
+def _branch(child: Tree, i: str) -> Formula:
+    if len(child) == 1:
+        return coefficient("c", i)
+    j = fresh()
+    return index_sum((j,), (), product(coefficient("a", i, j), _stage(child, j)))

@@ -1,0 +1,97 @@
+"""Runge-Kutta-Munthe-Kaas methods with dexpinv cut after the power r: ``rkmk(r)``; without r it is not cut.
+
+The conditions are values of the method's own series on Lyndon words; nothing about the order is assumed. It
+comes out as min(p, R + 2), where p is the Runge-Kutta order and R = r for r = 0 and odd r, R = r + 1 for
+even r >= 2, since B_{r+1} = 0.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import factorial
+from typing import Any
+
+from orderconds.errors import InputError
+from orderconds.families.ordered_forests import OrderedForestFamily, scale
+from orderconds.formula import Formula, Total, coefficient, fresh, index_sum, one, product, total, zero
+from orderconds.ring.protocol import Ring
+from orderconds.series.dexpinv import DexpinvSeries, dexpinv_terms
+from orderconds.trees.levels import Forest, branches, trees_of
+
+
+class MuntheKaasFamily(OrderedForestFamily):
+    """Runge-Kutta-Munthe-Kaas methods, given by a Runge-Kutta tableau.
+
+    >>> for condition in MuntheKaasFamily(cutoff=1).conditions(3):
+    ...     print(condition.tree, "   ", condition)
+    [[.]]     sum_{i,j} b_i a_ij c_j = 1/6
+    [..]     sum_i b_i c_i^2 = 1/3
+    [.] .     -sum_i b_i c_i^2 + sum_{i,j} b_i a_ij c_j + (sum_i b_i c_i) (sum_i b_i) = 1/3
+    """
+
+    name = "rkmk"
+    formats: tuple[str, ...] = ("rk",)
+
+    def __init__(self, cutoff: int | None = None) -> None:
+        self.cutoff = cutoff
+
+    def label(self) -> str:
+        """Return ``rkmk(r)``, or ``rkmk`` when dexpinv is not cut."""
+        return self.name if self.cutoff is None else f"{self.name}({self.cutoff})"
+
+    def series(self, method: Any, ring: Ring) -> DexpinvSeries:
+        """Return the series of a step; ``method`` has ``A`` and ``b`` over ``ring``."""
+        return DexpinvSeries(ring, method.A, method.b, self.cutoff)
+
+    def formula(self, forest: Forest) -> Formula:
+        """Return the index sum of the scaled value on a forest."""
+        return total((scale(forest), self._exponential(None, trees_of(forest))))
+
+    def _exponential(self, i: str | None, word: tuple[Forest, ...]) -> Formula:
+        """Return the coefficient of a word in exp(u_i); i None means the step."""
+        if len(set(word)) == 1:
+            first = self._argument(i, word[:1])
+            return total((Fraction(1, factorial(len(word))), product(*([first] * len(word)))))
+        powers = [(Fraction(1, factorial(n)), self._power(i, n, word)) for n in range(1, len(word) + 1)]
+        return total(*powers) if word else one()
+
+    def _power(self, i: str | None, n: int, word: tuple[Forest, ...]) -> Formula:
+        if n == 0 or not word:
+            return zero() if n or word else one()
+        if n == 1:
+            return self._argument(i, word)
+        cuts = range(1, len(word) - n + 2)
+        return total(
+            *((1, product(self._argument(i, word[:cut]), self._power(i, n - 1, word[cut:]))) for cut in cuts)
+        )
+
+    def _argument(self, i: str | None, word: tuple[Forest, ...]) -> Formula:
+        """Return the coefficient of a word in u_i."""
+        if i is not None and word == (b"\0",):
+            return coefficient("c", i)
+        j = fresh()
+        weight = coefficient("b", j) if i is None else coefficient("a", i, j)
+        inner = self._dexpinv(j, word)
+        terms = inner.terms if isinstance(inner, Total) else ((Fraction(1), inner),)
+        return total(*((q, index_sum((j,), (), product(weight, term))) for q, term in terms))
+
+    def _dexpinv(self, j: str, word: tuple[Forest, ...]) -> Formula:
+        longest = len(word) - 1 if self.cutoff is None else min(len(word) - 1, self.cutoff)
+        terms = []
+        for place, tree in enumerate(word):
+            for q, m, n in dexpinv_terms(longest):
+                # As in the series: u^(k-m) x u^m reads the word of u^m first.
+                before, behind = self._power(j, m, word[:place]), self._power(j, n, word[place + 1 :])
+                value = self._exponential(j, trees_of(branches(tree)))
+                terms.append((q, product(before, value, behind)))
+        return total(*terms)
+
+
+def create(cutoff: int | None = None) -> MuntheKaasFamily:
+    """Return the family with dexpinv cut after the power ``cutoff``, or uncut.
+
+    Raises :class:`~orderconds.errors.InputError` for a negative cutoff.
+    """
+    if cutoff is not None and not (isinstance(cutoff, int) and cutoff >= 0):
+        raise InputError(f"cutoff {cutoff!r}", where="family rkmk", expected="an integer >= 0")
+    return MuntheKaasFamily(cutoff)
