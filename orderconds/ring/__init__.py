@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING, Any
 from orderconds.ring.protocol import Element, Ring
 
 if TYPE_CHECKING:
-    from orderconds.ring.field import Algebraic, NumberField
-
     from orderconds.ring.balls import Ball, Balls
+    from orderconds.ring.field import Algebraic, NumberField
     from orderconds.ring.polynomials import Polynomials
     from orderconds.ring.power_series import PowerSeries, Series
     from orderconds.ring.rationals import QQ, Rationals

@@ -6,12 +6,15 @@ unless the ball is the single point zero, which is how structural zeros of a tab
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from fractions import Fraction
 from typing import Any
 
 from flint import arb, fmpq
 
 from orderconds.ring.decimals import endpoints, rational_decimal, rational_float
 from orderconds.ring.precision import precision
+from orderconds.ring.roots import isolate
 
 
 class Balls:
@@ -47,6 +50,33 @@ class Balls:
         """Return a ball that contains [centre - radius, centre + radius]."""
         with precision(self.bits):
             return Ball(arb(centre) + arb(0, arb(radius)), self.bits)
+
+    def constant(self, value: Fraction, unit: Fraction = Fraction(0)) -> Ball:
+        """Return a ball that contains [value - unit, value + unit]."""
+        centre, radius = (fmpq(x.numerator, x.denominator) for x in (value, unit))
+        return self.around(centre, radius)
+
+    def root(self, x: Ball, index: int) -> Ball:
+        """Return the real root of x; ValueError for an even root of a ball that reaches below zero."""
+        with precision(self.bits):
+            if x.value >= 0:
+                return Ball(x.value.root(index), self.bits)
+            if index % 2 == 0:
+                raise ValueError("an even root of a number that is not known to be positive")
+            if x.value < 0:
+                return Ball(-((-x.value).root(index)), self.bits)
+        raise ValueError("a root of a number whose sign is not known")
+
+    def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Ball:
+        """Return the one real root of ``minpoly`` within ``unit`` of ``near``, else raise ValueError."""
+        coefficients = [fmpq(c.numerator, c.denominator) for c in minpoly]
+        centre, radius = (fmpq(x.numerator, x.denominator) for x in (near, unit))
+        return Ball(isolate(coefficients, centre, radius)[1](self.bits), self.bits)
+
+    def size(self, x: Ball) -> int:
+        """Return how far, in bits, the largest number in x is from 1; the mantissas are bounded."""
+        low, high = (abs(end) for end in (x.value.mid(), x.value.rad()))
+        return max(_magnitude(low), _magnitude(high))
 
     def enclose(self, x: arb) -> Ball:
         """Take a flint ball into this ring."""
@@ -100,6 +130,11 @@ class Balls:
     def ball(self, x: Ball, bits: int) -> arb:
         """Return the ball itself; more bits cannot be had."""
         return x.value
+
+
+def _magnitude(x: arb) -> int:
+    mantissa, exponent = x.man_exp()
+    return abs(int(mantissa.bit_length()) + int(exponent))
 
 
 def _supported_places(radius: fmpq) -> int:

@@ -1,0 +1,40 @@
+"""The natural maps between rings: Q into everything, number fields into balls, any ring into its series."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from orderconds.ring.balls import Balls
+from orderconds.ring.power_series import PowerSeries
+from orderconds.ring.protocol import Element, Ring
+from orderconds.ring.rationals import Rationals
+
+
+def embedding(source: Ring, target: Ring) -> Callable[[Element], Element]:
+    """Return the map that takes elements of ``source`` into ``target``; TypeError where there is none.
+
+    >>> from orderconds.ring import QQ, PowerSeries
+    >>> R = PowerSeries(QQ, 2)
+    >>> R.text(embedding(QQ, R)(QQ.rational(1, 2)))
+    '1/2'
+    """
+    if source == target:
+        return lambda x: x
+    if isinstance(target, PowerSeries):
+        inner, series = embedding(source, target.base), target
+        return lambda x: series.constant(inner(x))
+    if isinstance(source, Rationals):
+        return lambda x: target.rational(int(x.p), int(x.q))
+    if isinstance(target, Balls):
+        balls = target
+        return lambda x: balls.enclose(_ball(source, x, balls.bits))
+    if hasattr(target, "lift"):
+        lift: Callable[[Element], Element] = target.lift
+        return lift
+    raise TypeError(f"no map from {source.name} to {target.name}")
+
+
+def _ball(source: Ring, x: Element, bits: int) -> Element:
+    if not hasattr(source, "ball"):
+        raise TypeError(f"no enclosures of elements of {source.name}")
+    return source.ball(x, bits)

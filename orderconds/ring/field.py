@@ -1,0 +1,321 @@
+"""Real number fields: exact algebraic numbers that decide zero.
+
+A field Q(a) is a monic irreducible polynomial together with enclosures of the real root a; an element is a
+polynomial in a of lower degree. It is zero iff that polynomial is. Fields are built by
+:class:`orderconds.ring.tower.Tower`, one root at a time, and an element of a smaller field of the tower joins
+arithmetic in a larger one by itself.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
+from typing import Any
+
+from flint import arb, arb_poly, fmpq, fmpq_mat, fmpq_poly
+
+from orderconds.ring.decimals import Enclosure, decimal, nearest_float, rational_decimal, rational_float
+from orderconds.ring.precision import precision
+from orderconds.ring.roots import isolating
+
+
+@dataclass(frozen=True)
+class Generator:
+    """A root adjoined to a field: its spelling, the index n of a radical (0 for a named root), its enclosure.
+
+    A radical is spelled by its radicand, ``radicand^(1/index)``; a named root by its name. ``degree`` is
+    the degree of the field over the one before. ``minpoly`` is kept for named roots, so that a file can be
+    written.
+    """
+
+    spelling: str
+    index: int
+    degree: int
+    enclosure: Enclosure
+    minpoly: fmpq_poly | None = None
+
+    def power(self, n: int) -> str:
+        """Spell the n-th power, n > 0."""
+        if self.index == 0:
+            return self.spelling if n == 1 else f"{self.spelling}^{n}"
+        if self.index == 2 and n == 1:
+            return f"sqrt({self.spelling})"
+        base = self.spelling if self.spelling.isdigit() else f"({self.spelling})"
+        return f"{base}^({n}/{self.index})"
+
+
+class NumberField:
+    """The real field Q[x]/(modulus) with the embedding that sends x to the enclosed root.
+
+    ``generators`` are the adjoined roots, ``images`` their polynomials in x, ``parent`` the field before
+    the last generator and ``parent_image`` the image of its x.
+    """
+
+    def __init__(
+        self,
+        modulus: fmpq_poly,
+        enclosure: Enclosure,
+        generators: tuple[Generator, ...],
+        images: tuple[fmpq_poly, ...],
+        parent: NumberField | None = None,
+        parent_image: fmpq_poly | None = None,
+    ) -> None:
+        self.modulus, self.generators, self.images = modulus, generators, images
+        self.parent, self.parent_image = parent, parent_image
+        self.degree = int(modulus.degree())
+        self.height: int = 0 if parent is None else parent.height + 1
+        self.name = f"QQ({', '.join(g.power(1) for g in generators)})" if generators else "QQ()"
+        self._enclosure = enclosure
+        self._enclosed: dict[int, arb] = {}
+        self.zero = Algebraic(self, fmpq_poly([0]))
+        self.one = Algebraic(self, fmpq_poly([1]))
+
+    def __repr__(self) -> str:
+        return self.name
+
+    def enclosure(self, bits: int) -> arb:
+        """Return a ball around the primitive element, of relative radius about 2^-bits."""
+        if bits not in self._enclosed:
+            self._enclosed[bits] = self._enclosure(bits)
+        return self._enclosed[bits]
+
+    def rational(self, p: int, q: int = 1) -> Algebraic:
+        """Return p/q."""
+        return Algebraic(self, fmpq_poly([fmpq(p, q)]))
+
+    def is_zero(self, x: Algebraic) -> bool:
+        """Decide x = 0."""
+        return bool(x.polynomial.is_zero())
+
+    def lift(self, x: Algebraic) -> Algebraic:
+        """Return an element of a smaller field of the same tower as an element of this one."""
+        if x.field is self:
+            return x
+        if self.parent is None or self.parent_image is None or x.field.height >= self.height:
+            raise TypeError(f"{x.field} is no subfield of {self} by construction")
+        below = self.parent.lift(x).polynomial
+        return Algebraic(self, substituted(below, self.parent_image, self.modulus))
+
+    @property
+    def named_roots(self) -> tuple[tuple[str, tuple[str, ...], str], ...]:
+        """(name, minimal polynomial, isolating decimal) of the generators that have a name."""
+        return tuple(
+            (g.spelling, tuple(str(c) for c in g.minpoly.coeffs()), isolating(g.minpoly, g.enclosure))
+            for g in self.generators
+            if g.minpoly is not None
+        )
+
+    @cached_property
+    def monomials(self) -> tuple[tuple[int, ...], ...]:
+        """Exponents of the generators whose products are a basis of the field, lowest first."""
+        ranges = [range(g.degree) for g in reversed(self.generators)]
+        return tuple(tuple(reversed(exponents)) for exponents in product(*ranges))
+
+    @cached_property
+    def _to_monomials(self) -> fmpq_mat:
+        columns = []
+        for exponents in self.monomials:
+            value = fmpq_poly([1])
+            for image, n in zip(self.images, exponents, strict=True):
+                for _ in range(n):
+                    value = value * image % self.modulus
+            columns.append(value)
+        return _columns(columns, self.degree).inv()
+
+    def coordinates(self, x: Algebraic) -> tuple[fmpq, ...]:
+        """Return the coordinates of x in :attr:`monomials`."""
+        return tuple((self._to_monomials * _columns([x.polynomial], self.degree)).entries())
+
+    def text(self, x: Algebraic) -> str:
+        """Spell x in the generators, in the grammar of tableau files.
+
+        >>> from orderconds.ring.tower import Tower
+        >>> tower = Tower()
+        >>> x = tower.rational(1, 4) - tower.root(tower.rational(3), 2) / 6
+        >>> x.field.text(x)
+        '1/4 - sqrt(3)/6'
+        """
+        terms = []
+        for exponents, c in zip(self.monomials, self.coordinates(x), strict=True):
+            if c != 0:
+                powers = [g.power(n) for g, n in zip(self.generators, exponents, strict=True) if n]
+                terms.append(("- " if c < 0 else "+ ") + _term(abs(c), "*".join(powers)))
+        text = " ".join(terms).removeprefix("+ ")
+        return "-" + text[2:] if text.startswith("- ") else text or "0"
+
+    def key(self, x: Algebraic) -> tuple[Any, ...]:
+        """Return the coefficients of the representing polynomial."""
+        return tuple((int(c.p), int(c.q)) for c in x.polynomial.coeffs())
+
+    def ball(self, x: Algebraic, bits: int) -> arb:
+        """Return a ball around x of relative radius at most 2^-bits."""
+        if self.is_zero(x):
+            return arb(0)
+        working = bits + 32
+        while True:
+            at = self.enclosure(working)
+            with precision(working):
+                value = arb_poly(x.polynomial)(at)
+            if value.rel_accuracy_bits() >= bits:
+                return value
+            working *= 2
+
+    def sign(self, x: Algebraic) -> int:
+        """Return -1, 0 or 1."""
+        return 0 if self.is_zero(x) else 1 if self.ball(x, 8) > 0 else -1
+
+    def approximate(self, x: Algebraic, digits: int = 20) -> str:
+        """Return x as a decimal, correctly rounded."""
+        if x.is_rational:
+            return rational_decimal(x.rational_value, digits)
+        return decimal(lambda bits: self.ball(x, bits), digits)
+
+    def nearest_float(self, x: Algebraic) -> float:
+        """Return the double nearest to x."""
+        if x.is_rational:
+            return rational_float(x.rational_value)
+        return nearest_float(lambda bits: self.ball(x, bits))
+
+
+class Algebraic:
+    """An element of a number field: ``polynomial`` in the primitive element, reduced.
+
+    Operands may be elements of fields of the same tower, fmpq or int.
+    """
+
+    __slots__ = ("field", "polynomial")
+
+    def __init__(self, field: NumberField, polynomial: fmpq_poly) -> None:
+        self.field, self.polynomial = field, polynomial
+
+    def __repr__(self) -> str:
+        return f"Algebraic({self.field.text(self)})"
+
+    @property
+    def is_rational(self) -> bool:
+        """Whether this number lies in Q."""
+        return bool(self.polynomial.degree() <= 0)
+
+    @property
+    def rational_value(self) -> fmpq:
+        """The value of a rational element."""
+        return self.polynomial[0]
+
+    @property
+    def minimal_polynomial(self) -> fmpq_poly:
+        """The monic irreducible polynomial over Q with this root.
+
+        >>> from orderconds.ring.tower import Tower
+        >>> tower = Tower()
+        >>> x = tower.root(tower.rational(2), 2) + tower.root(tower.rational(3), 2)
+        >>> x.minimal_polynomial
+        x^4 + (-10)*x^2 + 1
+        """
+        columns, image = [], fmpq_poly([1])
+        for _ in range(self.field.degree):
+            columns.append(self.polynomial * image % self.field.modulus)
+            image = image * fmpq_poly([0, 1]) % self.field.modulus
+        # multiplication by x has a power of the minimal polynomial as characteristic polynomial
+        factor = _columns(columns, self.field.degree).charpoly().factor()[1][0][0]
+        return factor / factor.leading_coefficient()
+
+    def _pair(self, other: Any) -> tuple[Algebraic, Algebraic] | None:
+        if isinstance(other, Algebraic):
+            if other.field is self.field:
+                return self, other
+            if other.field.height < self.field.height:
+                return self, self.field.lift(other)
+            return other.field.lift(self), other
+        if isinstance(other, int | fmpq):
+            return self, Algebraic(self.field, fmpq_poly([other]))
+        return None
+
+    def __add__(self, other: Any) -> Algebraic:
+        if (pair := self._pair(other)) is None:
+            return NotImplemented
+        x, y = pair
+        return Algebraic(x.field, x.polynomial + y.polynomial)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> Algebraic:
+        if (pair := self._pair(other)) is None:
+            return NotImplemented
+        x, y = pair
+        return Algebraic(x.field, x.polynomial - y.polynomial)
+
+    def __rsub__(self, other: Any) -> Algebraic:
+        return (-self).__add__(other)
+
+    def __neg__(self) -> Algebraic:
+        return Algebraic(self.field, -self.polynomial)
+
+    def __mul__(self, other: Any) -> Algebraic:
+        if isinstance(other, int | fmpq):
+            return Algebraic(self.field, self.polynomial * other)
+        if (pair := self._pair(other)) is None:
+            return NotImplemented
+        x, y = pair
+        return Algebraic(x.field, x.polynomial * y.polynomial % x.field.modulus)
+
+    __rmul__ = __mul__
+
+    def reciprocal(self) -> Algebraic:
+        """Return 1/x; ZeroDivisionError for x = 0."""
+        if self.polynomial.is_zero():
+            raise ZeroDivisionError("division by an algebraic number that is zero")
+        return Algebraic(self.field, self.polynomial.xgcd(self.field.modulus)[1])
+
+    def __truediv__(self, other: Any) -> Algebraic:
+        if (pair := self._pair(other)) is None:
+            return NotImplemented
+        return pair[0] * pair[1].reciprocal()
+
+    def __rtruediv__(self, other: Any) -> Algebraic:
+        return self.reciprocal().__mul__(other)
+
+    def __pow__(self, n: int) -> Algebraic:
+        base = self if n >= 0 else self.reciprocal()
+        result, n = self.field.one, abs(n)
+        while n:
+            if n & 1:
+                result = result * base
+            base, n = base * base, n >> 1
+        return result
+
+    def __eq__(self, other: object) -> bool:
+        pair = self._pair(other)
+        return pair is not None and bool(pair[0].polynomial == pair[1].polynomial)
+
+    def __hash__(self) -> int:
+        return hash(self.field.key(self))
+
+    def __lt__(self, other: Any) -> bool:
+        difference = self - other
+        return difference.field.sign(difference) < 0
+
+    def __float__(self) -> float:
+        return self.field.nearest_float(self)
+
+
+def _term(c: fmpq, monomial: str) -> str:
+    """Spell the positive rational c times a monomial: ``5*sqrt(3)/6``."""
+    if not monomial:
+        return str(c)
+    top = monomial if c.p == 1 else f"{c.p}*{monomial}"
+    return top if c.q == 1 else f"{top}/{c.q}"
+
+
+def substituted(polynomial: fmpq_poly, at: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
+    """Return polynomial(at) modulo ``modulus``."""
+    result = fmpq_poly([0])
+    for c in reversed(polynomial.coeffs()):
+        result = (result * at + c) % modulus
+    return result
+
+
+def _columns(polynomials: list[fmpq_poly], degree: int) -> fmpq_mat:
+    """Return the matrix whose columns are the coefficients of polynomials of lower degree."""
+    rows = [[p[i] for p in polynomials] for i in range(degree)]
+    return fmpq_mat(degree, len(polynomials), [x for row in rows for x in row])

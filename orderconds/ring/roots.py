@@ -1,0 +1,67 @@
+"""Real roots of rational polynomials, isolated by a decimal and enclosed to any precision."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+
+from flint import arb, fmpq, fmpq_poly
+
+from orderconds.ring.decimals import Enclosure, endpoints
+from orderconds.ring.precision import precision
+
+
+def isolate(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_poly, Enclosure]:
+    """Return the monic irreducible factor with the one real root in near +- unit, and that root.
+
+    ``coefficients`` ascend. Raises ValueError when the interval holds no root or more than one.
+
+    >>> factor, root = isolate([fmpq(-2), fmpq(0), fmpq(0), fmpq(1)], fmpq(126, 100), fmpq(1, 100))
+    >>> factor, root(64).overlaps(arb(2).root(3))
+    (x^3 + (-2), True)
+    """
+    polynomial = fmpq_poly(list(coefficients))
+    if polynomial.degree() < 1:
+        raise ValueError("a constant polynomial has no root")
+    found = []
+    for factor, _ in polynomial.factor()[1]:
+        monic = factor / factor.leading_coefficient()
+        found += [(monic, k) for k, x in enumerate(_real_roots(monic, 256)) if _meets(x, near, unit)]
+    if len(found) != 1:
+        raise ValueError(f"{len(found) or 'no'} real roots within {unit} of {near}")
+    monic, k = found[0]
+    return monic, lambda bits: _real_roots(monic, bits)[k]
+
+
+def isolating(monic: fmpq_poly, root: Enclosure) -> str:
+    """Return the shortest decimal, of at least 10 places, within one unit of which this root lies alone."""
+    places = 10
+    while True:
+        unit = fmpq(1, 10**places)
+        low, _ = endpoints(root(4 * places + 64))
+        figures = int((low / unit).round())
+        try:
+            isolate(monic.coeffs(), figures * unit, unit)
+        except ValueError:
+            places *= 2
+        else:
+            digits = str(abs(figures)).rjust(places + 1, "0")
+            return f"{'-' if figures < 0 else ''}{digits[:-places]}.{digits[-places:]}"
+
+
+def _meets(x: arb, near: fmpq, unit: fmpq) -> bool:
+    low, high = endpoints(x)
+    return bool(low <= near + unit and near - unit <= high)
+
+
+def _real_roots(monic: fmpq_poly, bits: int) -> tuple[arb, ...]:
+    """Return balls around the real roots, ascending: an index names the same root at any precision."""
+    return _ascending(tuple(str(c) for c in monic.coeffs()), bits)
+
+
+@lru_cache(maxsize=256)
+def _ascending(coefficients: tuple[str, ...], bits: int) -> tuple[arb, ...]:
+    polynomial = fmpq_poly([fmpq(c) for c in coefficients])
+    with precision(bits + 32):
+        roots = [x for x, _ in polynomial.complex_roots() if x.imag == 0]
+    return tuple(sorted((x.real for x in roots), key=lambda x: endpoints(x)[0]))

@@ -1,0 +1,250 @@
+"""Number fields from radicals and named roots, one at a time, until one field holds every coefficient.
+
+To adjoin a root b of a separable polynomial over K = Q(a), form the algebra K[x]/(polynomial), find an
+element c (b, ab, b + a, b - a, ...) whose powers span it, and its characteristic polynomial. The
+irreducible factor that c satisfies as a real number is chosen by balls. So sqrt(8) = 2 sqrt(2) is seen: the
+factor then has the degree of K, and b is returned as an element of K.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
+from math import gcd
+
+from flint import arb, arb_poly, fmpq, fmpq_mat, fmpq_poly, fmpz
+
+from orderconds.ring.decimals import Enclosure
+from orderconds.ring.field import Algebraic, Generator, NumberField, substituted
+from orderconds.ring.precision import precision
+from orderconds.ring.protocol import Element, Ring
+from orderconds.ring.rationals import QQ
+from orderconds.ring.roots import isolate
+
+MAX_DEGREE = 24
+"""Fields of larger degree are refused: balls serve better there."""
+MAX_DIMENSION = 64
+"""Algebras of larger dimension are not even formed."""
+
+
+class DegreeTooHigh(ArithmeticError):
+    """The field would exceed :data:`MAX_DEGREE`."""
+
+
+class Tower:
+    """A growing number field; numbers made earlier stay valid, since they lift to the later fields.
+
+    >>> tower = Tower()
+    >>> r = tower.root(tower.rational(2), 2)
+    >>> tower.root(tower.rational(8), 2) == 2 * r, tower.field.degree
+    (True, 2)
+    """
+
+    def __init__(self) -> None:
+        self.field = NumberField(fmpq_poly([0, 1]), lambda bits: arb(0), (), ())
+        self._radicals: list[tuple[Algebraic, int, Algebraic]] = []
+
+    def rational(self, p: int, q: int = 1) -> Algebraic:
+        """Return p/q."""
+        return self.field.rational(p, q)
+
+    def constant(self, value: Fraction, unit: Fraction) -> Algebraic:
+        """Return an exact rational; a positive ``unit`` (a ball) does not belong here."""
+        if unit:
+            raise TypeError("a ball has no place in a number field")
+        return self.field.rational(value.numerator, value.denominator)
+
+    def ring(self) -> tuple[Ring, Callable[[Algebraic], Element]]:
+        """Return the final ring, Q itself where nothing was adjoined, and the lift of earlier numbers into it."""
+        if self.field.degree == 1:
+            return QQ, lambda x: x.rational_value
+        return self.field, self.field.lift
+
+    def size(self, x: Algebraic) -> int:
+        """Return the bits of the largest integer in the representation of x."""
+        polynomial = x.polynomial
+        return max(int(polynomial.numer().height_bits()), int(polynomial.denom().bit_length()))
+
+    def root(self, x: Algebraic, index: int) -> Algebraic:
+        """Return the real root of x of that index, adjoining it if need be.
+
+        Raises ValueError for an even root of a negative number, :class:`DegreeTooHigh`.
+        """
+        sign = x.field.sign(x)
+        if sign == 0 or index == 1:
+            return x
+        if sign < 0:
+            if index % 2 == 0:
+                raise ValueError("an even root of a negative number")
+            return -self.root(-x, index)
+        if x.is_rational:
+            return self._rational_root(x.rational_value, index)
+        return self._radical(x, index)
+
+    def _rational_root(self, x: fmpq, index: int) -> Algebraic:
+        """Return x^(1/index) as a rational times the root of the smallest integer: (p/q) = p q^(k-1) / q^k."""
+        inside = fmpz(x.p) * fmpz(x.q) ** (index - 1)
+        outside, rest = fmpz(1), []
+        for prime, exponent in _factors(inside):
+            outside *= prime ** (exponent // index)
+            if exponent % index:
+                rest.append((prime, exponent % index))
+        common = gcd(index, *(exponent for _, exponent in rest))
+        radicand = fmpz(1)
+        for prime, exponent in rest:
+            radicand *= prime ** (exponent // common)
+        factor = fmpq(outside, x.q)
+        if radicand == 1:
+            return self.field.rational(1) * factor
+        return self._radical(self.field.rational(int(radicand)), index // common) * factor
+
+    def _radical(self, x: Algebraic, index: int) -> Algebraic:
+        x = self.field.lift(x)
+        for radicand, known, root in self._radicals:
+            if known == index and radicand == x:
+                return root
+
+        def enclosure(bits: int) -> arb:
+            inside = x.field.ball(x, bits + 8)
+            with precision(bits + 16):
+                return inside.root(index)
+
+        powers = [x] + [self.field.zero] * (index - 1)
+        spelling = x.field.text(x)
+        root = self._adjoin(powers, enclosure, lambda n: Generator(spelling, index, n, enclosure))
+        self._radicals.append((x, index, root))
+        return root
+
+    def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Algebraic:
+        """Return the one real root of ``minpoly`` (ascending) within ``unit`` of ``near``, spelled ``name``.
+
+        Raises ValueError where there is not exactly one, :class:`DegreeTooHigh`.
+        """
+        coefficients = [fmpq(c.numerator, c.denominator) for c in minpoly]
+        centre, radius = (fmpq(x.numerator, x.denominator) for x in (near, unit))
+        factor, enclosure = isolate(coefficients, centre, radius)
+        powers = [self.field.one * -c for c in factor.coeffs()[:-1]]
+        return self._adjoin(powers, enclosure, lambda n: Generator(name, 0, n, enclosure, factor))
+
+    def _adjoin(
+        self, powers: list[Algebraic], enclosure: Enclosure, generator: Callable[[int], Generator]
+    ) -> Algebraic:
+        """Adjoin b with b^k = sum_j powers[j] b^j, k = len(powers); return b in the field it then lies in."""
+        field = self.field
+        if len(powers) == 1:
+            return powers[0]
+        dimension = field.degree * len(powers)
+        if dimension > MAX_DIMENSION:
+            raise DegreeTooHigh(f"an algebra of dimension {dimension}")
+        multiplier, relation = _primitive(field, powers)
+
+        def primitive(bits: int) -> arb:
+            a, b = field.enclosure(bits + 8), enclosure(bits + 8)
+            with precision(bits + 16):
+                return a * b if multiplier is None else b + multiplier * a
+
+        modulus = _satisfied(relation.characteristic, primitive)
+        degree = int(modulus.degree())
+        a, b = relation.a % modulus, relation.b % modulus
+        if degree == field.degree:
+            return Algebraic(field, _in_powers_of(a, b, modulus))
+        if degree > MAX_DEGREE:
+            raise DegreeTooHigh(f"a number field of degree {degree}")
+        below = tuple(substituted(image, a, modulus) for image in field.images)
+        added = generator(degree // field.degree)
+        self.field = NumberField(modulus, primitive, (*field.generators, added), (*below, b), field, a)
+        return Algebraic(self.field, b)
+
+
+class _Relation:
+    """An element c generating an algebra: its characteristic polynomial, and a and b as polynomials in c."""
+
+    def __init__(self, solution: fmpq_mat, dimension: int) -> None:
+        column = [fmpq_poly([solution[i, j] for i in range(dimension)]) for j in range(3)]
+        self.characteristic = fmpq_poly([0] * dimension + [1]) - column[0]
+        self.a, self.b = column[1], column[2]
+
+
+def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
+    """Return (m, relation) for c = b + m a, or (None, relation) for c = ab, whichever first spans the algebra."""
+    dimension = field.degree * len(powers)
+    for multiplier in _multipliers(field.degree):
+        vector = [field.one] + [field.zero] * (len(powers) - 1)
+        columns = []
+        for _ in range(dimension + 1):
+            columns.append(vector)
+            vector = _times(vector, powers, multiplier)
+        a = [Algebraic(field, fmpq_poly([0, 1]) % field.modulus), *columns[0][1:]]
+        b = [field.zero, field.one, *columns[0][2:]]
+        left = _flat(columns[:-1], field.degree)
+        try:
+            return multiplier, _Relation(left.solve(_flat([columns[-1], a, b], field.degree)), dimension)
+        except ZeroDivisionError:
+            continue
+    raise AssertionError("a separable algebra over Q has a primitive element")
+
+
+def _multipliers(degree: int) -> Iterator[int | None]:
+    yield 0
+    if degree > 1:
+        yield None
+        for m in range(1, 10_000):
+            yield m
+            yield -m
+
+
+def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | None) -> list[Algebraic]:
+    """Multiply an element of the algebra, given by its coefficients of b^j, by ab or b + multiplier a."""
+    field = powers[0].field
+    top = vector[-1]
+    shifted = [x + top * p for x, p in zip([field.zero, *vector[:-1]], powers, strict=True)]
+    if multiplier == 0:
+        return shifted
+    a = Algebraic(field, fmpq_poly([0, 1]) % field.modulus)
+    if multiplier is None:
+        return [x * a for x in shifted]
+    return [x + y * a * multiplier for x, y in zip(shifted, vector, strict=True)]
+
+
+def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
+    """Return the matrix of the algebra's elements over Q, one column each."""
+    rows = [
+        [column[j].polynomial[i] for column in columns] for j in range(len(columns[0])) for i in range(degree)
+    ]
+    return fmpq_mat(len(rows), len(columns), [x for row in rows for x in row])
+
+
+def _satisfied(characteristic: fmpq_poly, enclosure: Enclosure) -> fmpq_poly:
+    """Return the monic irreducible factor that vanishes at the enclosed number."""
+    factors = [factor / factor.leading_coefficient() for factor, _ in characteristic.factor()[1]]
+    bits = 64
+    while len(factors) > 1:
+        at = enclosure(bits)
+        with precision(bits):
+            factors = [factor for factor in factors if arb_poly(factor)(at).contains(0)]
+        bits *= 2
+    return factors[0]
+
+
+def _in_powers_of(a: fmpq_poly, b: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
+    """Return b as a polynomial in a, both given modulo ``modulus``, where a generates the same field."""
+    degree, power, powers = int(modulus.degree()), fmpq_poly([1]) % modulus, []
+    for _ in range(degree):
+        powers.append(power)
+        power = power * a % modulus
+    left = fmpq_mat(degree, degree, [p[i] for i in range(degree) for p in powers])
+    return fmpq_poly(left.solve(fmpq_mat(degree, 1, [b[i] for i in range(degree)])).entries())
+
+
+def _factors(n: fmpz) -> list[tuple[fmpz, int]]:
+    """Factor a positive integer, the part beyond 128 bits left whole once small primes are out."""
+    found = []
+    if n.bit_length() > 128:
+        for prime in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37):
+            exponent = 0
+            while n % prime == 0:
+                n, exponent = n // prime, exponent + 1
+            if exponent:
+                found.append((fmpz(prime), exponent))
+        return [*found, (n, 1)] if n > 1 else found
+    return [(prime, int(exponent)) for prime, exponent in n.factor()]

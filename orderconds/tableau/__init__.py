@@ -1,0 +1,55 @@
+"""Tableaux: the record, the strict TOML format with its coefficient grammar, derived properties, the library."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from orderconds.tableau.file import load, loads
+    from orderconds.tableau.library import available, find
+    from orderconds.tableau.methods import CommutatorFree, Composition, Embedded, Method, RungeKutta, Stage
+    from orderconds.tableau.record import Claims, OrderClaim, Tableau
+    from orderconds.tableau.write import dumps
+
+_HOME = {
+    "Claims": "record",
+    "CommutatorFree": "methods",
+    "Composition": "methods",
+    "Embedded": "methods",
+    "Method": "methods",
+    "OrderClaim": "record",
+    "RungeKutta": "methods",
+    "Stage": "methods",
+    "Tableau": "record",
+    "available": "library",
+    "dumps": "write",
+    "find": "library",
+    "load": "file",
+    "loads": "file",
+}
+
+__all__ = [
+    "Claims",
+    "CommutatorFree",
+    "Composition",
+    "Embedded",
+    "Method",
+    "OrderClaim",
+    "RungeKutta",
+    "Stage",
+    "Tableau",
+    "available",
+    "dumps",
+    "find",
+    "load",
+    "loads",
+]
+
+
+def __getattr__(name: str) -> Any:
+    try:
+        home = _HOME[name]
+    except KeyError:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}") from None
+    return getattr(import_module(f"{__name__}.{home}"), name)

@@ -1,0 +1,171 @@
+"""Coefficients of one file evaluated in one ring: Q, the number field their radicals generate, or balls.
+
+The ring is chosen by what is met: rationals stay rational; radicals and named roots build a number field,
+of degree at most :data:`orderconds.ring.tower.MAX_DEGREE`; a ``~`` anywhere, or a larger degree, makes
+everything balls. Equal spellings in one file denote one number and share one element.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Protocol
+
+from orderconds.errors import TableauError
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.grammar import MAX_DEPTH, Constant, Expression, Name, Operation, Power
+
+MAX_SIZE = 40_000
+"""No intermediate value may need integers of more bits than this."""
+
+
+@dataclass(frozen=True)
+class NamedRoot:
+    """A real root given by a polynomial over Q (ascending coefficients) and a decimal that isolates it."""
+
+    minpoly: tuple[Fraction, ...]
+    near: Constant
+
+
+Definition = Expression | NamedRoot
+
+
+class Scalars(Protocol):
+    """Where expressions are evaluated: a growing number field or balls."""
+
+    def constant(self, value: Fraction, unit: Fraction) -> Element:
+        """Return a rational, or with a positive unit a ball around it."""
+
+    def root(self, x: Element, index: int) -> Element:
+        """Return the real root; ValueError for an even root of a negative number."""
+
+    def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Element:
+        """Return the one real root within a unit of ``near``; ValueError where there is not exactly one."""
+
+    def size(self, x: Element) -> int:
+        """Return the bits of the largest integer in the representation of x."""
+
+
+def evaluate(
+    expressions: Mapping[str, Expression], numbers: Mapping[str, Definition], where: str
+) -> tuple[Ring, dict[str, Element]]:
+    """Evaluate expressions, keyed by the place they stand in, in the smallest ring that holds them all.
+
+    ``numbers`` may refer to each other, in any order, without a cycle. Raises :class:`TableauError`.
+    """
+    from orderconds.ring.tower import DegreeTooHigh, Tower
+
+    constants = [c for x in (*expressions.values(), *numbers.values()) for c in _constants(x)]
+    if not any(c.unit for c in constants):
+        tower = Tower()
+        try:
+            values = _Evaluation(tower, numbers, where).all(expressions)
+        except DegreeTooHigh:
+            pass
+        else:
+            ring, lift = tower.ring()
+            return ring, _shared(values, lift)
+    from orderconds.ring.balls import Balls
+
+    balls = Balls(_bits(constants))
+    return balls, _Evaluation(balls, numbers, where).all(expressions)
+
+
+def _shared(values: Mapping[str, Element], lift: Any) -> dict[str, Element]:
+    """Lift every value once, so that shared elements stay shared."""
+    lifted = {id(x): lift(x) for x in values.values()}
+    return {key: lifted[id(x)] for key, x in values.items()}
+
+
+def _constants(x: Definition) -> Iterator[Constant]:
+    if isinstance(x, Constant):
+        yield x
+    elif isinstance(x, Operation):
+        yield from _constants(x.left)
+        yield from _constants(x.right)
+    elif isinstance(x, Power):
+        yield from _constants(x.base)
+
+
+def _bits(constants: Sequence[Constant]) -> int:
+    """Return a working precision well beyond the digits that were given."""
+    return max([256, *(64 + 4 * len(str(c.unit.denominator)) for c in constants)])
+
+
+class _Evaluation:
+    """Expressions in one ring, each distinct expression evaluated once."""
+
+    def __init__(self, scalars: Scalars, numbers: Mapping[str, Definition], where: str) -> None:
+        self.scalars, self.numbers, self.where = scalars, numbers, where
+        self.known: dict[Expression, Element] = {}
+        self.open: list[str] = []
+        self.place = ""
+
+    def error(self, found: str, expected: str) -> TableauError:
+        return TableauError(found, where=f"{self.where}: {self.place}", expected=expected)
+
+    def all(self, expressions: Mapping[str, Expression]) -> dict[str, Element]:
+        for name in self.numbers:  # also those that nothing uses: they are checked all the same
+            self.place = f"numbers.{name}"
+            self.value(Name(name))
+        result = {}
+        for self.place, expression in expressions.items():
+            result[self.place] = self.value(expression)
+        return result
+
+    def value(self, x: Expression) -> Element:
+        if x not in self.known:
+            value = self.compute(x)
+            if self.scalars.size(value) > MAX_SIZE:
+                raise self.error("an exploding number", f"values whose integers have at most {MAX_SIZE} bits")
+            self.known[x] = value
+        return self.known[x]
+
+    def compute(self, x: Expression) -> Element:
+        if isinstance(x, Constant):
+            return self.scalars.constant(x.value, x.unit)
+        if isinstance(x, Name):
+            return self.named(x.name)
+        if isinstance(x, Power):
+            return self.power(self.value(x.base), x.exponent)
+        left, right = self.value(x.left), self.value(x.right)
+        if x.operator == "+":
+            return left + right
+        if x.operator == "-":
+            return left - right
+        if x.operator == "*":
+            return left * right
+        try:
+            return left / right
+        except ZeroDivisionError:
+            raise self.error("division by zero", "a divisor that is not zero") from None
+
+    def power(self, base: Element, exponent: Fraction) -> Element:
+        if self.scalars.size(base) * abs(exponent.numerator) > MAX_SIZE:
+            raise self.error(f"an exploding power ^{exponent}", f"results of at most {MAX_SIZE} bits")
+        try:
+            root = self.scalars.root(base, exponent.denominator) if exponent.denominator > 1 else base
+            return root**exponent.numerator
+        except ZeroDivisionError:
+            raise self.error("division by zero", "a divisor that is not zero") from None
+        except ValueError as problem:
+            raise self.error(str(problem), "a real number") from None
+
+    def named(self, name: str) -> Element:
+        if name not in self.numbers:
+            defined = ", ".join(self.numbers) or "none"
+            raise self.error(f"the name {name!r}", f"a number, or a name defined under numbers ({defined})")
+        if name in self.open or len(self.open) >= MAX_DEPTH:
+            raise self.error(f"numbers defined in a circle: {' -> '.join([*self.open, name])}", "no circle")
+        definition = self.numbers[name]
+        self.open.append(name)
+        try:
+            if isinstance(definition, NamedRoot):
+                near = definition.near
+                return self.scalars.named_root(definition.minpoly, near.value, near.unit, name)
+            return self.value(definition)
+        except ValueError as problem:
+            raise self.error(str(problem), "minpoly with exactly one real root near the decimal") from None
+        finally:
+            self.open.pop()

@@ -1,0 +1,209 @@
+"""Reading tableau files: strict TOML, in which an unknown key is an error that names the known ones."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Mapping
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from orderconds.errors import TableauError
+from orderconds.tableau.evaluate import Definition, NamedRoot, evaluate
+from orderconds.tableau.formats import (
+    FORMATS,
+    CutoffClaim,
+    EmbeddedEntry,
+    Format,
+    LowStorage,
+    RootEntry,
+    StageEntry,
+)
+from orderconds.tableau.grammar import Constant, Expression, Operation, parse
+from orderconds.tableau.properties import PROPERTIES
+from orderconds.tableau.record import Claims, OrderClaim, Tableau
+
+MAX_BYTES = 1_000_000
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.+-]*")
+_NUMBER = re.compile(r"[A-Za-z_]\w*", re.ASCII)
+_NESTED: dict[str, type[msgspec.Struct]] = {
+    "embedded": EmbeddedEntry,
+    "stage": StageEntry,
+    "update": StageEntry,
+    "low_storage": LowStorage,
+    "numbers": RootEntry,
+    "claims": CutoffClaim,
+}
+
+
+def load(path: str | Path) -> Tableau:
+    """Read the tableau file at ``path``.
+
+    Raises :class:`TableauError` naming the file, the key, what was found and what was expected.
+    """
+    file = Path(path)
+    try:
+        if file.stat().st_size > MAX_BYTES:
+            raise TableauError(
+                "a file too large for a tableau", where=str(path), expected=f"{MAX_BYTES} bytes"
+            )
+        text = file.read_text(encoding="utf-8")
+    except OSError as problem:
+        reason = (problem.strerror or "unreadable").lower()
+        raise TableauError(reason, where=str(path), expected="a tableau file (TOML)") from None
+    except UnicodeDecodeError:
+        raise TableauError(
+            "bytes that are no UTF-8", where=str(path), expected="a tableau file (TOML)"
+        ) from None
+    return loads(text, str(path), str(path))
+
+
+def loads(text: str, where: str = "<text>", path: str | None = None) -> Tableau:
+    """Read a tableau from TOML text; ``where`` names it in messages.
+
+    >>> loads('name = "euler"\\nfamily = "rk"\\nA = [[]]\\nb = ["1"]').method
+    RungeKutta(A=((0,),), b=(1,))
+    """
+    try:
+        data = tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError) as problem:
+        found = str(problem) or "TOML nested too deep"
+        raise TableauError(found, where=where, expected="a TOML file in which each key stands once") from None
+    entry = _converted(data, where)
+    _verify_names(entry, where)
+    entry.verify(where)
+    expressions = {place: _parsed(x, f"{where}: {place}") for place, x in entry.coefficients()}
+    ring, values = evaluate(expressions, _numbers(entry, where), where)
+    method, embedded = entry.build(values, ring)
+    return Tableau(
+        name=entry.name,
+        family=entry.family,
+        ring=ring,
+        method=method,
+        source=entry.source,
+        bibtex=entry.bibtex,
+        claims=_claims(entry, where),
+        embedded=embedded,
+        path=path,
+    )
+
+
+def _converted(data: Mapping[str, Any], where: str) -> Format:
+    """Return the typed file, its format chosen by ``family``."""
+    family = data.get("family")
+    if not isinstance(family, str) or family not in FORMATS:
+        found = "no family" if family is None else f"family = {family!r}"
+        raise TableauError(found, where=f"{where}: family", expected=f"one of {', '.join(FORMATS)}")
+    kind = FORMATS[family]
+    try:
+        return msgspec.convert(data, kind)
+    except msgspec.ValidationError as problem:
+        raise _explained(str(problem), kind, where) from None
+
+
+def _explained(message: str, kind: type[Format], where: str) -> TableauError:
+    """Turn msgspec's message into one that says where, what, and what was expected."""
+    found, _, path = message.partition(" - at `$")
+    key = re.sub(r"\[(\d+)\]", lambda m: f"[{int(m[1]) + 1}]", path.rstrip("`").removeprefix("."))
+    place = f"{where}: {key}" if key else where
+    if unknown := re.fullmatch(r"Object contains unknown field `(.*)`", found, re.DOTALL):
+        struct = _NESTED.get(re.split(r"[.\[]", key)[0], kind) if key else kind
+        keys = ", ".join(sorted(struct.__struct_encode_fields__))
+        return TableauError(f"unknown key {unknown[1]!r}", where=place, expected=f"one of {keys}")
+    if missing := re.fullmatch(r"Object missing required field `(.*)`", found, re.DOTALL):
+        return TableauError(f"no {missing[1]}", where=place, expected=f"the key {missing[1]}")
+    if wrong := re.fullmatch(r"Expected `(.*)`, got `(.*)`", found, re.DOTALL):
+        hint = ""
+        if wrong[2] == "float" and "str" in wrong[1]:
+            hint = 'quote it: "0.5" is exactly 1/2, "0.81772~" a rounded decimal'
+        return TableauError(f"a value of type {wrong[2]}", where=place, expected=wrong[1], hint=hint)
+    return TableauError(found[:1].lower() + found[1:], where=place)
+
+
+def _verify_names(entry: Format, where: str) -> None:
+    if not _NAME.fullmatch(entry.name):
+        raise TableauError(
+            f"name = {entry.name!r}", where=f"{where}: name", expected="letters, digits, _ . + -"
+        )
+    for name in entry.numbers:
+        if not _NUMBER.fullmatch(name) or name == "sqrt":
+            raise TableauError(
+                f"the name {name!r}",
+                where=f"{where}: numbers",
+                expected="a letter, then letters, digits and _; sqrt is taken",
+            )
+
+
+def _parsed(x: str | int, where: str) -> Expression:
+    return parse(x, where) if isinstance(x, str) else Constant(Fraction(x))
+
+
+def _numbers(entry: Format, where: str) -> dict[str, Definition]:
+    result: dict[str, Definition] = {}
+    for name, definition in entry.numbers.items():
+        place = f"{where}: numbers.{name}"
+        if isinstance(definition, RootEntry):
+            minpoly = tuple(_rational(x, f"{place}.minpoly") for x in definition.minpoly)
+            if not 2 <= len(minpoly) <= 25:
+                raise TableauError(
+                    f"{len(minpoly)} coefficients", where=f"{place}.minpoly", expected="a degree from 1 to 24"
+                )
+            result[name] = NamedRoot(minpoly, _decimal(definition.near, f"{place}.near"))
+        else:
+            result[name] = _parsed(definition, place)
+    return result
+
+
+def _rational(x: str | int, where: str) -> Fraction:
+    """Read a coefficient of a minimal polynomial: a rational, since radicals need no polynomial."""
+    try:
+        return _fraction(_parsed(x, where))
+    except (TypeError, ZeroDivisionError):
+        raise TableauError(f"the coefficient {x!r}", where=where, expected="a rational number") from None
+
+
+def _fraction(x: Expression) -> Fraction:
+    if isinstance(x, Constant) and not x.unit:
+        return x.value
+    if isinstance(x, Operation) and x.operator in "-/":
+        left, right = _fraction(x.left), _fraction(x.right)
+        return left - right if x.operator == "-" else left / right
+    raise TypeError("not a rational number")
+
+
+def _decimal(text: str, where: str) -> Constant:
+    """Read an isolating decimal: the root lies within one unit of its last digit."""
+    match = re.fullmatch(r"([+-]?\d{1,200})(?:\.(\d{0,200}))?~?", text, re.ASCII)
+    if match is None:
+        raise TableauError(f"near = {text!r}", where=where, expected='a decimal such as "1.2599"')
+    places = match[2] or ""
+    return Constant(Fraction(f"{match[1]}.{places}0"), Fraction(1, 10 ** len(places)))
+
+
+def _claims(entry: Format, where: str) -> Claims:
+    orders, properties = [], {}
+    for key, value in entry.claims.items():
+        if isinstance(value, bool):
+            if key not in PROPERTIES:
+                raise TableauError(
+                    f"unknown property {key!r}",
+                    where=f"{where}: claims",
+                    expected=f"one of {', '.join(PROPERTIES)}, or a family with its order",
+                )
+            properties[key] = value
+        elif isinstance(value, int):
+            orders.append(OrderClaim(key, None, value))
+        else:
+            orders += [OrderClaim(key, row.cutoff, row.order) for row in value]
+    _refuse_repeats(orders, where)
+    return Claims(tuple(orders), properties)
+
+
+def _refuse_repeats(orders: list[OrderClaim], where: str) -> None:
+    labels = [claim.label for claim in orders]
+    for label in labels:
+        if labels.count(label) > 1:
+            raise TableauError(f"two claims for {label}", where=f"{where}: claims", expected="one claim each")

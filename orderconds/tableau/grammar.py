@@ -1,0 +1,215 @@
+"""The grammar of a coefficient: a bounded arithmetic language, parsed by recursive descent, never run as code.
+
+::
+
+    sum     = product (("+" | "-") product)*
+    product = signed (("*" | "/") signed)*
+    signed  = ("+" | "-") signed | power
+    power   = atom ["^" (["-"] integer | "(" sum ")")]
+    atom    = integer | decimal | decimal "~" | name | "sqrt" "(" sum ")" | "(" sum ")"
+
+``0.5`` is exactly 1/2; ``0.81772~`` is a ball of one unit in its last digit. An exponent is a fraction of
+integers; ``a^b^c`` is refused, since readers disagree about it. Text length, nesting and exponents are
+bounded here, the size of intermediate values in :mod:`orderconds.tableau.evaluate`.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+
+from orderconds.errors import TableauError
+
+MAX_TEXT = 2000
+MAX_DEPTH = 40
+MAX_EXPONENT = 64
+MAX_ROOT = 24
+
+EXPECTED = 'a coefficient such as "1/2", "-0.25", "0.81772~", "1/4 - sqrt(3)/6" or "1/(2 - 2^(1/3))"'
+_TOKEN = re.compile(
+    r"\s*(?:(?P<decimal>\d+\.\d*|\.\d+)|(?P<integer>\d+)|(?P<name>[A-Za-z_]\w*)|(?P<sign>[-+*/^()~]))",
+    re.ASCII,
+)
+
+
+@dataclass(frozen=True)
+class Constant:
+    """A rational number; with ``unit`` positive, a ball of that radius around it."""
+
+    value: Fraction
+    unit: Fraction = Fraction(0)
+
+
+@dataclass(frozen=True)
+class Name:
+    """A name defined under ``numbers``."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class Operation:
+    """``left operator right`` with an operator among ``+ - * /``."""
+
+    operator: str
+    left: Expression
+    right: Expression
+
+
+@dataclass(frozen=True)
+class Power:
+    """``base^exponent`` with a rational exponent; sqrt(x) is x^(1/2)."""
+
+    base: Expression
+    exponent: Fraction
+
+
+Expression = Constant | Name | Operation | Power
+
+
+def parse(text: str, where: str = "") -> Expression:
+    """Parse one coefficient.
+
+    Raises :class:`TableauError` with the position of what it could not read.
+
+    >>> parse("1/2") Operation(operator='/', left=Constant(value=Fraction(1, 1), ...),
+    right=Constant(value=Fraction(2, 1), ...)) >>> parse("sqrt(3)").exponent Fraction(1, 2)
+    """
+    return _Parser(text, where).parse()
+
+
+class _Parser:
+    def __init__(self, text: str, where: str) -> None:
+        self.text, self.where = text, where
+        if len(text) > MAX_TEXT:
+            raise self.error(f"a coefficient of {len(text)} characters", f"at most {MAX_TEXT}")
+        self.tokens = self.scan()
+        self.position = 0
+        self.depth = 0
+
+    def error(self, found: str, expected: str = EXPECTED) -> TableauError:
+        return TableauError(found, where=self.where, expected=expected)
+
+    def scan(self) -> list[tuple[str, str, int]]:
+        tokens, position, end = [], 0, len(self.text.rstrip())
+        while position < end:
+            match = _TOKEN.match(self.text, position)
+            if match is None:
+                raise self.error(f"{self.text[position:].lstrip()[:1]!r} in {self.shown()}")
+            kind = match.lastgroup or ""
+            tokens.append((kind, match.group(kind), match.start(kind)))
+            position = match.end()
+        tokens.append(("end", "", end))
+        return tokens
+
+    def shown(self) -> str:
+        return repr(self.text if len(self.text) <= 60 else self.text[:57] + "...")
+
+    def unexpected(self) -> TableauError:
+        kind, spelled, at = self.tokens[self.position]
+        found = "the end" if kind == "end" else repr(spelled)
+        return self.error(f"{found} at character {at + 1} of {self.shown()}")
+
+    def accept(self, *signs: str) -> str | None:
+        kind, spelled, _ = self.tokens[self.position]
+        if kind == "sign" and spelled in signs:
+            self.position += 1
+            return spelled
+        return None
+
+    def require(self, sign: str) -> None:
+        if self.accept(sign) is None:
+            raise self.unexpected()
+
+    def parse(self) -> Expression:
+        result = self.sum()
+        if self.tokens[self.position][0] != "end":
+            raise self.unexpected()
+        return result
+
+    def sum(self) -> Expression:
+        self.depth += 1
+        if self.depth > MAX_DEPTH:
+            raise self.error(f"parentheses {MAX_DEPTH} deep in {self.shown()}", "a flatter expression")
+        result = self.product()
+        while operator := self.accept("+", "-"):
+            result = Operation(operator, result, self.product())
+        self.depth -= 1
+        return result
+
+    def product(self) -> Expression:
+        result = self.signed()
+        while operator := self.accept("*", "/"):
+            result = Operation(operator, result, self.signed())
+        return result
+
+    def signed(self) -> Expression:
+        negative = False
+        while sign := self.accept("+", "-"):
+            negative ^= sign == "-"
+        result = self.power()
+        return Operation("-", Constant(Fraction(0)), result) if negative else result
+
+    def power(self) -> Expression:
+        base = self.atom()
+        if self.accept("^") is None:
+            return base
+        exponent = self.exponent()
+        if self.accept("^"):
+            raise self.error(f"a tower of powers in {self.shown()}", "parentheses and one exponent")
+        return self.raised(base, exponent)
+
+    def raised(self, base: Expression, exponent: Fraction) -> Expression:
+        if abs(exponent.numerator) > MAX_EXPONENT:
+            raise self.error(f"exponent {exponent} in {self.shown()}", f"at most {MAX_EXPONENT}")
+        if exponent.denominator > MAX_ROOT:
+            raise self.error(f"exponent {exponent} in {self.shown()}", f"a root of index at most {MAX_ROOT}")
+        return Power(base, exponent)
+
+    def exponent(self) -> Fraction:
+        if self.accept("("):
+            value = self.fraction()
+            self.require(")")
+            return value
+        return self.integer()
+
+    def fraction(self) -> Fraction:
+        top = self.integer()
+        if self.accept("/") is None:
+            return top
+        bottom = self.integer()
+        if bottom == 0:
+            raise self.error(f"division by zero in {self.shown()}")
+        return top / bottom
+
+    def integer(self) -> Fraction:
+        sign = -1 if self.accept("-") else 1
+        kind, spelled, _ = self.tokens[self.position]
+        if kind != "integer":
+            raise self.unexpected()
+        self.position += 1
+        return Fraction(sign * int(spelled))
+
+    def atom(self) -> Expression:
+        kind, spelled, _ = self.tokens[self.position]
+        if kind in ("integer", "decimal"):
+            self.position += 1
+            value = Fraction(spelled)
+            if self.accept("~") is None:
+                return Constant(value)
+            return Constant(value, Fraction(1, 10 ** len(spelled.partition(".")[2])))
+        if kind == "name":
+            self.position += 1
+            return self.root() if spelled == "sqrt" else Name(spelled)
+        if self.accept("("):
+            result = self.sum()
+            self.require(")")
+            return result
+        raise self.unexpected()
+
+    def root(self) -> Expression:
+        self.require("(")
+        result = self.sum()
+        self.require(")")
+        return Power(result, Fraction(1, 2))

@@ -1,0 +1,49 @@
+"""The tableaux that come with the project: in the source tree where there is one, else inside the wheel."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+from orderconds.errors import UnknownName
+
+_PACKAGE = Path(__file__).resolve().parents[1]
+
+
+@cache
+def root() -> Path:
+    """Return the folder of tableau files.
+
+    It is ``tableaux/`` of the source tree when the package sits beside a ``pyproject.toml`` named orderconds,
+    else the copy that the wheel carries.
+    """
+    beside = _PACKAGE.parent / "pyproject.toml"
+    if beside.is_file() and 'name = "orderconds"' in beside.read_text(encoding="utf-8").splitlines():
+        return _PACKAGE.parent / "tableaux"
+    return _PACKAGE / "_tableaux"
+
+
+@cache
+def _files() -> dict[str, Path]:
+    return {path.stem: path for path in sorted(root().rglob("*.toml"), key=lambda p: p.stem)}
+
+
+def available() -> tuple[str, ...]:
+    """Return the names of all tableaux, sorted; a file is named after its tableau."""
+    return tuple(_files())
+
+
+def find(name: str) -> Path:
+    """Return the file of the tableau called ``name``; :class:`UnknownName` with the nearest names otherwise."""
+    if name in _files():
+        return _files()[name]
+    from difflib import get_close_matches
+
+    near = get_close_matches(name, available(), n=3)
+    hint = f"did you mean {', '.join(near)}?" if near else "orderconds list tableaux shows all"
+    raise UnknownName(f"no tableau {name!r}", expected="a tableau of the library or a file", hint=hint)
+
+
+def bibliography() -> Path:
+    """Return the BibTeX file with the sources of the tableaux."""
+    return root() / "sources.bib"

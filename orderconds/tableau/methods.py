@@ -1,0 +1,150 @@
+"""The coefficients of a method as immutable records over one ring, and how one format reads as another.
+
+Stages are counted from 0 here and from 1 in files. In every product of exponentials the first row acts first
+(stands rightmost).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import reduce
+from operator import add
+
+from orderconds.ring.protocol import Element, Ring
+
+Row = tuple[Element, ...]
+Convert = Callable[[Element], Element]
+
+
+def _converted(row: Row, convert: Convert) -> Row:
+    return tuple(convert(x) for x in row)
+
+
+@dataclass(frozen=True)
+class RungeKutta:
+    """A Runge-Kutta tableau: ``A`` is s x s, ``b`` has length s."""
+
+    A: tuple[Row, ...]
+    b: Row
+
+    @property
+    def s(self) -> int:
+        """The number of stages."""
+        return len(self.b)
+
+    @property
+    def c(self) -> Row:
+        """The abscissae, c_i = sum_j a_ij."""
+        return tuple(reduce(add, row) for row in self.A)
+
+    def map(self, convert: Convert) -> RungeKutta:
+        """Return the same method with every coefficient converted."""
+        return RungeKutta(tuple(_converted(row, convert) for row in self.A), _converted(self.b, convert))
+
+    def as_crouch_grossman(self, ring: Ring) -> CommutatorFree:
+        """Read the tableau as a Crouch-Grossman method: one exponential for each non-zero a_ij, ascending j.
+
+        Stage i is exp(h a_is k_s) ... exp(h a_i1 k_1) y0, the update likewise with b (HLW IV.8.3, (1.4)).
+        Only proven zeros are skipped.
+        """
+
+        def product(row: Row) -> Stage:
+            rows = []
+            for j, x in enumerate(row):
+                if ring.is_zero(x) is not True:
+                    rows.append(tuple(x if k == j else ring.zero for k in range(self.s)))
+            return Stage(None, tuple(rows))
+
+        return CommutatorFree(tuple(product(row) for row in self.A), product(self.b))
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A product of exponentials acting on stage ``start`` (None: on y0).
+
+    ``exponentials`` are rows of length s; row beta stands for exp(h sum_j beta_j k_j), the first acts first.
+    """
+
+    start: int | None
+    exponentials: tuple[Row, ...]
+
+    def map(self, convert: Convert) -> Stage:
+        """Return the same product with every coefficient converted."""
+        return Stage(self.start, tuple(_converted(row, convert) for row in self.exponentials))
+
+
+@dataclass(frozen=True)
+class CommutatorFree:
+    """A commutator-free method: s stages and the update, each a product of exponentials (mathematics of CF)."""
+
+    stages: tuple[Stage, ...]
+    update: Stage
+
+    @property
+    def s(self) -> int:
+        """The number of stages."""
+        return len(self.stages)
+
+    def map(self, convert: Convert) -> CommutatorFree:
+        """Return the same method with every coefficient converted."""
+        return CommutatorFree(tuple(stage.map(convert) for stage in self.stages), self.update.map(convert))
+
+    def from_start(self, stage: Stage) -> tuple[Row, ...]:
+        """Return all exponentials between y0 and ``stage``, those of the stages it starts from first."""
+        before = () if stage.start is None else self.from_start(self.stages[stage.start])
+        return before + stage.exponentials
+
+    def as_runge_kutta(self, ring: Ring) -> RungeKutta:
+        """Return the tableau of the same method on an abelian group: exponents add up."""
+
+        def total(stage: Stage) -> Row:
+            zero = (ring.zero,) * self.s
+            rows = self.from_start(stage)
+            return reduce(lambda x, y: tuple(map(add, x, y)), rows, zero)
+
+        return RungeKutta(tuple(total(stage) for stage in self.stages), total(self.update))
+
+
+@dataclass(frozen=True)
+class Composition:
+    """A composition of one basic method with steps gamma_1 h, ..., gamma_s h, the first applied first.
+
+    ``base`` is ``"symmetric-2"``: any symmetric method of order 2; read as a Runge-Kutta method it is the
+    implicit midpoint rule.
+    """
+
+    base: str
+    gamma: Row
+
+    @property
+    def s(self) -> int:
+        """The number of basic steps."""
+        return len(self.gamma)
+
+    def map(self, convert: Convert) -> Composition:
+        """Return the same composition with every coefficient converted."""
+        return Composition(self.base, _converted(self.gamma, convert))
+
+    def as_runge_kutta(self, ring: Ring) -> RungeKutta:
+        """Return the diagonally implicit tableau of composed midpoints (Bogfjellmo and Marthinsen, Lemma 3.5.4).
+
+        b_i = gamma_i, a_ii = gamma_i/2, a_ij = gamma_j for j < i.
+        """
+        half = ring.rational(1, 2)
+        A = tuple(
+            (*self.gamma[:i], step * half, *((ring.zero,) * (self.s - i - 1)))
+            for i, step in enumerate(self.gamma)
+        )
+        return RungeKutta(A, self.gamma)
+
+
+Method = RungeKutta | CommutatorFree | Composition
+
+
+@dataclass(frozen=True)
+class Embedded:
+    """A second row of weights of lower ``order``, for estimating the local error."""
+
+    b: Row
+    order: int

@@ -1,0 +1,112 @@
+"""Properties of a tableau, derived from its coefficients and never declared.
+
+Each is True, False, or None where the coefficients are balls too wide to tell.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.methods import CommutatorFree, Composition, RungeKutta
+from orderconds.tableau.record import Tableau
+
+Verdict = bool | None
+
+
+def properties(tableau: Tableau) -> dict[str, Verdict]:
+    """Return every property of :data:`PROPERTIES` that has a meaning for this tableau, in that order.
+
+    A commutator-free method is asked through its tableau on an abelian group only whether it is explicit.
+
+    >>> from orderconds.tableau import Tableau
+    >>> midpoint = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["1/2"]]\\nb = ["1"]')
+    >>> [name for name, holds in properties(midpoint).items() if holds]
+    ['diagonally_implicit', 'symplectic', 'symmetric']
+    """
+    ring, method = tableau.ring, tableau.method
+    if isinstance(method, CommutatorFree):
+        return {"explicit": all(_commutator_free_explicit(method, ring))}
+    if isinstance(method, Composition):
+        return _of_composition(method, ring)
+    return {name: holds(method, ring) for name, holds in PROPERTIES.items()}
+
+
+def _all(verdicts: Iterable[Verdict]) -> Verdict:
+    """Conjunction with unknowns: False wins, then None."""
+    unknown = False
+    for verdict in verdicts:
+        if verdict is False:
+            return False
+        unknown |= verdict is None
+    return None if unknown else True
+
+
+def _equal(x: Element, y: Element, ring: Ring) -> Verdict:
+    """Decide x = y; one and the same element (equal spellings of a file) is equal to itself even as a ball."""
+    return True if x is y else ring.is_zero(x - y)
+
+
+def explicit(method: RungeKutta, ring: Ring) -> Verdict:
+    """a_ij = 0 for j >= i."""
+    return _all(ring.is_zero(method.A[i][j]) for i in range(method.s) for j in range(i, method.s))
+
+
+def diagonally_implicit(method: RungeKutta, ring: Ring) -> Verdict:
+    """a_ij = 0 for j > i, and not all a_ii = 0."""
+    above = _all(ring.is_zero(method.A[i][j]) for i in range(method.s) for j in range(i + 1, method.s))
+    is_explicit = explicit(method, ring)
+    return _all([above, None if is_explicit is None else not is_explicit])
+
+
+def symplectic(method: RungeKutta, ring: Ring) -> Verdict:
+    """b_i a_ij + b_j a_ji = b_i b_j (HLW Theorem VI.4.3)."""
+    A, b, s = method.A, method.b, method.s
+    return _all(
+        ring.is_zero(b[i] * A[i][j] + b[j] * A[j][i] - b[i] * b[j]) for i in range(s) for j in range(i, s)
+    )
+
+
+def symmetric(method: RungeKutta, ring: Ring) -> Verdict:
+    """a_{s+1-i,s+1-j} + a_ij = b_j (HLW Theorem V.2.3), in the order in which the stages stand."""
+    A, b, s = method.A, method.b, method.s
+    mirrored = (ring.is_zero(A[s - 1 - i][s - 1 - j] + A[i][j] - b[j]) for i in range(s) for j in range(s))
+    return _all([*mirrored, *(_equal(b[i], b[s - 1 - i], ring) for i in range(s // 2))])
+
+
+def stiffly_accurate(method: RungeKutta, ring: Ring) -> Verdict:
+    """a_sj = b_j."""
+    return _all(_equal(x, y, ring) for x, y in zip(method.A[-1], method.b, strict=True))
+
+
+def fsal(method: RungeKutta, ring: Ring) -> Verdict:
+    """First same as last: stiffly accurate, more than one stage, and the first stage is the start value."""
+    first = _all(ring.is_zero(x) for x in method.A[0])
+    return _all([method.s > 1, stiffly_accurate(method, ring), first])
+
+
+PROPERTIES: dict[str, Callable[[RungeKutta, Ring], Verdict]] = {
+    "explicit": explicit,
+    "diagonally_implicit": diagonally_implicit,
+    "symplectic": symplectic,
+    "symmetric": symmetric,
+    "fsal": fsal,
+    "stiffly_accurate": stiffly_accurate,
+}
+
+
+def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
+    """Composed midpoints are symplectic and diagonally implicit by construction, whatever the steps are.
+
+    The composition is symmetric where the steps read the same backwards.
+    """
+    gamma, s = method.gamma, method.s
+    verdicts = {name: holds(method.as_runge_kutta(ring), ring) for name, holds in PROPERTIES.items()}
+    palindrome = _all(_equal(gamma[i], gamma[s - 1 - i], ring) for i in range(s // 2))
+    return {**verdicts, "diagonally_implicit": True, "symplectic": True, "symmetric": palindrome}
+
+
+def _commutator_free_explicit(method: CommutatorFree, ring: Ring) -> Iterable[bool]:
+    for i, stage in enumerate(method.stages):
+        for row in stage.exponentials:
+            yield all(ring.is_zero(x) is True for x in row[i:])

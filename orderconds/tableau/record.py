@@ -1,0 +1,103 @@
+"""The tableau: exact coefficients over one ring, with their source and what the file claims of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.methods import CommutatorFree, Composition, Embedded, Method, RungeKutta
+
+
+@dataclass(frozen=True)
+class OrderClaim:
+    """The claim that ``family`` (with ``cutoff``, where it takes one) has exactly this order."""
+
+    family: str
+    cutoff: int | None
+    order: int
+
+    @property
+    def label(self) -> str:
+        """The family as reports name it: ``vcg``, ``rkmk(1)``."""
+        return self.family if self.cutoff is None else f"{self.family}({self.cutoff})"
+
+
+@dataclass(frozen=True)
+class Claims:
+    """What a tableau file says of its method; every entry is compared with what is computed."""
+
+    orders: tuple[OrderClaim, ...] = ()
+    properties: dict[str, bool] = field(default_factory=dict)
+
+    def order(self, family: str, cutoff: int | None = None) -> int | None:
+        """Return the claimed order of a family, or None where nothing is claimed."""
+        for claim in self.orders:
+            if (claim.family, claim.cutoff) == (family, cutoff):
+                return claim.order
+        return None
+
+
+@dataclass(frozen=True)
+class Tableau:
+    """A named method over ``ring``; ``family`` is the format of its file (``rk``, ``cf``, ``composition``)."""
+
+    name: str
+    family: str
+    ring: Ring
+    method: Method
+    source: str = ""
+    bibtex: str = ""
+    claims: Claims = field(default_factory=Claims)
+    embedded: Embedded | None = None
+    path: str | None = None
+
+    @staticmethod
+    def load(path: str | Path) -> Tableau:
+        """Read a tableau file; raises :class:`orderconds.errors.TableauError` naming file and key."""
+        from orderconds.tableau.file import load
+
+        return load(path)
+
+    @staticmethod
+    def loads(text: str, where: str = "<text>") -> Tableau:
+        """Read a tableau from TOML text; ``where`` names it in messages."""
+        from orderconds.tableau.file import loads
+
+        return loads(text, where)
+
+    def over(self, ring: Ring, convert: Callable[[Element], Element] | None = None) -> Tableau:
+        """Return the same method with coefficients in another ring.
+
+        ``convert`` maps one coefficient; without it the embedding of this ring in ``ring`` is used
+        (:func:`orderconds.ring.embed.embedding`), which raises TypeError where there is none.
+        """
+        if convert is None:
+            from orderconds.ring.embed import embedding
+
+            convert = embedding(self.ring, ring)
+        embedded = self.embedded
+        if embedded is not None:
+            embedded = replace(embedded, b=tuple(convert(x) for x in embedded.b))
+        return replace(self, ring=ring, method=self.method.map(convert), embedded=embedded)
+
+    def read_as(self, formats: tuple[str, ...]) -> Method | None:
+        """Return the method in the first of these formats that it can be read in, or None.
+
+        An ``rk`` tableau reads as ``rk``, a commutator-free one as ``cf``, a composition as itself or,
+        through composed midpoints, as ``rk``. How an ``rk`` tableau serves other families is for the family
+        to say.
+        """
+        for wanted in formats:
+            if wanted == self.family:
+                return self.method
+            if wanted == "rk" and isinstance(self.method, Composition):
+                return self.method.as_runge_kutta(self.ring)
+        return None
+
+    def abelian(self) -> RungeKutta:
+        """Return the Runge-Kutta tableau this method is on an abelian group."""
+        if isinstance(self.method, CommutatorFree | Composition):
+            return self.method.as_runge_kutta(self.ring)
+        return self.method

@@ -1,0 +1,82 @@
+"""Writing a tableau as a file that reads back as the same tableau."""
+
+from __future__ import annotations
+
+from orderconds.ring.protocol import Element
+from orderconds.tableau.methods import CommutatorFree, Composition, Row, Stage
+from orderconds.tableau.record import Claims, Tableau
+
+
+def dumps(tableau: Tableau) -> str:
+    """Return the tableau as TOML text.
+
+    Exact coefficients are written in full, balls with the digits they support (``~``, one unit in the last).
+
+    >>> from orderconds.tableau import Tableau
+    >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["1/2"]]\\nb = ["1"]\\n'
+    >>> dumps(Tableau.loads(text)) == text
+    True
+    """
+    lines = [f"name = {_quoted(tableau.name)}", f'family = "{tableau.family}"']
+    method = tableau.method
+    if isinstance(method, Composition):
+        lines += [f'base = "{method.base}"', f"gamma = {_row(method.gamma, tableau)}"]
+    elif not isinstance(method, CommutatorFree):
+        rows = ", ".join(_row(row, tableau) for row in method.A)
+        lines += [f"A = [{rows}]", f"b = {_row(method.b, tableau)}"]
+    if tableau.embedded:
+        weights = _row(tableau.embedded.b, tableau)
+        lines.append(f"embedded = {{ b = {weights}, order = {tableau.embedded.order} }}")
+    lines += [f"{key} = {_quoted(x)}" for key in ("source", "bibtex") if (x := getattr(tableau, key))]
+    lines += _named_roots(tableau)
+    if isinstance(method, CommutatorFree):
+        for stage in method.stages:
+            lines += ["[[stage]]", *_stage(stage, tableau)]
+        lines += ["[update]", *_stage(method.update, tableau)]
+    return "\n".join(lines + _claims(tableau.claims)) + "\n"
+
+
+def _quoted(text: str) -> str:
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
+    return '"' + "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in escaped) + '"'
+
+
+def _row(row: Row, tableau: Tableau) -> str:
+    kept = list(row)
+    while kept and tableau.ring.is_zero(kept[-1]) is True:
+        kept.pop()
+    return "[" + ", ".join(_coefficient(x, tableau) for x in kept) + "]"
+
+
+def _coefficient(x: Element, tableau: Tableau) -> str:
+    return _quoted(tableau.ring.text(x))
+
+
+def _stage(stage: Stage, tableau: Tableau) -> list[str]:
+    lines = [] if stage.start is None else [f"from = {stage.start + 1}"]
+    if stage.exponentials:
+        lines.append(f"exp = [{', '.join(_row(row, tableau) for row in stage.exponentials)}]")
+    return lines
+
+
+def _named_roots(tableau: Tableau) -> list[str]:
+    """Return the numbers that the field's spelling refers to by name."""
+    lines = []
+    for name, minpoly, near in getattr(tableau.ring, "named_roots", ()):
+        coefficients = ", ".join(_quoted(c) for c in minpoly)
+        lines += [f"[numbers.{name}]", f"minpoly = [{coefficients}]", f'near = "{near}"']
+    return lines
+
+
+def _claims(claims: Claims) -> list[str]:
+    lines: list[str] = []
+    cutoffs: dict[str, list[str]] = {}
+    for claim in claims.orders:
+        if claim.cutoff is None:
+            lines.append(f"{claim.family} = {claim.order}")
+        else:
+            rows = cutoffs.setdefault(claim.family, [])
+            rows.append(f"{{ cutoff = {claim.cutoff}, order = {claim.order} }}")
+    lines += [f"{family} = [{', '.join(rows)}]" for family, rows in cutoffs.items()]
+    lines += [f"{name} = {str(value).lower()}" for name, value in claims.properties.items()]
+    return ["[claims]", *lines] if lines else []
