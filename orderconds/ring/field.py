@@ -292,7 +292,7 @@ class Algebraic:
         return hash(self.field.key(self))
 
     def __lt__(self, other: Any) -> bool:
-        difference = self - other
+        difference: Algebraic = self - other
         return difference.field.sign(difference) < 0
 
     def __float__(self) -> float:

@@ -27,7 +27,7 @@ MAX_DIMENSION = 64
 """Algebras of larger dimension are not even formed."""
 
 
-class DegreeTooHigh(ArithmeticError):
+class DegreeError(ArithmeticError):
     """The field would exceed :data:`MAX_DEGREE`."""
 
 
@@ -55,7 +55,7 @@ class Tower:
         return self.field.rational(value.numerator, value.denominator)
 
     def ring(self) -> tuple[Ring, Callable[[Algebraic], Element]]:
-        """Return the final ring, Q itself where nothing was adjoined, and the lift of earlier numbers into it."""
+        """Return the final ring, Q where nothing was adjoined, and the lift of earlier numbers into it."""
         if self.field.degree == 1:
             return QQ, lambda x: x.rational_value
         return self.field, self.field.lift
@@ -68,7 +68,7 @@ class Tower:
     def root(self, x: Algebraic, index: int) -> Algebraic:
         """Return the real root of x of that index, adjoining it if need be.
 
-        Raises ValueError for an even root of a negative number, :class:`DegreeTooHigh`.
+        Raises ValueError for an even root of a negative number, :class:`DegreeError`.
         """
         sign = x.field.sign(x)
         if sign == 0 or index == 1:
@@ -82,7 +82,7 @@ class Tower:
         return self._radical(x, index)
 
     def _rational_root(self, x: fmpq, index: int) -> Algebraic:
-        """Return x^(1/index) as a rational times the root of the smallest integer: (p/q) = p q^(k-1) / q^k."""
+        """Return x^(1/index) as a rational times the root of the least integer: p/q = p q^(k-1) / q^k."""
         inside = fmpz(x.p) * fmpz(x.q) ** (index - 1)
         outside, rest = fmpz(1), []
         for prime, exponent in _factors(inside):
@@ -93,10 +93,10 @@ class Tower:
         radicand = fmpz(1)
         for prime, exponent in rest:
             radicand *= prime ** (exponent // common)
-        factor = fmpq(outside, x.q)
-        if radicand == 1:
-            return self.field.rational(1) * factor
-        return self._radical(self.field.rational(int(radicand)), index // common) * factor
+        root = self.field.one
+        if radicand > 1:
+            root = self._radical(self.field.rational(int(radicand)), index // common)
+        return root.__mul__(fmpq(outside, x.q))
 
     def _radical(self, x: Algebraic, index: int) -> Algebraic:
         x = self.field.lift(x)
@@ -118,7 +118,7 @@ class Tower:
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Algebraic:
         """Return the one real root of ``minpoly`` (ascending) within ``unit`` of ``near``, spelled ``name``.
 
-        Raises ValueError where there is not exactly one, :class:`DegreeTooHigh`.
+        Raises ValueError where there is not exactly one, :class:`DegreeError`.
         """
         coefficients = [fmpq(c.numerator, c.denominator) for c in minpoly]
         centre, radius = (fmpq(x.numerator, x.denominator) for x in (near, unit))
@@ -135,7 +135,7 @@ class Tower:
             return powers[0]
         dimension = field.degree * len(powers)
         if dimension > MAX_DIMENSION:
-            raise DegreeTooHigh(f"an algebra of dimension {dimension}")
+            raise DegreeError(f"an algebra of dimension {dimension}")
         multiplier, relation = _primitive(field, powers)
 
         def primitive(bits: int) -> arb:
@@ -149,7 +149,7 @@ class Tower:
         if degree == field.degree:
             return Algebraic(field, _in_powers_of(a, b, modulus))
         if degree > MAX_DEGREE:
-            raise DegreeTooHigh(f"a number field of degree {degree}")
+            raise DegreeError(f"a number field of degree {degree}")
         below = tuple(substituted(image, a, modulus) for image in field.images)
         added = generator(degree // field.degree)
         self.field = NumberField(modulus, primitive, (*field.generators, added), (*below, b), field, a)
@@ -166,7 +166,7 @@ class _Relation:
 
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
-    """Return (m, relation) for c = b + m a, or (None, relation) for c = ab, whichever first spans the algebra."""
+    """Return (m, relation) for c = b + m a, or (None, relation) for c = ab, what first spans the algebra."""
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
         vector = [field.one] + [field.zero] * (len(powers) - 1)

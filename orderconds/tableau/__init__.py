@@ -1,4 +1,4 @@
-"""Tableaux: the record, the strict TOML format with its coefficient grammar, derived properties, the library."""
+"""Tableaux: the record, the strict TOML format and its coefficient grammar, properties, the library."""
 
 from __future__ import annotations
 

@@ -54,14 +54,14 @@ def evaluate(
 
     ``numbers`` may refer to each other, in any order, without a cycle. Raises :class:`TableauError`.
     """
-    from orderconds.ring.tower import DegreeTooHigh, Tower
+    from orderconds.ring.tower import DegreeError, Tower
 
     constants = [c for x in (*expressions.values(), *numbers.values()) for c in _constants(x)]
     if not any(c.unit for c in constants):
         tower = Tower()
         try:
             values = _Evaluation(tower, numbers, where).all(expressions)
-        except DegreeTooHigh:
+        except DegreeError:
             pass
         else:
             ring, lift = tower.ring()

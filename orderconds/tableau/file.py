@@ -10,15 +10,18 @@ from pathlib import Path
 from typing import Any
 
 import msgspec
+from msgspec import Struct
 
 from orderconds.errors import TableauError
 from orderconds.tableau.evaluate import Definition, NamedRoot, evaluate
 from orderconds.tableau.formats import (
     FORMATS,
+    Claim,
     CutoffClaim,
     EmbeddedEntry,
     Format,
     LowStorage,
+    Number,
     RootEntry,
     StageEntry,
 )
@@ -29,13 +32,11 @@ from orderconds.tableau.record import Claims, OrderClaim, Tableau
 MAX_BYTES = 1_000_000
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.+-]*")
 _NUMBER = re.compile(r"[A-Za-z_]\w*", re.ASCII)
-_NESTED: dict[str, type[msgspec.Struct]] = {
+_NESTED: dict[str, type[Struct]] = {
     "embedded": EmbeddedEntry,
     "stage": StageEntry,
     "update": StageEntry,
     "low_storage": LowStorage,
-    "numbers": RootEntry,
-    "claims": CutoffClaim,
 }
 
 
@@ -101,16 +102,28 @@ def _converted(data: Mapping[str, Any], where: str) -> Format:
     try:
         return msgspec.convert(data, kind)
     except msgspec.ValidationError as problem:
-        raise _explained(str(problem), kind, where) from None
+        raise _explained(str(problem), kind, "", where) from None
 
 
-def _explained(message: str, kind: type[Format], where: str) -> TableauError:
+def _each(table: Mapping[str, Any], kind: Any, struct: type[Struct], key: str, where: str) -> dict[str, Any]:
+    """Return the entries of a table typed one by one, so that a message can name the entry."""
+    result = {}
+    for name, value in table.items():
+        try:
+            result[name] = msgspec.convert(value, kind)
+        except msgspec.ValidationError as problem:
+            raise _explained(str(problem), struct, f"{key}.{name}", where) from None
+    return result
+
+
+def _explained(message: str, kind: type[Struct], prefix: str, where: str) -> TableauError:
     """Turn msgspec's message into one that says where, what, and what was expected."""
     found, _, path = message.partition(" - at `$")
-    key = re.sub(r"\[(\d+)\]", lambda m: f"[{int(m[1]) + 1}]", path.rstrip("`").removeprefix("."))
+    key = re.sub(r"\[(\d+)\]", lambda m: f"[{int(m[1]) + 1}]", path.rstrip("`"))
+    key = (prefix + key).removeprefix(".")
     place = f"{where}: {key}" if key else where
     if unknown := re.fullmatch(r"Object contains unknown field `(.*)`", found, re.DOTALL):
-        struct = _NESTED.get(re.split(r"[.\[]", key)[0], kind) if key else kind
+        struct = _NESTED.get(re.split(r"[.\[]", key)[0], kind)
         keys = ", ".join(sorted(struct.__struct_encode_fields__))
         return TableauError(f"unknown key {unknown[1]!r}", where=place, expected=f"one of {keys}")
     if missing := re.fullmatch(r"Object missing required field `(.*)`", found, re.DOTALL):
@@ -143,7 +156,7 @@ def _parsed(x: str | int, where: str) -> Expression:
 
 def _numbers(entry: Format, where: str) -> dict[str, Definition]:
     result: dict[str, Definition] = {}
-    for name, definition in entry.numbers.items():
+    for name, definition in _each(entry.numbers, Number, RootEntry, "numbers", where).items():
         place = f"{where}: numbers.{name}"
         if isinstance(definition, RootEntry):
             minpoly = tuple(_rational(x, f"{place}.minpoly") for x in definition.minpoly)
@@ -184,8 +197,9 @@ def _decimal(text: str, where: str) -> Constant:
 
 
 def _claims(entry: Format, where: str) -> Claims:
-    orders, properties = [], {}
-    for key, value in entry.claims.items():
+    orders: list[OrderClaim] = []
+    properties: dict[str, bool] = {}
+    for key, value in _each(entry.claims, Claim, CutoffClaim, "claims", where).items():
         if isinstance(value, bool):
             if key not in PROPERTIES:
                 raise TableauError(

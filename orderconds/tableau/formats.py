@@ -8,7 +8,7 @@ are named as in the file, entries counted from 1.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct, field
 
@@ -35,15 +35,21 @@ class CutoffClaim(Struct, forbid_unknown_fields=True):
     order: Annotated[int, Meta(ge=1)]
 
 
+Number = Coefficient | RootEntry
+"""What may stand under ``numbers``."""
+Claim = bool | Annotated[int, Meta(ge=1)] | list[CutoffClaim]
+"""What may stand under ``claims``: a property, the order of a family, orders by cutoff."""
+
+
 class Format(Struct, forbid_unknown_fields=True, kw_only=True):
-    """The keys that every format has."""
+    """The keys that every format has; ``numbers`` holds :data:`Number`, ``claims`` :data:`Claim`."""
 
     name: str
     family: str
     source: str = ""
     bibtex: str = ""
-    numbers: dict[str, Coefficient | RootEntry] = {}
-    claims: dict[str, bool | Annotated[int, Meta(ge=1)] | list[CutoffClaim]] = {}
+    numbers: dict[str, Any] = {}
+    claims: dict[str, Any] = {}
 
     def coefficients(self) -> Places:
         """Yield (place, spelling) of every coefficient."""
@@ -140,9 +146,7 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
                 )
             return
         if self.update is None:
-            raise TableauError(
-                "no update", where=where, expected="[[stage]] ... and [update], or [low_storage]"
-            )
+            raise TableauError("no update", where=where, expected="[[stage]] and [update], or [low_storage]")
         s = _stages(len(self.stage), f"{where}: stage")
         for i, (place, entry) in enumerate(self._entries()):
             for r, row in enumerate(entry.exp):

@@ -1,4 +1,4 @@
-"""The grammar of a coefficient: a bounded arithmetic language, parsed by recursive descent, never run as code.
+"""The grammar of a coefficient: bounded arithmetic, parsed by recursive descent, never run as code.
 
 ::
 
@@ -73,8 +73,10 @@ def parse(text: str, where: str = "") -> Expression:
 
     Raises :class:`TableauError` with the position of what it could not read.
 
-    >>> parse("1/2") Operation(operator='/', left=Constant(value=Fraction(1, 1), ...),
-    right=Constant(value=Fraction(2, 1), ...)) >>> parse("sqrt(3)").exponent Fraction(1, 2)
+    >>> parse("0.81772~")
+    Constant(value=Fraction(20443, 25000), unit=Fraction(1, 100000))
+    >>> parse("sqrt(x)")
+    Power(base=Name(name='x'), exponent=Fraction(1, 2))
     """
     return _Parser(text, where).parse()
 

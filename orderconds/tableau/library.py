@@ -34,7 +34,7 @@ def available() -> tuple[str, ...]:
 
 
 def find(name: str) -> Path:
-    """Return the file of the tableau called ``name``; :class:`UnknownName` with the nearest names otherwise."""
+    """Return the file of the tableau ``name``; :class:`UnknownName` with the nearest names otherwise."""
     if name in _files():
         return _files()[name]
     from difflib import get_close_matches

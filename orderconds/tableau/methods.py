@@ -76,7 +76,7 @@ class Stage:
 
 @dataclass(frozen=True)
 class CommutatorFree:
-    """A commutator-free method: s stages and the update, each a product of exponentials (mathematics of CF)."""
+    """A commutator-free method: s stages and the update, each a product of exponentials."""
 
     stages: tuple[Stage, ...]
     update: Stage
@@ -127,7 +127,7 @@ class Composition:
         return Composition(self.base, _converted(self.gamma, convert))
 
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
-        """Return the diagonally implicit tableau of composed midpoints (Bogfjellmo and Marthinsen, Lemma 3.5.4).
+        """Return the diagonally implicit tableau of composed midpoints (Bogfjellmo, Lemma 3.5.4).
 
         b_i = gamma_i, a_ii = gamma_i/2, a_ij = gamma_j for j < i.
         """

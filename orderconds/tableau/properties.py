@@ -43,7 +43,7 @@ def _all(verdicts: Iterable[Verdict]) -> Verdict:
 
 
 def _equal(x: Element, y: Element, ring: Ring) -> Verdict:
-    """Decide x = y; one and the same element (equal spellings of a file) is equal to itself even as a ball."""
+    """Decide x = y; one element (equal spellings of a file) equals itself even as a ball."""
     return True if x is y else ring.is_zero(x - y)
 
 

@@ -41,7 +41,7 @@ class Claims:
 
 @dataclass(frozen=True)
 class Tableau:
-    """A named method over ``ring``; ``family`` is the format of its file (``rk``, ``cf``, ``composition``)."""
+    """A named method over ``ring``; ``family`` is its file's format: ``rk``, ``cf``, ``composition``."""
 
     name: str
     family: str
