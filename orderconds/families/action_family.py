@@ -11,6 +11,7 @@ from orderconds.conditions import OrderCondition
 from orderconds.families.action_formula import ActionFormula, multiplier
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series import action_exact
+from orderconds.series.action_switching import representatives
 from orderconds.series.action_trees import Velocity, hamiltonian, velocities
 
 if TYPE_CHECKING:
@@ -23,8 +24,8 @@ if TYPE_CHECKING:
 class ActionFamily(ABC):
     """A family whose conditions are ``sum_i b_i tau_t(i)`` = exact, one for each g-valued action tree t.
 
-    The conditions of order n are those of the trees with n copies of H. ``all_conditions`` needs no rank, so
-    checking a tableau needs no NumPy; ``conditions`` picks the independent ones, simplest first.
+    The conditions of order n are those of the trees with n copies of H. ``conditions`` picks the independent
+    ones by their rank at random methods; ``decisive_conditions`` needs neither rank nor NumPy.
     """
 
     name: str
@@ -55,6 +56,10 @@ class ActionFamily(ABC):
         """Return every tree's condition of exactly this order, simplest first."""
         return tuple(map(self._condition, velocities(order)))
 
+    def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return conditions that imply all of this order: the simplest of each root-switching class."""
+        return tuple(map(self._condition, representatives(order)))
+
     def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
         """Return the left-hand sides, as printed, for a method with coefficients in ``ring``."""
         series = self.series(method, ring)
@@ -77,7 +82,7 @@ class ActionFamily(ABC):
 
 @cache
 def _independent(family: ActionFamily, order: int) -> tuple[tuple[Velocity, ...], ...]:
-    # One stage more than the number of different values a sum over i needs to tell the trees apart.
+    # The ranks of VCG stand from order - 1 stages on (tested); more stages only cost time.
     from orderconds.series.action_rank import independent_trees
 
     return independent_trees(partial(family.random_series, stages=max(order - 1, 2)), order)

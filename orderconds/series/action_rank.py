@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from orderconds.ring.rank import pivot_columns
 from orderconds.ring.residues import PRIMES, Residue, Residues
 from orderconds.series.action import ActionSeries
-from orderconds.series.action_trees import Velocity, tree_counts, velocities
+from orderconds.series.action_switching import representatives
+from orderconds.series.action_trees import Velocity, tree_counts
 
 RandomSeries = Callable[[Residues, np.random.Generator], ActionSeries]
 """Makes the action series of random methods of a family, one a sample."""
@@ -43,7 +44,7 @@ def _independent(family: RandomSeries, order: int, prime: int) -> tuple[tuple[Ve
     values = _sample(family, order, prime)
     for n in range(1, order + 1):
         decomposable = list(products(generators, n))
-        trees = velocities(n)
+        trees = representatives(n)
         pivots = pivot_columns([*decomposable, *(values[t] for t in trees)])
         kept = tuple(trees[p - len(decomposable)] for p in pivots if p >= len(decomposable))
         chosen.append(kept)
@@ -53,7 +54,7 @@ def _independent(family: RandomSeries, order: int, prime: int) -> tuple[tuple[Ve
 
 def _sample(family: RandomSeries, order: int, prime: int) -> dict[Velocity, Residue]:
     """Return every condition to the given order at as many random methods as the rank may need."""
-    trees = [t for n in range(1, order + 1) for t in velocities(n)]
+    trees = [t for n in range(1, order + 1) for t in representatives(n)]
     count = _largest_rank(order) + SPARE_SAMPLES
     blocks: list[list[NDArray[np.int64]]] = []
     generator = np.random.default_rng(prime)

@@ -1,0 +1,205 @@
+"""What action trees mean for one Hamiltonian: elementary velocities and covectors, and the local error.
+
+Derivatives are exact: a multilinear derivative of H is the coefficient of eps_1 ... eps_k where every eps
+squares to zero. So H may be any polynomial in the entries of q and the coordinates of mu, over any ring, and
+the group any matrix group: a right-invariant derivative replaces q by (1 + eps X) q.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from orderconds.ring.protocol import Element, Ring
+from orderconds.series.action_trees import Force, Momentum, Velocity, Word
+
+Coordinates = tuple[Element, ...]
+"""Coordinates of a vector in the chosen basis of g, or of a covector in the dual basis."""
+
+Matrix = tuple[tuple[Any, ...], ...]
+
+
+class Nilpotent:
+    """A polynomial in eps_1, eps_2, ... whose squares are zero: a value for each bit mask of them."""
+
+    __slots__ = ("parts",)
+
+    def __init__(self, parts: Mapping[int, Element]) -> None:
+        self.parts = dict(parts)
+
+    def __add__(self, other: Any) -> Nilpotent:
+        parts = dict(self.parts)
+        for mask, value in _parts(other).items():
+            parts[mask] = parts[mask] + value if mask in parts else value
+        return Nilpotent(parts)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Nilpotent:
+        return Nilpotent({mask: -value for mask, value in self.parts.items()})
+
+    def __sub__(self, other: Any) -> Nilpotent:
+        return self + Nilpotent({mask: -value for mask, value in _parts(other).items()})
+
+    def __rsub__(self, other: Any) -> Nilpotent:
+        return (-self).__add__(other)
+
+    def __mul__(self, other: Any) -> Nilpotent:
+        parts: dict[int, Element] = {}
+        for left, a in self.parts.items():
+            for right, b in _parts(other).items():
+                if not left & right:
+                    term = a * b
+                    parts[left | right] = parts[left | right] + term if left | right in parts else term
+        return Nilpotent(parts)
+
+    __rmul__ = __mul__
+
+
+def _parts(x: Any) -> dict[int, Element]:
+    return x.parts if isinstance(x, Nilpotent) else {0: x}
+
+
+class ActionFields:
+    """The elementary velocities xi_t and covectors m_p of one Hamiltonian at one point (q, mu).
+
+    ``hamiltonian(q, mu)`` takes a matrix (tuple of rows) and the coordinates of mu, and uses ``+ - *`` only.
+    ``basis`` are matrices that span the Lie algebra, ``coordinates`` turns a matrix of it into coordinates;
+    mu has its coordinates in the dual basis. Trees are evaluated without their symmetry factors, h = 1.
+    """
+
+    def __init__(
+        self,
+        ring: Ring,
+        hamiltonian: Callable[[Matrix, Coordinates], Any],
+        q: Matrix,
+        mu: Coordinates,
+        basis: Sequence[Matrix],
+        coordinates: Callable[[Matrix], Coordinates],
+    ) -> None:
+        self.ring, self.hamiltonian, self.q, self.mu = ring, hamiltonian, q, mu
+        self.basis, self.coordinates = tuple(basis), coordinates
+        self.units: tuple[Coordinates, ...] = tuple(
+            tuple(ring.one if a == b else ring.zero for b in range(len(basis))) for a in range(len(basis))
+        )
+        self._velocity: dict[Velocity, Coordinates] = {}
+        self._covector: dict[Momentum, Coordinates] = {}
+
+    def derivative(self, fields: Sequence[Coordinates], covectors: Sequence[Coordinates]) -> Element:
+        """Differentiate H along right-invariant fields (the first acts first) and along covectors."""
+        q: Matrix = self.q
+        mask = 1
+        for field in fields:
+            q = _add(q, _times(_scaled(self.matrix(field), mask), q))
+            mask <<= 1
+        mu: list[Any] = list(self.mu)
+        for covector in covectors:
+            mu = [m + Nilpotent({mask: x}) for m, x in zip(mu, covector, strict=True)]
+            mask <<= 1
+        value: Element = _parts(self.hamiltonian(q, tuple(mu))).get(mask - 1, self.ring.zero)
+        return value
+
+    def matrix(self, field: Coordinates) -> Matrix:
+        """Return the matrix of a Lie algebra element given by coordinates."""
+        size = range(len(self.q))
+        return tuple(
+            tuple(
+                sum((x * e[i][j] for x, e in zip(field, self.basis, strict=True)), self.ring.zero)
+                for j in size
+            )
+            for i in size
+        )
+
+    def bracket(self, x: Coordinates, y: Coordinates) -> Coordinates:
+        """Return [x, y] = xy - yx in coordinates."""
+        X, Y = self.matrix(x), self.matrix(y)
+        return self.coordinates(_subtract(_times(X, Y), _times(Y, X)))
+
+    def velocity(self, tree: Velocity) -> Coordinates:
+        """Return xi_t."""
+        found = self._velocity.get(tree)
+        if found is None:
+            fields = [self.velocity(t) for t in tree.word]
+            covectors = [self.covector(p) for p in tree.momenta]
+            found = tuple(self.derivative(fields, [*covectors, unit]) for unit in self.units)
+            self._velocity[tree] = found
+        return found
+
+    def covector(self, tree: Momentum) -> Coordinates:
+        """Return m_p."""
+        found = self._covector.get(tree)
+        if found is None:
+            if isinstance(tree, Force):
+                before, after = ([self.velocity(t) for t in word] for word in (tree.before, tree.after))
+                covectors = [self.covector(p) for p in tree.momenta]
+                found = tuple(self.derivative([*before, unit, *after], covectors) for unit in self.units)
+            else:
+                found = self.transported(tree.word)
+            self._covector[tree] = found
+        return found
+
+    def transported(self, word: Word) -> Coordinates:
+        """Return the covector ``x -> <mu, ad t_1 ... ad t_k x>``."""
+        values = []
+        for unit in self.units:
+            x = unit
+            for letter in reversed(word):
+                x = self.bracket(self.velocity(letter), x)
+            values.append(sum((m * v for m, v in zip(self.mu, x, strict=True)), self.ring.zero))
+        return tuple(values)
+
+    def local_error(self, defects: Mapping[Word, Element]) -> tuple[Matrix, Coordinates]:
+        """Return the coefficients of h^(p+1) of q1 - q(h) (a matrix) and of mu1 - mu(h) (coordinates).
+
+        ``defects`` are method minus flow of the update's coefficients (``update_words``) for every word with
+        p + 1 vertices, all shorter ones being zero. In the leading term trees may be taken at (q, mu) itself.
+        """
+        zero = self.ring.zero
+        point: Matrix = tuple(tuple(zero for _ in self.q) for _ in self.q)
+        momentum = [zero] * len(self.basis)
+        for word, defect in defects.items():
+            if self.ring.is_zero(defect) is True:
+                continue
+            weight = defect
+            moved = self.q
+            for letter in word:
+                weight = weight * self.ring.rational(1, letter.symmetry)
+                moved = _times(self.matrix(self.velocity(letter)), moved)
+            point = _add(point, tuple(tuple(weight * x for x in row) for row in moved))
+            change = self.transported(word[::-1])
+            if len(word) == 1:
+                change = tuple(x + y for x, y in zip(change, self._impulse(word[0]), strict=True))
+            # mu0 as a function of mu1 is off by this much, so mu1 as a function of mu0 by its opposite.
+            momentum = [m - weight * x for m, x in zip(momentum, change, strict=True)]
+        return point, tuple(momentum)
+
+    def _impulse(self, tree: Velocity) -> Coordinates:
+        """Return ``x -> D_q H`` along x and then the tree's word, and along its covectors."""
+        fields = [self.velocity(t) for t in tree.word]
+        covectors = [self.covector(p) for p in tree.momenta]
+        return tuple(self.derivative([unit, *fields], covectors) for unit in self.units)
+
+
+def _scaled(matrix: Matrix, mask: int) -> Matrix:
+    return tuple(tuple(Nilpotent({mask: x}) for x in row) for row in matrix)
+
+
+def _add(a: Matrix, b: Matrix) -> Matrix:
+    return tuple(tuple(x + y for x, y in zip(r, s, strict=True)) for r, s in zip(a, b, strict=True))
+
+
+def _subtract(a: Matrix, b: Matrix) -> Matrix:
+    return tuple(tuple(x - y for x, y in zip(r, s, strict=True)) for r, s in zip(a, b, strict=True))
+
+
+def _times(a: Matrix, b: Matrix) -> Matrix:
+    columns = list(zip(*b, strict=True))
+    return tuple(tuple(_dot(row, column) for column in columns) for row in a)
+
+
+def _dot(row: Sequence[Any], column: Sequence[Any]) -> Any:
+    terms = [x * y for x, y in zip(row, column, strict=True)]
+    total = terms[0]
+    for term in terms[1:]:
+        total = total + term
+    return total
