@@ -1,0 +1,213 @@
+"""Domains: the scalars that a program, a group or a scene is evaluated over.
+
+One implementation of every group operation serves all of them: floats, mpmath numbers, truncated power
+series in h, and expressions (whose evaluation is code generation). A domain supplies what operators on its
+scalars cannot: constants, named functions, the step h, and when a fixed-point iteration stands still.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any, Protocol
+
+from codegen.ir.expr import Expr, Space
+from codegen.ir.number import Number
+from orderconds.ring import PowerSeries
+from orderconds.ring.protocol import Ring
+
+
+class NotConverged(ArithmeticError):
+    """A fixed-point iteration that reached its limit, or left the numbers, in the interpreter."""
+
+
+class Domain(Protocol):
+    """Scalars of one kind; ``h`` is the step size among them."""
+
+    h: Any
+
+    def number(self, value: Number) -> Any:
+        """Return an exact number in this domain, rounded once."""
+
+    def rational(self, p: int, q: int = 1) -> Any:
+        """Return p/q in this domain."""
+
+    def call(self, function: str, *args: Any) -> Any:
+        """Return the value of a function of :data:`codegen.ir.expr.FUNCTIONS`."""
+
+    def settled(self, old: Sequence[Any], new: Sequence[Any], previous: Any) -> tuple[bool, Any]:
+        """Return whether an iteration stands still, and the size of its last change for the next call."""
+
+
+def stumpff(k: int, z: float) -> float:
+    """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0..3 and z >= 0, to a few units in the last place.
+
+    >>> stumpff(1, 0.0), stumpff(2, 0.0)
+    (1.0, 0.5)
+    """
+    if k == 0:
+        return math.cos(math.sqrt(z))
+    if z < (0.5 if k < 3 else 4.0):
+        total, j = 0.0, 14
+        while j >= 0:
+            total = 1.0 / math.factorial(2 * j + k) - z * total
+            j -= 1
+        return total
+    root = math.sqrt(z)
+    if k == 1:
+        return math.sin(root) / root
+    if k == 2:
+        half = math.sin(root / 2)
+        return 2 * half * half / z
+    return (root - math.sin(root)) / (z * root)
+
+
+class FloatDomain:
+    """IEEE double precision."""
+
+    def __init__(self, h: float) -> None:
+        self.h = h
+
+    def number(self, value: Number) -> float:
+        """Return the nearest double."""
+        return float(value)
+
+    def rational(self, p: int, q: int = 1) -> float:
+        """Return p/q rounded once."""
+        return float(Fraction(p, q))
+
+    def call(self, function: str, *args: float) -> float:
+        """Call the function of the math library, or :func:`stumpff`."""
+        if function.startswith("stumpff"):
+            return stumpff(int(function[7:]), args[0])
+        result: float = getattr(math, function)(*args)
+        return result
+
+    def settled(self, old: Sequence[float], new: Sequence[float], previous: Any) -> tuple[bool, float]:
+        """Stand still at rounding level: the rule of :class:`codegen.ir.kernel.Loop`."""
+        change = max(abs(a - b) for a, b in zip(old, new, strict=True))
+        if not math.isfinite(change):
+            raise NotConverged("a fixed-point iteration left the finite numbers")
+        small = change <= 2.0**-44 * max(1.0, *(abs(a) for a in old))
+        return small and (change == 0 or (previous is not None and change >= previous)), change
+
+
+class PreciseDomain:
+    """mpmath numbers of a given number of decimal digits; enter it as a context to set the precision."""
+
+    def __init__(self, h: Any, digits: int = 50) -> None:
+        import mpmath
+
+        self.context = mpmath.mp.clone()
+        self.context.dps = digits
+        self.digits = digits
+        self.h = self.context.mpf(h) if not isinstance(h, Fraction) else self.rational(h.numerator, h.denominator)
+
+    def number(self, value: Number) -> Any:
+        """Return the number rounded to this domain's precision."""
+        if value.is_rational:
+            fraction = value.fraction()
+            return self.rational(fraction.numerator, fraction.denominator)
+        return self.context.mpf(value.ring.approximate(value.element, self.digits + 5))
+
+    def rational(self, p: int, q: int = 1) -> Any:
+        """Return p/q rounded once."""
+        return self.context.mpf(p) / q
+
+    def call(self, function: str, *args: Any) -> Any:
+        """Call mpmath; Stumpff functions by their series near zero."""
+        if not function.startswith("stumpff"):
+            return getattr(self.context, function)(*args)
+        k, z = int(function[7:]), args[0]
+        if z > 1:
+            root = self.context.sqrt(z)
+            sine = self.context.sin(root)
+            closed = (self.context.cos(root), sine / root, 2 * (self.context.sin(root / 2) / root) ** 2)
+            return closed[k] if k < 3 else (root - sine) / (root * z)
+        total, j = self.context.mpf(0), 0
+        term = self.context.mpf(1) / math.factorial(k)
+        while abs(term) > self.context.eps / 1024:
+            total += term
+            j += 1
+            term = -term * z / ((2 * j + k) * (2 * j + k - 1))
+        return total
+
+    def settled(self, old: Sequence[Any], new: Sequence[Any], previous: Any) -> tuple[bool, Any]:
+        """Stand still within 2^12 units of the working precision."""
+        change = max(abs(a - b) for a, b in zip(old, new, strict=True))
+        small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
+        return small and (change == 0 or (previous is not None and change >= previous)), change
+
+
+class SeriesDomain:
+    """Power series in h over an exact ring, truncated beyond h^order: the domain of exact local errors."""
+
+    def __init__(self, base: Ring, order: int) -> None:
+        self.base, self.order = base, order
+        self.ring = PowerSeries(base, order)
+        self.h = self.ring.h
+
+    def number(self, value: Number) -> Any:
+        """Return the constant series of a number of the base field."""
+        if value.ring is self.base:
+            return self.ring.constant(value.element)
+        fraction = value.fraction()
+        return self.ring.rational(fraction.numerator, fraction.denominator)
+
+    def rational(self, p: int, q: int = 1) -> Any:
+        """Return the constant series p/q."""
+        return self.ring.rational(p, q)
+
+    def call(self, function: str, *args: Any) -> Any:
+        """Evaluate an entire function at a series without constant term, exactly; others are refused."""
+        z = args[0]
+        starts = {"sin": (1, 2, z), "cos": (0, 2, self.ring.one), "exp": (0, 1, self.ring.one)}
+        if self.base.is_zero(z.coefficients[0]) is not True:
+            raise ArithmeticError(f"{function} of a series with a constant term is not exact")
+        if function.startswith("stumpff"):
+            k = int(function[7:])
+            return self._sum(k, 2, self.ring.rational(1, math.factorial(k)), z)
+        if function not in starts:
+            raise ArithmeticError(f"{function} has no exact series")
+        k, step, first = starts[function]
+        return self._sum(k, step, first, z * z if step == 2 else -z)
+
+    def _sum(self, k: int, step: int, first: Any, z: Any) -> Any:
+        """Return the sum of first (-z)^j k!/(step j + k)!."""
+        total, term, j = first, first, 0
+        while True:
+            j += 1
+            divisor = math.prod(range(step * (j - 1) + k + 1, step * j + k + 1))
+            term = -(term * z) * self.ring.rational(1, divisor)
+            if self.ring.is_zero(term):
+                return total
+            total = total + term
+
+    def settled(self, old: Sequence[Any], new: Sequence[Any], previous: Any) -> tuple[bool, Any]:
+        """Stand still exactly."""
+        return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None
+
+
+class ExprDomain:
+    """Expressions of one space; ``h`` is a symbol. Blocks are not iterated here but become loops."""
+
+    def __init__(self, space: Space | None = None) -> None:
+        self.space = space if space is not None else Space()
+        self.h = self.space.sym("h")
+
+    def number(self, value: Number) -> Expr:
+        """Return a constant."""
+        return self.space.const(value)
+
+    def rational(self, p: int, q: int = 1) -> Expr:
+        """Return the constant p/q."""
+        return self.space.const(Number.rational(p, q))
+
+    def call(self, function: str, *args: Expr) -> Expr:
+        """Return a call node."""
+        return self.space.call(function, *args)
+
+    def settled(self, old: Sequence[Any], new: Sequence[Any], previous: Any) -> tuple[bool, Any]:
+        """Refuse: there is nothing to iterate."""
+        raise NotConverged("expressions are not iterated")

@@ -1,0 +1,102 @@
+"""The interpreter: a step program evaluated over any domain; the oracle for everything emitted."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+from codegen.ir.domain import Domain, NotConverged
+from codegen.ir.program import Assign, Coefficient, Kind, Program, Solve, Var
+
+
+class Setting(Protocol):
+    """What a program needs to know of its scene: group, action, field or Hamiltonian, over any domain."""
+
+    def apply(self, domain: Domain, name: str, order: int | None, args: tuple[Any, ...]) -> tuple[Any, ...]:
+        """Return the results of a group or scene operation (any but lin, zero and advance)."""
+
+    def dimension(self) -> int:
+        """Return the dimension of the Lie algebra."""
+
+
+def coefficient(domain: Domain, c: Coefficient) -> Any:
+    """Return value * h**power in the domain."""
+    value = domain.number(c.value)
+    for _ in range(c.power):
+        value = domain.h * value
+    return value
+
+
+def apply(setting: Setting, domain: Domain, assign: Assign, args: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return the values of an assignment's targets; linear values are tuples of scalars."""
+    operation = assign.operation
+    if operation.name == "zero":
+        return ((domain.rational(0),) * setting.dimension(),)
+    if operation.name == "advance":
+        return (args[0] + coefficient(domain, operation.coefficients[0]),)
+    if operation.name == "lin":
+        return (_combine(domain, operation.coefficients, args),)
+    return setting.apply(domain, operation.name, operation.order, args)
+
+
+def _combine(domain: Domain, coefficients: tuple[Coefficient, ...], args: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return sum c_k x_k componentwise; terms with equal coefficients are added before they are scaled."""
+    groups: dict[Coefficient, list[tuple[Any, ...]]] = {}
+    for c, x in zip(coefficients, args, strict=True):
+        groups.setdefault(c, []).append(x)
+    total: tuple[Any, ...] | None = None
+    for c, vectors in groups.items():
+        part = vectors[0]
+        for x in vectors[1:]:
+            part = tuple(a + b for a, b in zip(part, x, strict=True))
+        if not c.is_one:
+            factor = coefficient(domain, c)
+            part = tuple(factor * a for a in part)
+        total = part if total is None else tuple(a + b for a, b in zip(total, part, strict=True))
+    assert total is not None
+    return total
+
+
+def flatten(kind: Kind, value: Any) -> tuple[Any, ...]:
+    """Return the scalars of a value; every value but a Real is a flat tuple already, matrices row by row."""
+    return (value,) if kind is Kind.REAL else tuple(value)
+
+
+def interpret(
+    program: Program, setting: Setting, domain: Domain, inputs: Mapping[str, Any], *, limit: int = 400
+) -> dict[str, Any]:
+    """Return the new state after one step, by input name.
+
+    ``inputs`` gives every input of the program: a Real is a scalar of the domain, anything else a flat tuple
+    of scalars (group elements row by row). Blocks are iterated until the domain says they stand still; a block
+    that does not within ``limit`` sweeps raises :class:`NotConverged` naming it.
+    """
+    env: dict[Var, Any] = {v: inputs[v.name] for v in program.inputs}
+
+    def run(assign: Assign) -> None:
+        results = apply(setting, domain, assign, tuple(env[a] for a in assign.args))
+        env.update(zip(assign.targets, results, strict=True))
+
+    for statement in program.body:
+        if isinstance(statement, Assign):
+            run(statement)
+        else:
+            _iterate(statement, env, domain, run, limit)
+    return {name: env[var] for name, var in program.outputs}
+
+
+def _iterate(block: Solve, env: dict[Var, Any], domain: Domain, run: Any, limit: int) -> None:
+    for unknown, start in zip(block.unknowns, block.starts, strict=True):
+        env[unknown] = env[start]
+    size: Any = None
+    for _ in range(limit):
+        for assign in block.body:
+            run(assign)
+        old = [x for u in block.unknowns for x in flatten(u.kind, env[u])]
+        new = [x for v in block.images for x in flatten(v.kind, env[v])]
+        done, size = domain.settled(old, new, size)
+        if done:
+            return
+        for unknown, image in zip(block.unknowns, block.images, strict=True):
+            env[unknown] = env[image]
+    raise NotConverged(f"{block.label} did not settle in {limit} sweeps; the last change was {size}")

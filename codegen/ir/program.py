@@ -1,0 +1,232 @@
+"""Step programs: one step of a method on a scene, in Lie group terms, before any coordinates.
+
+Values have one of five kinds: ``Real``, ``Alg`` (the Lie algebra), ``Dual`` (its dual), ``Group`` and
+``Point`` (the manifold acted on). A program is single assignment. Equations that depend on one another stand
+in a :class:`Solve` block: its unknowns, the body computed from them, and the images that must equal them. A
+method is lowered to *one* block holding all its stages; the passes find out what is sequential.
+
+Not supported here: branches on data, loops other than blocks, more than one group in a program.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from codegen.ir.number import Number
+
+
+class Kind(StrEnum):
+    """The type of a value."""
+
+    REAL = "Real"
+    ALG = "Alg"
+    DUAL = "Dual"
+    GROUP = "Group"
+    POINT = "Point"
+
+
+@dataclass(frozen=True)
+class Var:
+    """A named value; names are unique within a program."""
+
+    name: str
+    kind: Kind
+
+
+@dataclass(frozen=True)
+class Coefficient:
+    """value * h**power."""
+
+    value: Number
+    power: int = 0
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether the number is provably zero."""
+        return self.value.is_zero
+
+    @property
+    def is_one(self) -> bool:
+        """Whether this is the constant 1, free of h."""
+        return self.power == 0 and self.value.is_one
+
+    def text(self) -> str:
+        """Spell it: ``1/2 h``."""
+        h = "" if self.power == 0 else " h" if self.power == 1 else f" h^{self.power}"
+        return f"{self.value.text()}{h}"
+
+
+ONE = Coefficient(Number.rational(1))
+
+A, D, G, P, R = Kind.ALG, Kind.DUAL, Kind.GROUP, Kind.POINT, Kind.REAL
+
+SIGNATURES: dict[str, tuple[tuple[Kind, ...], tuple[Kind, ...]]] = {
+    "identity": ((), (G,)),
+    "exp": ((A,), (G,)),
+    "mul": ((G, G), (G,)),  # the right factor acts first
+    "act": ((G, P), (P,)),
+    "actexp": ((A, P), (P,)),  # exp(x).y without forming exp(x)
+    "Ad": ((G, A), (A,)),
+    "Adt": ((G, D), (D,)),  # Ad*_g mu, the plain dual of Ad_g
+    "Adtinv": ((G, D), (D,)),  # Ad*_{g^-1} mu
+    "ad": ((A, A), (A,)),  # [x, y]
+    "adt": ((A, D), (D,)),  # ad*_x mu
+    "dexpinv": ((A, A), (A,)),  # sum over k <= order of B_k/k! ad_x^k y
+    "dexpt": ((A, D), (D,)),  # dexp*_x mu
+    "advance": ((R,), (R,)),  # t + coefficient
+    "field": ((P,), (A,)),  # f(y)
+    "fieldt": ((P, R), (A,)),  # f(y, t)
+    "hamilton": ((G, D), (A, D)),  # xi = D_2 H, n = -(D_1 H).q^-1
+    "hamiltont": ((G, D, R), (A, D)),
+}
+"""Argument and result kinds of every operation but ``lin`` and ``zero``, which are of any linear kind."""
+
+LINEAR_LAST = frozenset({"Ad", "Adt", "Adtinv", "ad", "adt", "dexpinv", "dexpt"})
+"""Operations that are linear in their last argument."""
+
+
+@dataclass(frozen=True)
+class Operation:
+    """What is done: a name of :data:`SIGNATURES`, ``lin`` (with coefficients) or ``zero``.
+
+    ``coefficients`` belongs to ``lin`` (one an argument) and ``advance`` (one), ``order`` to ``dexpinv``.
+    """
+
+    name: str
+    coefficients: tuple[Coefficient, ...] = ()
+    order: int | None = None
+
+    def text(self) -> str:
+        """Spell it with its parameters."""
+        if self.name == "dexpinv":
+            return f"dexpinv({self.order})"
+        return self.name
+
+
+@dataclass(frozen=True)
+class Assign:
+    """targets = operation(args)."""
+
+    targets: tuple[Var, ...]
+    operation: Operation
+    args: tuple[Var, ...]
+
+    def text(self) -> str:
+        """Spell it for people."""
+        left = ", ".join(t.name for t in self.targets)
+        if self.operation.name == "lin":
+            terms = zip(self.operation.coefficients, self.args, strict=True)
+            return f"{left} = " + " + ".join(f"({c.text()}) {a.name}" for c, a in terms)
+        extra = [c.text() for c in self.operation.coefficients]
+        return f"{left} = {self.operation.text()}({', '.join([a.name for a in self.args] + extra)})"
+
+
+@dataclass(frozen=True)
+class Solve:
+    """Find unknowns = images, where the body computes the images from the unknowns.
+
+    Values of the body may be used after the block; they are those at the solution. ``starts`` are
+    values of the same kinds, known before the block.
+    """
+
+    label: str
+    unknowns: tuple[Var, ...]
+    starts: tuple[Var, ...]
+    body: tuple[Assign, ...]
+    images: tuple[Var, ...]
+
+
+Statement = Assign | Solve
+
+
+@dataclass(frozen=True)
+class Program:
+    """One step: inputs, statements, and the new state, named as the inputs that it replaces."""
+
+    name: str
+    inputs: tuple[Var, ...]
+    body: tuple[Statement, ...]
+    outputs: tuple[tuple[str, Var], ...]
+
+    def assigns(self) -> Iterator[Assign]:
+        """Yield every assignment in order, those inside blocks included."""
+        for statement in self.body:
+            if isinstance(statement, Assign):
+                yield statement
+            else:
+                yield from statement.body
+
+    def counts(self) -> dict[str, int]:
+        """Return how often each operation stands in the program (once for a block's sweep), sorted."""
+        total: dict[str, int] = {}
+        for assign in self.assigns():
+            total[assign.operation.name] = total.get(assign.operation.name, 0) + 1
+        return dict(sorted(total.items()))
+
+    def text(self) -> str:
+        """Spell the program, one statement a line."""
+        lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
+        for statement in self.body:
+            if isinstance(statement, Assign):
+                lines.append("  " + statement.text())
+                continue
+            pairs = zip(statement.unknowns, statement.starts, strict=True)
+            lines.append(f"  solve {statement.label}: " + ", ".join(f"{u.name} from {s.name}" for u, s in pairs))
+            lines += ["    " + assign.text() for assign in statement.body]
+            equations = zip(statement.unknowns, statement.images, strict=True)
+            lines.append("    until " + ", ".join(f"{u.name} = {v.name}" for u, v in equations))
+        lines += [f"  {name}' = {var.name}" for name, var in self.outputs]
+        return "\n".join(lines) + "\n"
+
+
+@dataclass
+class Builder:
+    """Appends assignments with fresh names; used by lowerings and by passes that insert operations."""
+
+    taken: set[str] = field(default_factory=set)
+    body: list[Assign] = field(default_factory=list)
+
+    def fresh(self, name: str, kind: Kind) -> Var:
+        """Return a variable called name, or name with a number where that is taken."""
+        candidate, n = name, 1
+        while candidate in self.taken:
+            n += 1
+            candidate = f"{name}_{n}"
+        self.taken.add(candidate)
+        return Var(candidate, kind)
+
+    def do(self, name: str, target: str, *args: Var, order: int | None = None) -> Var:
+        """Append target = name(args) for an operation with one result."""
+        (kind,) = SIGNATURES[name][1]
+        var = self.fresh(target, kind)
+        self.body.append(Assign((var,), Operation(name, order=order), args))
+        return var
+
+    def lin(self, target: str, kind: Kind, terms: list[tuple[Coefficient, Var]]) -> Var:
+        """Append target = sum of coefficient * variable; an empty sum is ``zero``."""
+        var = self.fresh(target, kind)
+        terms = [(c, v) for c, v in terms if not c.is_zero]
+        operation = Operation("lin", tuple(c for c, _ in terms)) if terms else Operation("zero")
+        self.body.append(Assign((var,), operation, tuple(v for _, v in terms)))
+        return var
+
+    def advance(self, target: str, t: Var, coefficient: Coefficient) -> Var:
+        """Append target = t + coefficient."""
+        var = self.fresh(target, Kind.REAL)
+        self.body.append(Assign((var,), Operation("advance", (coefficient,)), (t,)))
+        return var
+
+    def hamilton(self, xi: str, n: str, *args: Var) -> tuple[Var, Var]:
+        """Append (xi, n) = hamilton(q, mu[, t])."""
+        targets = (self.fresh(xi, Kind.ALG), self.fresh(n, Kind.DUAL))
+        name = "hamilton" if len(args) == 2 else "hamiltont"
+        self.body.append(Assign(targets, Operation(name), args))
+        return targets
+
+    def take(self) -> tuple[Assign, ...]:
+        """Return the assignments appended so far and start anew, names staying taken."""
+        body = tuple(self.body)
+        self.body.clear()
+        return body

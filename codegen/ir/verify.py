@@ -1,0 +1,81 @@
+"""The program verifier, run after every lowering and every pass: types, single assignment, definition before use."""
+
+from __future__ import annotations
+
+from codegen.ir.program import SIGNATURES, Assign, Kind, Program, Solve, Var
+
+LINEAR = (Kind.ALG, Kind.DUAL)
+
+
+class IllFormed(AssertionError):
+    """A program that breaks a rule of :mod:`codegen.ir.program`: a fault of this compiler, not of its user."""
+
+
+def verify(program: Program) -> Program:
+    """Return the program unchanged, or raise :class:`IllFormed` naming the first statement that is wrong."""
+    defined: set[Var] = set()
+    names: set[str] = set()
+
+    def define(var: Var, at: str) -> None:
+        if var.name in names:
+            raise IllFormed(f"{program.name}: {var.name} is assigned twice, at {at}")
+        names.add(var.name)
+        defined.add(var)
+
+    def use(var: Var, at: str) -> None:
+        if var not in defined:
+            raise IllFormed(f"{program.name}: {var.name}: {var.kind} is used before it is defined, at {at}")
+
+    def check(assign: Assign) -> None:
+        at = assign.text()
+        for arg in assign.args:
+            use(arg, at)
+        _types(program.name, assign)
+        for target in assign.targets:
+            define(target, at)
+
+    for var in program.inputs:
+        define(var, "the inputs")
+    for statement in program.body:
+        if isinstance(statement, Assign):
+            check(statement)
+        else:
+            _shape(program.name, statement)
+            for start in statement.starts:
+                use(start, f"the starts of {statement.label}")
+            for unknown in statement.unknowns:
+                define(unknown, statement.label)
+            for assign in statement.body:
+                check(assign)
+            for image in statement.images:
+                use(image, f"the images of {statement.label}")
+    inputs = {v.name: v.kind for v in program.inputs}
+    for name, var in program.outputs:
+        use(var, f"output {name}")
+        if inputs.get(name) != var.kind:
+            raise IllFormed(f"{program.name}: output {name} replaces no input of kind {var.kind}")
+    return program
+
+
+def _shape(name: str, block: Solve) -> None:
+    kinds = [tuple(v.kind for v in vs) for vs in (block.unknowns, block.starts, block.images)]
+    if not block.unknowns or kinds[0] != kinds[1] or kinds[0] != kinds[2]:
+        raise IllFormed(f"{name}: unknowns, starts and images of {block.label} differ in kind")
+
+
+def _types(name: str, assign: Assign) -> None:
+    operation, args = assign.operation, tuple(a.kind for a in assign.args)
+    results = tuple(t.kind for t in assign.targets)
+    if operation.name == "zero":
+        good = not args and len(results) == 1 and results[0] in LINEAR
+    elif operation.name == "lin":
+        good = bool(args) and len(args) == len(operation.coefficients) and len(results) == 1
+        good = good and results[0] in LINEAR and all(k == results[0] for k in args)
+    elif operation.name in SIGNATURES:
+        good = (args, results) == SIGNATURES[operation.name]
+        good = good and len(operation.coefficients) == (operation.name == "advance")
+        good = good and (operation.order is not None) == (operation.name == "dexpinv")
+    else:
+        good = False
+    if not good:
+        raise IllFormed(f"{name}: wrong types in {assign.text()}")
