@@ -1,0 +1,52 @@
+"""Lie groups and their actions, each written once over any domain, by name.
+
+Elements of a group, of its Lie algebra and of the dual are flat tuples of scalars; which coordinates they
+are, and the identity every operation satisfies, stands in each group's docstring. Conventions: left action,
+right trivialisation, [A, B] = AB - BA (see :mod:`orderconds`).
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from orderconds.errors import UnknownName
+
+if TYPE_CHECKING:
+    from codegen.groups.actions import LeftMultiplication, Rotation
+    from codegen.groups.cotangent import Cotangent
+    from codegen.groups.euclidean import Rn
+    from codegen.groups.matrix import GL, MatrixGroup
+    from codegen.groups.so3 import SO3
+
+__all__ = ["GL", "SO3", "Cotangent", "LeftMultiplication", "MatrixGroup", "Rn", "Rotation"]
+
+MODULES = {
+    "SO3": "so3",
+    "Rn": "euclidean",
+    "GL": "matrix",
+    "MatrixGroup": "matrix",
+    "Cotangent": "cotangent",
+    "Rotation": "actions",
+    "LeftMultiplication": "actions",
+}
+
+LISTED = ("Cotangent", "GL", "MatrixGroup", "Rn", "SO3")
+
+
+def __getattr__(name: str) -> Any:
+    if name not in MODULES:
+        raise AttributeError(name)
+    return getattr(import_module(f"codegen.groups.{MODULES[name]}"), name)
+
+
+def listing() -> list[dict[str, str]]:
+    """Return name and first docstring line of every group, for ``orderconds list groups``."""
+    return [{"name": n, "about": (__getattr__(n).__doc__ or "").splitlines()[0]} for n in LISTED]
+
+
+def get(name: str) -> Any:
+    """Return the group class of that name; :class:`orderconds.errors.UnknownName` for another."""
+    if name not in LISTED:
+        raise UnknownName(f"unknown group {name!r}", expected=f"one of {', '.join(LISTED)}")
+    return __getattr__(name)

@@ -1,0 +1,46 @@
+"""Left actions of a group on a manifold; points are flat tuples of scalars."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from codegen.groups.protocol import Scalars, matvec
+from codegen.ir.domain import Domain
+
+
+class LeftMultiplication:
+    """A group acting on itself, g.y = g y; on R^n that is translation."""
+
+    name = "left multiplication"
+
+    def act(self, d: Domain, group: Any, g: Scalars, y: Scalars) -> Scalars:
+        """Return g y."""
+        return tuple(group.mul(d, g, y))
+
+    def actexp(self, d: Domain, group: Any, x: Scalars, y: Scalars) -> Scalars:
+        """Return exp(x) y."""
+        return tuple(group.mul(d, group.exp(d, x), y))
+
+    def velocity(self, d: Domain, group: Any, x: Scalars, y: Scalars) -> Scalars:
+        """Return x.y, the derivative of exp(eps x).y at eps = 0."""
+        return tuple(group.velocity(d, x, y))
+
+
+class Rotation:
+    """Matrices acting on column vectors: g.y = g y; SO(3) on spheres about the origin of R^3."""
+
+    name = "rotation"
+
+    def act(self, d: Domain, group: Any, g: Scalars, y: Scalars) -> Scalars:
+        """Return g y."""
+        return matvec(g, y)
+
+    def actexp(self, d: Domain, group: Any, x: Scalars, y: Scalars) -> Scalars:
+        """Return exp(x) y, without the matrix where the group offers that."""
+        if hasattr(group, "rotate"):
+            return tuple(group.rotate(d, x, y))
+        return matvec(group.exp(d, x), y)
+
+    def velocity(self, d: Domain, group: Any, x: Scalars, y: Scalars) -> Scalars:
+        """Return hat(x) y."""
+        return matvec(group.hat(d, x), y)

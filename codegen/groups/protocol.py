@@ -1,0 +1,117 @@
+"""What a group offers, and what follows for every group from its bracket."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cache
+from math import comb, factorial
+from typing import Any
+
+from codegen.ir.domain import Domain
+
+Scalars = tuple[Any, ...]
+"""A flat tuple of scalars of one domain."""
+
+
+@cache
+def bernoulli_over_factorial(k: int) -> Fraction:
+    """Return B_k/k! with B_1 = -1/2, the coefficients of dexp^{-1}.
+
+    >>> [str(bernoulli_over_factorial(k)) for k in range(5)]
+    ['1', '-1/2', '1/12', '0', '-1/720']
+    """
+    values = [Fraction(1)]
+    for m in range(1, k + 1):
+        values.append(-sum(comb(m + 1, j) * values[j] for j in range(m)) / (m + 1))
+    return values[k] / factorial(k)
+
+
+class LieGroup:
+    """A Lie group in coordinates: ``dim`` of its algebra, ``size`` of an element.
+
+    Subclasses give ``identity exp mul ad velocity`` and, where variational methods are wanted, ``Ad Adt
+    Adtinv adt dexpt``. ``velocity(d, x, g)`` is x.g, the derivative of exp(eps x) g at eps = 0, in the
+    coordinates of g.
+    """
+
+    name: str
+    dim: int
+    size: int
+    abelian = False
+
+    def identity(self, d: Domain) -> Scalars:
+        """Return the neutral element."""
+        raise AttributeError(f"{self.name} has no identity")
+
+    def exp(self, d: Domain, x: Scalars) -> Scalars:
+        """Return exp(x)."""
+        raise AttributeError(f"{self.name} has no exponential")
+
+    def mul(self, d: Domain, g: Scalars, k: Scalars) -> Scalars:
+        """Return g k."""
+        raise AttributeError(f"{self.name} has no product")
+
+    def ad(self, d: Domain, x: Scalars, y: Scalars) -> Scalars:
+        """Return [x, y]."""
+        raise AttributeError(f"{self.name} has no bracket")
+
+    def velocity(self, d: Domain, x: Scalars, g: Scalars) -> Scalars:
+        """Return x.g, the derivative of exp(eps x) g at eps = 0."""
+        raise AttributeError(f"{self.name} has no velocity")
+
+    def dexpinv(self, d: Domain, x: Scalars, y: Scalars, order: int) -> Scalars:
+        """Return dexp^{-1}_{(order),x} y = sum over k <= order of B_k/k! ad_x^k y."""
+        total, power = y, y
+        last = max(k for k in range(order + 1) if bernoulli_over_factorial(k))
+        for k in range(1, last + 1):
+            power = self.ad(d, x, power)
+            b = bernoulli_over_factorial(k)
+            if b:
+                factor = d.rational(b.numerator, b.denominator)
+                total = tuple(s + factor * t for s, t in zip(total, power, strict=True))
+        return total
+
+    def symbols(self, name: str) -> list[Any]:
+        """Return sympy symbols for the coordinates of a group element: ``name`` with row and column digits."""
+        from sympy import Symbol
+
+        n = round(self.size**0.5)
+        return [Symbol(f"{name}{i}{j}", real=True) for i in range(n) for j in range(n)]
+
+    def point(self, name: str) -> Any:
+        """Return a sympy matrix of symbols for a group element."""
+        from sympy import Matrix
+
+        n = round(self.size**0.5)
+        return Matrix(n, n, self.symbols(name))
+
+    def dual(self, name: str) -> Any:
+        """Return a sympy column of symbols for a covector: ``name`` with an index."""
+        from sympy import Matrix, Symbol
+
+        return Matrix([Symbol(f"{name}{i}", real=True) for i in range(self.dim)])
+
+
+def dot(a: Scalars, b: Scalars) -> Any:
+    """Return sum a_i b_i, added from the left."""
+    total = a[0] * b[0]
+    for x, y in zip(a[1:], b[1:], strict=True):
+        total = total + x * y
+    return total
+
+
+def cross(a: Scalars, b: Scalars) -> Scalars:
+    """Return the cross product of two 3-vectors."""
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def matmul(a: Scalars, b: Scalars, n: int) -> Scalars:
+    """Return the product of two n x n matrices, row by row."""
+    rows = range(n)
+    return tuple(dot(a[n * i : n * i + n], b[j::n]) for i in rows for j in rows)
+
+
+def matvec(a: Scalars, v: Scalars) -> Scalars:
+    """Return the matrix a, row by row, times the vector v."""
+    n = len(v)
+    return tuple(dot(a[i : i + n], v) for i in range(0, len(a), n))
