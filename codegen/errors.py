@@ -1,0 +1,13 @@
+"""Errors that a user of the compiler can cause; see :mod:`orderconds.errors` for the form of the message."""
+
+from __future__ import annotations
+
+from orderconds.errors import InputError
+
+
+class SceneError(InputError):
+    """A scene that cannot be read: it raises, has wrong shapes, unknown symbols or unsupported functions."""
+
+
+class MethodError(InputError):
+    """A method that cannot serve a scene, or a method name that cannot be read."""

@@ -1,0 +1,69 @@
+"""Reverse-mode differentiation of expressions: a gradient costs a small multiple of the function."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from codegen.ir.expr import Expr, walk
+from codegen.ir.number import Number
+
+
+def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
+    """Return the partial derivatives of root by the named symbols, in order.
+
+    >>> from codegen.ir.expr import Space
+    >>> s = Space(); x = s.sym("x")
+    >>> gradient(x * x * x, ["x", "y"])[1]
+    0
+    """
+    space = root.space
+    bars: dict[int, Expr] = {root.id: space.one}
+    for node in reversed(list(walk([root]))):
+        bar = bars.get(node.id)
+        if bar is None or bar is space.zero:
+            continue
+        for arg, factor in zip(node.args, _partials(node), strict=True):
+            bars[arg.id] = bars.get(arg.id, space.zero) + bar * factor
+    return [bars.get(space.sym(name).id, space.zero) for name in symbols]
+
+
+def _partials(node: Expr) -> list[Expr]:
+    """Return the derivatives of a node by its arguments."""
+    space, args = node.space, node.args
+    match node.op:
+        case "add":
+            return [space.one, space.one]
+        case "sub":
+            return [space.one, -space.one]
+        case "mul":
+            return [args[1], args[0]]
+        case "div":
+            return [space.one / args[1], -(node / args[1])]
+        case "neg":
+            return [-space.one]
+        case "pow":
+            n = node.payload
+            return [space.const(Number.rational(n)) * space.pow(args[0], n - 1)]
+        case "call":
+            return [_derivative(node)]
+        case _:
+            return []
+
+
+def _derivative(node: Expr) -> Expr:
+    """Return the derivative of a function of one argument."""
+    space, x = node.space, node.args[0]
+    match node.payload:
+        case "sqrt":
+            return space.const(Number.rational(1, 2)) / node
+        case "sin":
+            return space.call("cos", x)
+        case "cos":
+            return -space.call("sin", x)
+        case "exp":
+            return node
+        case "log":
+            return space.one / x
+        case _:
+            message = f"{node.payload} stands in no scene and is not differentiated"
+            raise ValueError(message)

@@ -1,0 +1,291 @@
+"""Scenes: what a user writes. A group, its action, a field or a Hamiltonian, parameters, initial state, span.
+
+A scene is read once: its sympy formulas become expressions (exact, hash-consed), derivatives are taken by
+reverse differentiation, and from then on the scene can be evaluated over any domain. It is the *setting* in
+which a step program is interpreted and compiled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
+
+from codegen.errors import SceneError
+from codegen.groups.actions import LeftMultiplication
+from codegen.groups.cotangent import Cotangent
+from codegen.ir.differentiate import gradient
+from codegen.ir.domain import Domain, ExprDomain
+from codegen.ir.expr import Expr, Space, evaluate, walk
+from codegen.ir.from_sympy import read
+from codegen.ir.number import Number
+from codegen.ir.program import Kind
+
+GROUP_OPERATIONS = frozenset({"identity", "exp", "mul", "Ad", "Adt", "Adtinv", "ad", "adt", "dexpt"})
+TIME = "t"
+
+
+def param(name: str, default: Any) -> Any:
+    """Return a sympy symbol for a parameter with a rational default.
+
+    The default is folded into emitted code unless the parameter is asked for at run time.
+    """
+    import sympy
+
+    value = sympy.Rational(default)
+    symbol = sympy.Symbol(name, real=True)
+    _DEFAULTS[name] = Number.rational(int(value.p), int(value.q))
+    return symbol
+
+
+_DEFAULTS: dict[str, Number] = {}
+
+
+@dataclass(frozen=True)
+class StateField:
+    """A block of the state: its name, kind, coordinates, and initial value as expressions."""
+
+    name: str
+    kind: Kind
+    symbols: tuple[str, ...]
+    initial: tuple[Expr, ...]
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A scene as programs see it: group, action, state, and either a field or a Hamiltonian.
+
+    ``roots`` are the components of f (field scenes) or of xi and n (Hamiltonian scenes) as expressions in the
+    state's symbols, the parameters and ``t``. Values are flat tuples of scalars of a domain.
+    """
+
+    name: str
+    title: str
+    group: Any
+    action: Any
+    state: tuple[StateField, ...]
+    roots: tuple[Expr, ...]
+    hamiltonian: Expr | None
+    invariants: Mapping[str, Expr]
+    span: tuple[Fraction, Fraction]
+    parameters: Mapping[str, Number]
+    runtime: tuple[str, ...] = ()
+    paired: bool = False
+
+    @property
+    def symbols(self) -> tuple[str, ...]:
+        """All coordinates of the state in order."""
+        return tuple(s for block in self.state for s in block.symbols)
+
+    @property
+    def autonomous(self) -> bool:
+        """Whether the time does not occur in the field or Hamiltonian."""
+        return not any(n.op == "sym" and n.payload == TIME for n in walk(self.roots))
+
+    @property
+    def is_hamiltonian(self) -> bool:
+        """Whether programs see (q, mu) and the operation ``hamilton``."""
+        return self.paired
+
+    def dimension(self) -> int:
+        """Return the dimension of the Lie algebra."""
+        return int(self.group.dim)
+
+    def with_runtime(self, names: Sequence[str]) -> Setting:
+        """Return this scene with those parameters kept as run-time inputs."""
+        for name in names:
+            if name not in self.parameters:
+                known = ", ".join(sorted(self.parameters)) or "none"
+                raise SceneError(f"unknown parameter {name!r}", where=self.name, expected=f"one of: {known}")
+        return replace(self, runtime=tuple(sorted(names)))
+
+    def as_field(self) -> Setting:
+        """Return a Hamiltonian scene as the field f = (xi, n) on the group T*G acting on itself."""
+        if not self.paired:
+            return self
+        q, mu = self.state
+        point = StateField("y", Kind.POINT, q.symbols + mu.symbols, q.initial + mu.initial)
+        group, action = Cotangent(self.group), LeftMultiplication()
+        return replace(self, group=group, action=action, state=(point,), paired=False)
+
+    def values(self, domain: Domain, state: Sequence[Any], t: Any = None) -> dict[str, Any]:
+        """Return the values of all symbols, parameters included; run-time ones stay symbols in expressions."""
+        values = dict(zip(self.symbols, state, strict=True))
+        for name, number in self.parameters.items():
+            symbolic = isinstance(domain, ExprDomain) and name in self.runtime
+            values[name] = domain.space.sym(name) if symbolic else domain.number(number)  # type: ignore[attr-defined]
+        values[TIME] = t if t is not None else domain.rational(0)
+        return values
+
+    def apply(self, domain: Domain, name: str, order: int | None, args: tuple[Any, ...]) -> tuple[Any, ...]:
+        """Return the results of a group, action or scene operation of a program."""
+        if name == "dexpinv":
+            return (self.group.dexpinv(domain, *args, order),)
+        if name in GROUP_OPERATIONS:
+            return (getattr(self.group, name)(domain, *args),)
+        if name in ("act", "actexp"):
+            return (getattr(self.action, name)(domain, self.group, *args),)
+        return self._evaluate(domain, args)
+
+    def _evaluate(self, domain: Domain, args: tuple[Any, ...]) -> tuple[Any, ...]:
+        blocks = args[: len(self.state)]
+        t = args[len(self.state)] if len(args) > len(self.state) else None
+        state = tuple(x for block in blocks for x in block)
+        result = tuple(evaluate(self.roots, domain, self.values(domain, state, t)))
+        if not self.paired:
+            return (result,)
+        return result[: self.group.dim], result[self.group.dim :]
+
+    def velocity(self, domain: Domain, state: tuple[Any, ...], t: Any = None) -> tuple[Any, ...]:
+        """Return the ambient time derivative of the state's coordinates: f(y).y."""
+        field = self.as_field()
+        f = tuple(evaluate(field.roots, domain, field.values(domain, state, t)))
+        return tuple(field.action.velocity(domain, field.group, f, state))
+
+    def initial(self, domain: Domain) -> tuple[Any, ...]:
+        """Return the initial coordinates in order."""
+        roots = [e for block in self.state for e in block.initial]
+        values = {name: domain.number(number) for name, number in self.parameters.items()}
+        return tuple(evaluate(roots, domain, values))
+
+    def invariant(self, domain: Domain, name: str, state: Sequence[Any]) -> Any:
+        """Return the value of a declared invariant; ``energy`` is the Hamiltonian where there is one."""
+        root = self.invariants[name]
+        return evaluate([root], domain, self.values(domain, state))[0]
+
+
+def FieldScene(
+    *,
+    group: Any,
+    action: Any,
+    y: Any,
+    f: Any,
+    y0: Any,
+    span: tuple[Any, Any],
+    invariants: Mapping[str, Any] | None = None,
+    name: str = "scene",
+    title: str = "",
+) -> Setting:
+    """Return the scene y' = f(y).y for a group acting on a manifold.
+
+    ``y`` is a sympy column of coordinate symbols, ``f`` a column of ``group.dim`` components in those symbols,
+    the symbol ``t`` and parameters, ``y0`` the exact initial point, ``span`` the rational time interval,
+    ``invariants`` a mapping from names to scalar formulas. :class:`SceneError` for a wrong shape or symbol.
+    """
+    reader = _Reader(name, [s.name for s in y])
+    roots = reader.column(f, group.dim, "f")
+    start = reader.column(y0, len(y), "y0", constant=True)
+    state = (StateField("y", Kind.POINT, tuple(s.name for s in y), start),)
+    known = {key: reader.scalar(value, f"invariant {key}") for key, value in (invariants or {}).items()}
+    return Setting(
+        *(name, title or name, group, action, state, roots, None, known, _span(name, span)),
+        reader.parameters(),
+    )
+
+
+def HamiltonianScene(
+    *,
+    group: Any,
+    q: Any,
+    mu: Any,
+    H: Any,
+    q0: Any,
+    mu0: Any,
+    span: tuple[Any, Any],
+    parts: Mapping[str, Any] | None = None,
+    invariants: Mapping[str, Any] | None = None,
+    name: str = "scene",
+    title: str = "",
+) -> Setting:
+    """Return the scene of a right-trivialised Hamiltonian H(q, mu) on T*G.
+
+    ``q`` and ``mu`` are sympy matrices of symbols (``group.point``, ``group.dual``), ``q0`` and ``mu0`` exact
+    initial values, ``parts`` named summands of H. xi = D_2 H and n = -(D_1 H).q^-1, that is n_a = -d/deps
+    H(exp(eps e_a) q, mu) (thesis eq. 3.4), are found by differentiation. The energy is an invariant.
+    """
+    reader = _Reader(name, [s.name for s in q] + [s.name for s in mu])
+    hamiltonian = reader.scalar(H, "H")
+    for key, part in (parts or {}).items():
+        reader.scalar(part, f"part {key}")
+    qs, mus = tuple(s.name for s in q), tuple(s.name for s in mu)
+    derivatives = gradient(hamiltonian, qs + mus)
+    roots = tuple(derivatives[len(qs) :]) + _force(reader.space, group, qs, derivatives[: len(qs)])
+    state = (
+        StateField("q", Kind.GROUP, qs, reader.column(q0, len(qs), "q0", constant=True)),
+        StateField("mu", Kind.DUAL, mus, reader.column(mu0, len(mus), "mu0", constant=True)),
+    )
+    known = {"energy": hamiltonian}
+    known |= {key: reader.scalar(value, f"invariant {key}") for key, value in (invariants or {}).items()}
+    return Setting(
+        *(name, title or name, group, LeftMultiplication(), state, roots, hamiltonian, known),
+        *(_span(name, span), reader.parameters()),
+        paired=True,
+    )
+
+
+def _force(space: Space, group: Any, qs: tuple[str, ...], slope: list[Expr]) -> tuple[Expr, ...]:
+    """Return n_a = -<dH, e_a.q> from the partial derivatives of H by the coordinates of q."""
+    domain = ExprDomain(space)
+    q = tuple(space.sym(s) for s in qs)
+    result = []
+    for a in range(group.dim):
+        unit = tuple(domain.rational(int(a == b)) for b in range(group.dim))
+        velocity = group.velocity(domain, unit, q)
+        total = space.zero
+        for d, v in zip(slope, velocity, strict=True):
+            total = total - d * v
+        result.append(total)
+    return tuple(result)
+
+
+def _span(name: str, span: tuple[Any, Any]) -> tuple[Fraction, Fraction]:
+    import sympy
+
+    first, last = (Fraction(int(r.p), int(r.q)) for r in map(sympy.Rational, span))
+    if not last > first:
+        raise SceneError(f"the span ({first}, {last})", where=name, expected="an end after the beginning")
+    return first, last
+
+
+class _Reader:
+    """Reads a scene's formulas into one space and remembers which parameters occur."""
+
+    def __init__(self, name: str, coordinates: list[str]) -> None:
+        if len(set(coordinates)) != len(coordinates):
+            raise SceneError("a coordinate symbol twice", where=name, expected="distinct symbols")
+        self.name, self.coordinates = name, coordinates
+        self.space = Space()
+        self.seen: set[str] = set()
+
+    def parameters(self) -> dict[str, Number]:
+        """Return the defaults of the parameters that occur, by name."""
+        return {name: _DEFAULTS[name] for name in sorted(self.seen)}
+
+    def scalar(self, formula: Any, what: str, constant: bool = False) -> Expr:
+        """Return one formula; its symbols must be coordinates, t, or parameters."""
+        if getattr(formula, "shape", None) == (1, 1):
+            formula = formula[0]
+        if hasattr(formula, "shape"):
+            raise SceneError(f"{what} has shape {formula.shape}", where=self.name, expected="a scalar")
+        root = read(self.space, formula, f"{self.name}, {what}")
+        for node in walk([root]):
+            if node.op != "sym":
+                continue
+            if node.payload in _DEFAULTS and node.payload not in self.coordinates:
+                self.seen.add(node.payload)
+            elif constant or node.payload not in (*self.coordinates, TIME):
+                raise SceneError(
+                    f"the symbol {node.payload} in {what} has no value",
+                    where=self.name,
+                    expected="numbers and parameters" if constant else "coordinates, t and parameters",
+                    hint=f'write {node.payload} = param("{node.payload}", 1) to make it a parameter',
+                )
+        return root
+
+    def column(self, formulas: Any, n: int, what: str, constant: bool = False) -> tuple[Expr, ...]:
+        """Return n formulas."""
+        entries = list(formulas)
+        if len(entries) != n:
+            raise SceneError(f"{what} has {len(entries)} components", where=self.name, expected=str(n))
+        return tuple(self.scalar(e, f"{what}[{k}]", constant) for k, e in enumerate(entries))

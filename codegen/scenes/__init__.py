@@ -1,0 +1,47 @@
+"""The gallery: one file a scene; and loading a scene by name or from a user's file."""
+
+from __future__ import annotations
+
+import runpy
+import traceback
+from dataclasses import replace
+from importlib import import_module
+from pathlib import Path
+
+from codegen.errors import SceneError
+from codegen.scene import Setting
+from orderconds.errors import InputError, UnknownName
+
+GALLERY = ("dipole", "free_rigid_body")
+
+
+def load(name: str) -> Setting:
+    """Return a scene of the gallery, or the ``scene`` of the Python file at path ``name``.
+
+    A file that raises, or defines no scene, is a :class:`SceneError` that names file and line.
+    """
+    if name in GALLERY:
+        scene: Setting = import_module(f"codegen.scenes.{name}").scene
+        return replace(scene, name=name)
+    path = Path(name)
+    if path.suffix != ".py":
+        hint = "or the path of a Python file that defines `scene`"
+        raise UnknownName(f"unknown scene {name!r}", expected=f"one of {', '.join(GALLERY)}", hint=hint)
+    if not path.is_file():
+        raise SceneError("no such file", where=name, expected="a Python file that defines `scene`")
+    try:
+        found = runpy.run_path(str(path)).get("scene")
+    except InputError:
+        raise
+    except Exception as error:
+        lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == str(path)]
+        at = f"{name}:{lines[-1]}" if lines else name
+        raise SceneError(f"the scene raises {type(error).__name__}: {error}", where=at) from error
+    if not isinstance(found, Setting):
+        raise SceneError("no scene is defined", where=name, expected="scene = FieldScene(...) or HamiltonianScene(...)")
+    return replace(found, name=path.stem)
+
+
+def listing() -> list[dict[str, str]]:
+    """Return name and title of every scene of the gallery, for ``orderconds list scenes``."""
+    return [{"name": n, "about": load(n).title} for n in GALLERY]

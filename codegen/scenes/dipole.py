@@ -1,0 +1,32 @@
+"""Dipole on a stick: a pendulum with a charged dipole at its end near a fixed charge, on T*SO(3).
+
+Thesis section 3.6. Gravity enters with a minus sign (the printed Hamiltonian has a plus): only then do the
+energies and errors printed there come out.
+"""
+
+from sympy import Matrix, Rational, diag, sqrt
+
+from codegen.groups import SO3
+from codegen.scene import HamiltonianScene, param
+
+G = SO3()
+g, mu = G.point("g"), G.dual("mu")
+a, beta = Rational(1, 10), param("beta", 1)
+I = diag(1 + a**2, 1, a**2)  # noqa: E741 (the inertia tensor's name)
+e2, e3, z = Matrix([0, 1, 0]), Matrix([0, 0, 1]), Matrix([0, 0, -Rational(3, 2)])
+r = [sqrt(v.dot(v)) for v in (g * Matrix([0, s * a, -1]) - z for s in (1, -1))]
+T = (mu.T * g * I.inv() * g.T * mu)[0] / 2
+V = -e3.dot(g * e3) + beta * (1 / r[0] - 1 / r[1])
+g0 = Matrix([[1, 0, 0], [0, 0, -1], [0, 1, 0]])
+
+scene = HamiltonianScene(
+    title="Dipole on a stick, T*SO(3) (thesis section 3.6)",
+    group=G,
+    q=g,
+    mu=mu,
+    H=T + V,
+    parts={"T": T, "V": V},
+    q0=g0,
+    mu0=g0 * I * g0.T * e2,
+    span=(0, Rational(1, 2)),
+)
