@@ -1,0 +1,42 @@
+"""Lowering: one file a family says how (tableau, scene) becomes a step program with one block of stages."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+from codegen.errors import MethodError
+from codegen.ir.program import Program
+from codegen.method import Method
+from codegen.scene import Setting
+
+LOWERINGS = {"rk": "rkmk", "rkmk": "rkmk", "cg": "cf", "cf": "cf", "vcg": "vcg"}
+"""Family name to module."""
+
+ON_COTANGENT = frozenset({"vcg"})
+"""Families that need a Hamiltonian scene; all others see it as a field on the group T*G."""
+
+
+def setting(scene: Setting, method: Method) -> Setting:
+    """Return the scene as the method's family sees it; :class:`MethodError` where it cannot serve."""
+    family = method.family
+    if family in ON_COTANGENT:
+        if not scene.is_hamiltonian:
+            hint = f"use one of {', '.join(sorted(set(LOWERINGS) - ON_COTANGENT))}"
+            raise MethodError(f"{family} on {scene.name}", expected="a Hamiltonian scene", hint=hint)
+        return scene
+    view = scene.as_field()
+    if family == "rk" and not view.group.abelian:
+        group = view.group.name
+        raise MethodError(f"rk on {scene.name}, whose group is {group}", expected="R^n", hint="use rkmk, cg or cf")
+    return view
+
+
+def lower(scene: Setting, method: Method) -> Program:
+    """Return the verified step program of a method on a scene, all its stages in one block."""
+    if method.family not in LOWERINGS:
+        known = ", ".join(LOWERINGS)
+        raise MethodError(f"family {method.family} cannot be lowered yet", expected=f"one of {known}")
+    module: Any = import_module(f"codegen.lower.{LOWERINGS[method.family]}")
+    program: Program = module.lower(setting(scene, method), method)
+    return program

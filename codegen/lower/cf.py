@@ -1,0 +1,54 @@
+"""Commutator-free and Crouch-Grossman methods on a field: products of exponentials, no brackets.
+
+A stage, and the update, is exp(h sum_j beta_J^j k_j) ... exp(h sum_j beta_1^j k_j) applied to y0 or to an
+earlier stage; the first exponential acts first. A Butcher tableau is read as Crouch-Grossman (thesis eq.
+1.4): one exponential a coefficient. The unknowns are the k_i.
+"""
+
+from __future__ import annotations
+
+from functools import reduce
+from operator import add
+
+from codegen.ir.program import Kind, Program, Var
+from codegen.lower.stages import Stages
+from codegen.method import Method
+from codegen.scene import Setting
+from orderconds.ring.protocol import Element
+from orderconds.tableau import Stage
+
+
+def lower(scene: Setting, method: Method) -> Program:
+    """Return the program of a cf or cg method."""
+    tableau = method.commutator_free()
+    y = Var("y", Kind.POINT)
+    stages = Stages(scene, method, (y,))
+    do = stages.builder
+    k = [do.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)]
+
+    def product(stage: Stage, name: str, points: list[Var]) -> Var:
+        point = y if stage.start is None else points[stage.start]
+        for row in stage.exponentials:
+            x = stages.combination(f"x{name}", Kind.ALG, row, k)
+            point = do.do("act", f"Y{name}", do.do("exp", f"g{name}", x), point)
+        return point
+
+    def images() -> list[Var]:
+        points: list[Var] = []
+        times: list[Element] = []
+        result = []
+        for i, stage in enumerate(tableau.stages):
+            points.append(product(stage, str(i + 1), points))
+            entries = [x for row in stage.exponentials for x in row]
+            own = reduce(add, entries, method.tableau.ring.zero)
+            times.append(own if stage.start is None else own + times[stage.start])
+            result.append(stages.f(f"f{i + 1}", points[i], times[i]))
+        stage_points[:] = points
+        return result
+
+    stage_points: list[Var] = []
+
+    def update() -> dict[str, Var]:
+        return {"y": product(tableau.update, "", stage_points)}
+
+    return stages.program(k, images, lambda: [stages.f("k0", y, None)] * tableau.s, update)

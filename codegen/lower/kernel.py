@@ -1,0 +1,165 @@
+"""From step program to kernel: symbolic execution over expressions, then a schedule of scalar assignments.
+
+Every value becomes a tuple of expressions; hash-consing shares what is equal. A block becomes a loop: what
+depends on its unknowns and is needed for its images goes inside, what does not depend on them goes before,
+and body values needed later are read where the last sweep left them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr, walk
+from codegen.ir.interpret import apply, flatten
+from codegen.ir.kernel import Field, Kernel, Let, Loop
+from codegen.ir.program import Assign, Kind, Program, Solve, Var
+from codegen.scene import TIME, Setting
+
+INLINE = 10
+"""Largest number of operations spelled in one assignment: longer expressions get names on the way."""
+
+
+@dataclass(frozen=True)
+class _Block:
+    """A loop before scheduling: names of the unknowns, expressions of starts and images."""
+
+    label: str
+    unknowns: tuple[str, ...]
+    starts: tuple[Expr, ...]
+    images: tuple[Expr, ...]
+
+
+def to_kernel(program: Program, scene: Setting) -> Kernel:
+    """Return the kernel of a program in its setting (:func:`codegen.lower.setting`)."""
+    domain = ExprDomain()
+    space = domain.space
+    env: dict[Var, object] = {}
+    hints: dict[int, str] = {}
+    blocks: list[_Block] = []
+    taken = {*scene.symbols, *scene.runtime, "h", TIME}
+
+    def name(base: str) -> str:
+        candidate = base if base not in taken else base + "_"
+        while candidate in taken:
+            candidate += "_"
+        taken.add(candidate)
+        return candidate
+
+    def remember(var: Var) -> None:
+        for k, x in enumerate(flatten(var.kind, env[var])):
+            hints.setdefault(x.id, f"{var.name}_{k}" if var.kind is not Kind.REAL else var.name)
+
+    def run(assign: Assign) -> None:
+        results = apply(scene, domain, assign, tuple(env[a] for a in assign.args))
+        for target, value in zip(assign.targets, results, strict=True):
+            env[target] = value
+            remember(target)
+
+    blocks_by_name = {block.name: block for block in scene.state}
+    for var in program.inputs:
+        block = blocks_by_name.get(var.name)
+        env[var] = tuple(space.sym(s) for s in block.symbols) if block else space.sym(TIME)
+    for statement in program.body:
+        if isinstance(statement, Assign):
+            run(statement)
+        else:
+            blocks.append(_enter(statement, env, domain, name, run))
+    outputs = tuple(x for n, var in program.outputs for x in flatten(var.kind, env[var]))
+    schedule = _Schedule(blocks, outputs, hints, name)
+    state = tuple(Field(b.name, b.symbols, _meaning(b.kind, scene)) for b in scene.state)
+    return Kernel(program.name, state, (TIME, "h", *scene.runtime), schedule.run(), outputs=schedule.outputs)
+
+
+def _meaning(kind: Kind, scene: Setting) -> str:
+    texts = {
+        Kind.GROUP: f"element of {scene.group.name}, row by row",
+        Kind.DUAL: f"right-trivialised momentum in the dual algebra of {scene.group.name}",
+        Kind.POINT: f"point that {scene.group.name} acts on by {scene.action.name}",
+    }
+    return texts[kind]
+
+
+def _enter(block: Solve, env: dict, domain: ExprDomain, name, run) -> _Block:  # type: ignore[no-untyped-def, type-arg]
+    """Give the unknowns symbols, run the body on them, and return the block."""
+    names: list[str] = []
+    starts: list[Expr] = []
+    for unknown, start in zip(block.unknowns, block.starts, strict=True):
+        width = len(flatten(start.kind, env[start]))
+        own = [name(f"{unknown.name}_{k}") for k in range(width)]
+        symbols = tuple(domain.space.sym(s) for s in own)
+        env[unknown] = symbols if unknown.kind is not Kind.REAL else symbols[0]
+        names += own
+        starts += flatten(start.kind, env[start])
+    for assign in block.body:
+        run(assign)
+    images = [x for v in block.images for x in flatten(v.kind, env[v])]
+    return _Block(block.label, tuple(names), tuple(starts), tuple(images))
+
+
+@dataclass
+class _Schedule:
+    """Orders expressions into assignments and loops, naming what is shared or long."""
+
+    blocks: Sequence[_Block]
+    roots: Sequence[Expr]
+    hints: dict[int, str]
+    name: object
+    body: list[Let | Loop] = field(default_factory=list)
+    outputs: tuple[Expr, ...] = ()
+
+    def run(self) -> tuple[Let | Loop, ...]:
+        """Return the kernel's body and set ``outputs``."""
+        self._prepare()
+        for k, block in enumerate(self.blocks):
+            inside: list[Let] = []
+            starts = tuple(self._place(x, self.body, [], -1) for x in block.starts)
+            images = tuple(self._place(x, self.body, inside, k) for x in block.images)
+            self.body.append(Loop(block.label, block.unknowns, starts, tuple(inside), images))
+        self.outputs = tuple(self._place(x, self.body, [], -1) for x in self.roots)
+        return tuple(self.body)
+
+    def _prepare(self) -> None:
+        """Find for each node how often it is used and the last block whose unknowns it depends on."""
+        owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
+        roots = [x for b in self.blocks for x in (*b.starts, *b.images)] + list(self.roots)
+        self.uses: dict[int, int] = {}
+        self.level: dict[int, int] = {}
+        self.done: dict[int, Expr] = {}
+        self.size: dict[int, int] = {}
+        for root in roots:
+            self.uses[root.id] = self.uses.get(root.id, 0) + 1
+        for node in walk(roots):
+            for arg in node.args:
+                self.uses[arg.id] = self.uses.get(arg.id, 0) + 1
+            levels = [self.level[a.id] for a in node.args]
+            own = owner.get(node.payload, -1) if node.op == "sym" else -1
+            self.level[node.id] = max([own, *levels])
+
+    def _place(self, root: Expr, outer: list, inner: list[Let], loop: int) -> Expr:  # type: ignore[type-arg]
+        """Return root with every named part replaced by its symbol, appending the assignments it needs."""
+        for node in walk([root], stop=lambda n: n.id in self.done):
+            if node.id in self.done:
+                continue
+            target = inner if loop >= 0 and self.level[node.id] == loop else outer
+            args = tuple(self.done[a.id] for a in node.args)
+            rebuilt = node.space._make(node.op, args, node.payload) if node.args else node
+            size = 1 + sum(self.size.get(a.id, 0) for a in args) if node.args else 0
+            crosses = loop >= 0 and target is outer
+            shared = self.uses[node.id] > 1 or size >= INLINE or crosses
+            trivial = not node.args or (node.op == "neg" and not args[0].args)
+            if shared and not trivial:
+                symbol = self._let(node, rebuilt, target)
+                self.done[node.id] = symbol
+            else:
+                self.done[node.id] = rebuilt
+                self.size[rebuilt.id] = size
+        return self.done[root.id]
+
+    def _let(self, node: Expr, value: Expr, target: list) -> Expr:  # type: ignore[type-arg]
+        hint = self.hints.get(node.id)
+        self.count = getattr(self, "count", 0) + (hint is None)
+        name = self.name(hint or f"w{self.count}")  # type: ignore[operator]
+        target.append(Let(name, value))
+        return node.space.sym(name)

@@ -1,0 +1,36 @@
+"""Runge-Kutta-Munthe-Kaas methods on a field: one exponential a stage, brackets by dexp^{-1}_(r).
+
+Thesis eq. (3.14): u_i = h sum_j a_ij v_j, v_i = dexp^{-1}_{(r),u_i} f(exp(u_i).y0), y1 = exp(h sum_i b_i
+v_i).y0. The unknowns are the v_i. On R^n with r = 0 this is the Runge-Kutta method itself.
+"""
+
+from __future__ import annotations
+
+from codegen.ir.program import Kind, Program, Var
+from codegen.lower.stages import Stages
+from codegen.method import Method
+from codegen.scene import Setting
+
+
+def lower(scene: Setting, method: Method) -> Program:
+    """Return the program of an RKMK method with cut-off ``method.cutoff``; rk is the cut-off 0."""
+    tableau = method.runge_kutta()
+    y = Var("y", Kind.POINT)
+    stages = Stages(scene, method, (y,))
+    do = stages.builder
+    v = [do.fresh(f"v{i + 1}", Kind.ALG) for i in range(tableau.s)]
+
+    def images() -> list[Var]:
+        result = []
+        for i, row in enumerate(tableau.A):
+            u = stages.combination(f"u{i + 1}", Kind.ALG, row, v)
+            point = do.do("act", f"Y{i + 1}", do.do("exp", f"g{i + 1}", u), y)
+            k = stages.f(f"k{i + 1}", point, tableau.c[i])
+            result.append(do.do("dexpinv", f"w{i + 1}", u, k, order=method.cutoff or 0))
+        return result
+
+    def update() -> dict[str, Var]:
+        u = stages.combination("u", Kind.ALG, tableau.b, v)
+        return {"y": do.do("act", "y1", do.do("exp", "g", u), y)}
+
+    return stages.program(v, images, lambda: [stages.f("k0", y, None)] * tableau.s, update)

@@ -1,0 +1,74 @@
+"""What all lowerings share: inputs, stage times, evaluating the scene, and one block holding all stages."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+from codegen.ir.number import Number
+from codegen.ir.program import ONE, Builder, Coefficient, Kind, Program, Solve, Var
+from codegen.ir.verify import verify
+from codegen.method import Method
+from codegen.scene import Setting
+from orderconds.ring.protocol import Element
+
+
+@dataclass
+class Stages:
+    """Collects a method's stages into a program: unknowns, their starts, the body, their images, the update."""
+
+    scene: Setting
+    method: Method
+    inputs: tuple[Var, ...]
+    builder: Builder = field(init=False)
+    time: Var | None = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.builder = Builder({v.name for v in self.inputs} | {"t", "h"})
+        self.time = None if self.scene.autonomous else Var("t", Kind.REAL)
+
+    def number(self, x: Element) -> Number:
+        """Return a coefficient of the tableau as a number; rational values are kept over QQ."""
+        return self.method.number(x)
+
+    def times_h(self, x: Element | Number) -> Coefficient:
+        """Return the coefficient h x."""
+        return Coefficient(x if isinstance(x, Number) else self.number(x), 1)
+
+    def combination(self, target: str, kind: Kind, row: Sequence[Element], values: Sequence[Var]) -> Var:
+        """Append target = h sum_j row_j values_j."""
+        terms = [(self.times_h(x), v) for x, v in zip(row, values, strict=True)]
+        return self.builder.lin(target, kind, terms)
+
+    def at(self, c: Element | None) -> tuple[Var, ...]:
+        """Return (t + c h,) for a scene that depends on time, () for one that does not; None is c = 0."""
+        if self.time is None:
+            return ()
+        if c is None or self.number(c).is_zero:
+            return (self.time,)
+        return (self.builder.advance("t_stage", self.time, self.times_h(c)),)
+
+    def f(self, target: str, y: Var, c: Element | None) -> Var:
+        """Append target = f(y, t + c h)."""
+        time = self.at(c)
+        return self.builder.do("fieldt" if time else "field", target, y, *time)
+
+    def program(
+        self,
+        unknowns: Sequence[Var],
+        images: Callable[[], Sequence[Var]],
+        starts: Callable[[], Sequence[Var]],
+        update: Callable[[], dict[str, Var]],
+    ) -> Program:
+        """Assemble and verify: starts, one block with the images' body, the update; outputs by input name."""
+        first = tuple(starts())
+        before = self.builder.take()
+        found = tuple(images())
+        block = Solve("stages", tuple(unknowns), first, self.builder.take(), found)
+        outputs = update()
+        inputs = self.inputs + (() if self.time is None else (self.time,))
+        body = (*before, block, *self.builder.take())
+        return verify(Program(self.method.label, inputs, body, tuple(outputs.items())))
+
+
+__all__ = ["ONE", "Stages"]

@@ -1,0 +1,90 @@
+"""Variational Crouch-Grossman methods on T*G, thesis eq. (3.18) with the momentum in the form (3.19).
+
+Everything is taken relative to q0, where the coadjoint action of q0 drops out: with e^j = exp(h b_j xi_j)
+e^{j-1}, E_i^j = exp(h a_ij xi_j) E_i^{j-1}, e^0 = E_i^0 = 1, E_i = E_i^s, Q_i = E_i q0, nu_j = Ad*_{E_j} n_j,
+
+    M_i = dexp*_{-h b_i xi_i} Ad*_{(e^{i-1})^-1} (mu0 + h sum_j b_j nu_j)
+          - h sum_j (b_j a_ji/b_i) dexp*_{-h a_ji xi_i} Ad*_{(E_j^{i-1})^-1} nu_j,
+    q1 = e^s q0,   mu1 = Ad*_{(e^s)^-1} (mu0 + h sum_j b_j nu_j).
+
+This is (3.19) by dexp*_x Ad*_{exp(-x)} = dexp*_{-x}: the factor of xi_i itself is merged into dexp*. The
+terms are kept apart here, one a coefficient; where a_ji = b_i and E_j^{i-1} = e^{i-1}, as in compositions
+(Lemma 3.5.4), the passes see them cancel, and the stages become sequential.
+"""
+
+from __future__ import annotations
+
+from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
+from codegen.lower.stages import Stages
+from codegen.method import Method
+from codegen.scene import Setting
+from orderconds.errors import ZeroWeight
+from orderconds.ring.protocol import Element
+
+
+def lower(scene: Setting, method: Method) -> Program:
+    """Return the program of a VCG method; :class:`orderconds.errors.ZeroWeight` where some b_i = 0."""
+    tableau = method.runge_kutta()
+    q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
+    stages = Stages(scene, method, (q, mu))
+    do, s = stages.builder, tableau.s
+    b = [stages.number(x) for x in tableau.b]
+    for i, weight in enumerate(b):
+        if weight.is_zero:
+            where = f"vcg:{method.tableau.name}"
+            raise ZeroWeight(f"b_{i + 1} = 0", where=where, expected="all b_i non-zero: VCG divides by them")
+    xi = [do.fresh(f"xi{i + 1}", Kind.ALG) for i in range(s)]
+    n = [do.fresh(f"n{i + 1}", Kind.DUAL) for i in range(s)]
+    shared: dict[str, list[Var]] = {}
+
+    def partial_products(row: tuple[Element, ...], name: str) -> list[Var]:
+        """Return the products after 0, 1, ..., s factors."""
+        products = [do.do("identity", f"{name}0")]
+        for j in range(s):
+            x = stages.combination(f"x{name}{j + 1}", Kind.ALG, row[j : j + 1], xi[j : j + 1])
+            products.append(do.do("mul", f"{name}{j + 1}", do.do("exp", f"g{name}{j + 1}", x), products[-1]))
+        return products
+
+    def momentum(i: int, e: list[Var], E: list[list[Var]], nu: list[Var]) -> Var:
+        """Append M_i, one term a coefficient."""
+        minus = stages.builder.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-b[i]), xi[i])])
+
+        def carried(m: Var) -> Var:
+            moved = do.do("Adtinv", f"m{i + 1}", e[i], m)
+            return do.do("dexpt", f"p{i + 1}", minus, moved)
+
+        terms = [(ONE, carried(mu))]
+        for j in range(s):
+            terms.append((stages.times_h(b[j]), carried(nu[j])))
+            a = stages.number(tableau.A[j][i])
+            if a.is_zero:
+                continue
+            x = do.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-a), xi[i])])
+            moved = do.do("Adtinv", f"m{i + 1}", E[j][i], nu[j])
+            factor = Coefficient(-(b[j] * (a / b[i])), 1)
+            terms.append((factor, do.do("dexpt", f"p{i + 1}", x, moved)))
+        return do.lin(f"M{i + 1}", Kind.DUAL, terms)
+
+    def images() -> list[Var]:
+        e = partial_products(tableau.b, "e")
+        E = [partial_products(row, f"E{i + 1}_") for i, row in enumerate(tableau.A)]
+        nu = [do.do("Adt", f"nu{j + 1}", E[j][s], n[j]) for j in range(s)]
+        found = []
+        for i in range(s):
+            Q = do.do("mul", f"Q{i + 1}", E[i][s], q)
+            pair = do.hamilton(f"f{i + 1}", f"r{i + 1}", Q, momentum(i, e, E, nu), *stages.at(tableau.c[i]))
+            found.append(pair)
+        shared.update(e=e, nu=nu)
+        return [x for x, _ in found] + [r for _, r in found]
+
+    def starts() -> list[Var]:
+        x, r = do.hamilton("xi0", "n0", q, mu, *stages.at(None))
+        return [x] * s + [r] * s
+
+    def update() -> dict[str, Var]:
+        e, nu = shared["e"], shared["nu"]
+        terms = [(ONE, mu)] + [(stages.times_h(b[j]), nu[j]) for j in range(s)]
+        total = do.lin("mubar", Kind.DUAL, terms)
+        return {"q": do.do("mul", "q1", e[s], q), "mu": do.do("Adtinv", "mu1", e[s], total)}
+
+    return stages.program(xi + n, images, starts, update)

@@ -1,0 +1,100 @@
+"""A method: a family together with a tableau, as ``vcg:triple_jump``, ``rkmk(2):rk4`` or plain ``cf4``."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from codegen.errors import MethodError
+from codegen.ir.number import Number
+from orderconds.ring import QQ
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau import CommutatorFree, RungeKutta, Tableau, find
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+SPELLING = re.compile(r"(?:(?P<family>[a-z]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<tableau>.+)")
+
+
+@dataclass(frozen=True)
+class Method:
+    """A family (``cutoff`` for rkmk) and the tableau whose coefficients it reads."""
+
+    family: str
+    tableau: Tableau
+    cutoff: int | None = None
+
+    @property
+    def label(self) -> str:
+        """The family as reports name it, with the tableau: ``rkmk(2):rk4``."""
+        return f"{self.family_label}:{self.tableau.name}"
+
+    @property
+    def family_label(self) -> str:
+        """The family with its cut-off: ``rkmk(2)``."""
+        return self.family if self.cutoff is None else f"{self.family}({self.cutoff})"
+
+    @property
+    def ring(self) -> Ring:
+        """The ring of the coefficients."""
+        return self.tableau.ring
+
+    def number(self, x: Element) -> Number:
+        """Return a coefficient as a number; a rational one is kept over QQ whatever the tableau's field."""
+        number = Number(self.ring, x)
+        if self.ring is QQ:
+            return number
+        text = self.ring.text(x)
+        return Number.rational(*Fraction(text).as_integer_ratio()) if _RATIONAL.fullmatch(text) else number
+
+    def runge_kutta(self) -> RungeKutta:
+        """Return the coefficients as A and b; :class:`MethodError` for a tableau that has none."""
+        method = self.tableau.read_as(("rk",))
+        if not isinstance(method, RungeKutta):
+            raise MethodError(
+                f"{self.family} reads a Butcher tableau, {self.tableau.name} is of family {self.tableau.family}",
+                expected="a tableau of family rk or composition",
+            )
+        return method
+
+    def commutator_free(self) -> CommutatorFree:
+        """Return stages and update as products of exponentials; a Butcher tableau is read as Crouch-Grossman."""
+        method = self.tableau.read_as(("cf",))
+        if isinstance(method, CommutatorFree):
+            return method
+        return self.runge_kutta().as_crouch_grossman(self.ring)
+
+
+_RATIONAL = re.compile(r"-?\d+(/\d+)?")
+
+
+def parse(spelling: str, families: Sequence[str]) -> Method:
+    """Return the method of that spelling; ``families`` are those the scene can take.
+
+    Without a family the tableau's claims decide: the highest order wins, and among equals the family named
+    first in ``families``. ``rkmk`` without a cut-off takes the least with the highest claimed order.
+    """
+    match = SPELLING.fullmatch(spelling.strip())
+    if match is None:
+        raise MethodError(f"the method {spelling!r}", expected="TABLEAU or FAMILY:TABLEAU", hint="as vcg:triple_jump")
+    tableau = find(match["tableau"])
+    family, cutoff = match["family"], match["cutoff"]
+    if family is not None and family not in families:
+        raise MethodError(f"family {family} on this scene", where=spelling, expected=f"one of {', '.join(families)}")
+    wanted = [c for c in tableau.claims.orders if c.family == (family or c.family) and c.family in families]
+    if cutoff is not None:
+        return Method(family, tableau, int(cutoff))
+    if family is not None and family != "rkmk":
+        return Method(family, tableau)
+    if not wanted:
+        raise MethodError(
+            f"the tableau {tableau.name} claims no order under {', '.join(families)}",
+            where=spelling,
+            expected="a family in the method's name",
+            hint=f"write {families[0]}:{match['tableau']}",
+        )
+    best = min(wanted, key=lambda c: (-c.order, families.index(c.family), c.cutoff or 0))
+    return Method(best.family, tableau, best.cutoff)
