@@ -1,0 +1,72 @@
+"""Blocks: the strongly connected components of the stage graph, each solved alone and in order.
+
+Exact. An edge leads from each assignment to those that read its values; an unknown stands for its image. A
+component without a cycle becomes plain assignments, one with a cycle a block of its own unknowns. So explicit
+methods lose their solver, and a composition tableau is solved stage by stage.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from codegen.ir.program import Assign, Program, Solve, Statement, Var
+
+
+def run(program: Program) -> Program:
+    """Return the program with every block split into its strongly connected components."""
+    body: list[Statement] = []
+    names: dict[Var, Var] = {}
+    for statement in program.body:
+        if isinstance(statement, Solve):
+            body += _split(statement, names)
+        else:
+            body.append(replace(statement, args=tuple(names.get(a, a) for a in statement.args)))
+    outputs = tuple((name, names.get(var, var)) for name, var in program.outputs)
+    return replace(program, body=tuple(body), outputs=outputs)
+
+
+def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
+    """Return the statements of one block in order; ``names`` maps unknowns to their images from now on."""
+    import networkx
+
+    image = dict(zip(block.unknowns, block.images, strict=True))
+    start = dict(zip(block.unknowns, block.starts, strict=True))
+    maker = {target: k for k, assign in enumerate(block.body) for target in assign.targets}
+    graph = networkx.DiGraph()
+    graph.add_nodes_from(range(len(block.body)))
+    for k, assign in enumerate(block.body):
+        for arg in assign.args:
+            source = maker.get(image.get(arg, arg))
+            if source is not None:
+                graph.add_edge(source, k)
+    condensed = networkx.condensation(graph)
+    members = {c: sorted(condensed.nodes[c]["members"]) for c in condensed}
+    order = networkx.lexicographical_topological_sort(condensed, key=lambda c: members[c][0])
+    result: list[Statement] = []
+    for component in order:
+        inside = set(members[component])
+        assigns = [block.body[k] for k in members[component]]
+        own = [u for u in block.unknowns if maker.get(image[u]) in inside and any(u in a.args for a in assigns)]
+        kept = set(own)
+        renamed = [_rename(a, names, image, kept) for a in assigns]
+        if not own:
+            result += renamed
+            continue
+        label = _label(own)
+        images = tuple(image[u] for u in own)
+        result.append(Solve(label, tuple(own), tuple(start[u] for u in own), tuple(renamed), images))
+    names.update(image)
+    return result
+
+
+def _rename(assign: Assign, names: dict[Var, Var], image: dict[Var, Var], kept: set[Var]) -> Assign:
+    def now(var: Var) -> Var:
+        if var in kept:
+            return var
+        return image.get(var, names.get(var, var))
+
+    return replace(assign, args=tuple(now(a) for a in assign.args))
+
+
+def _label(unknowns: list[Var]) -> str:
+    return "the equations of " + ", ".join(u.name for u in unknowns)

@@ -1,0 +1,51 @@
+"""Linear maps taken out of sums: c1 L(x1) + c2 L(x2) becomes L(c1 x1 + c2 x2), where no term is used elsewhere.
+
+Exact. L is a coadjoint operation, dexp* or the like with the same group argument; the pass repeats until
+nothing changes, so that nested maps come out one after the other.
+"""
+
+from __future__ import annotations
+
+from codegen.ir.program import LINEAR_LAST, ONE, Assign, Coefficient, Operation, Program, Var
+from codegen.passes.rewrite import Rewriter, rewrite
+
+
+def run(program: Program) -> Program:
+    """Return the program with linear maps factored out of sums."""
+    while True:
+        new = rewrite(program, _rule)
+        if new == program:
+            return program
+        program = new
+
+
+def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
+    if assign.operation.name != "lin":
+        return rewriter.emit(assign)
+    groups: dict[object, list[tuple[Coefficient, Var]]] = {}
+    for k, (c, arg) in enumerate(zip(assign.operation.coefficients, assign.args, strict=True)):
+        made = rewriter.definitions.get(arg)
+        single = made is not None and rewriter.uses.get(arg) == 1 and made.operation.name in LINEAR_LAST
+        key = (made.operation, made.args[:-1]) if made is not None and single else k
+        groups.setdefault(key, []).append((c, arg))
+    if all(len(terms) == 1 for terms in groups.values()):
+        return rewriter.emit(assign)
+    result: list[tuple[Coefficient, Var]] = []
+    for terms in groups.values():
+        if len(terms) == 1:
+            result += terms
+            continue
+        made = rewriter.definitions[terms[0][1]]
+        inner = [(c, rewriter.definitions[v].args[-1]) for c, v in terms]
+        total = _lin(rewriter, inner)
+        target = rewriter.builder.fresh(terms[0][1].name, terms[0][1].kind)
+        moved = Assign((target,), made.operation, (*made.args[:-1], total))
+        result.append((ONE, rewriter.emit(moved)[0]))
+    operation = Operation("lin", tuple(c for c, _ in result))
+    return rewriter.emit(Assign(assign.targets, operation, tuple(v for _, v in result)))
+
+
+def _lin(rewriter: Rewriter, terms: list[tuple[Coefficient, Var]]) -> Var:
+    target = rewriter.builder.fresh(f"s_{terms[0][1].name}", terms[0][1].kind)
+    operation = Operation("lin", tuple(c for c, _ in terms))
+    return rewriter.emit(Assign((target,), operation, tuple(v for _, v in terms)))[0]

@@ -1,0 +1,93 @@
+"""The one traversal that local passes share: visit assignments in order, replace them or their values."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
+
+from codegen.ir.program import Assign, Builder, Program, Solve, Statement, Var
+
+
+@dataclass
+class Rewriter:
+    """Applies a rule to every assignment; the rule sees definitions made so far and how often values are used.
+
+    ``rule(rewriter, assign)`` returns the variables that stand for the assignment's targets from now on:
+    earlier ones (the assignment vanishes), or targets of what it appended by ``emit``.
+    """
+
+    rule: Callable[[Rewriter, Assign], tuple[Var, ...]]
+    program: Program
+    names: dict[Var, Var] = field(default_factory=dict)
+    definitions: dict[Var, Assign] = field(default_factory=dict)
+    uses: dict[Var, int] = field(default_factory=dict)
+    builder: Builder = field(default_factory=Builder)
+    _out: list[Assign] = field(default_factory=list)
+
+    def run(self) -> Program:
+        """Return the rewritten program."""
+        self.uses = uses(self.program)
+        self.builder.taken = {v.name for v in defined(self.program)}
+        body = tuple(s for statement in self.program.body for s in self._statement(statement))
+        outputs = tuple((name, self.now(var)) for name, var in self.program.outputs)
+        return replace(self.program, body=body, outputs=outputs)
+
+    def now(self, var: Var) -> Var:
+        """Return what stands for var now."""
+        return self.names.get(var, var)
+
+    def emit(self, assign: Assign) -> tuple[Var, ...]:
+        """Append an assignment and return its targets."""
+        self._out.append(assign)
+        for target in assign.targets:
+            self.definitions[target] = assign
+        return assign.targets
+
+    def _visit(self, assign: Assign) -> None:
+        current = replace(assign, args=tuple(self.now(a) for a in assign.args))
+        for old, new in zip(assign.targets, self.rule(self, current), strict=True):
+            self.names[old] = new
+
+    def _statement(self, statement: Statement) -> Iterable[Statement]:
+        self._out = []
+        if isinstance(statement, Assign):
+            self._visit(statement)
+            return self._out
+        starts = tuple(self.now(v) for v in statement.starts)
+        for assign in statement.body:
+            self._visit(assign)
+        images = tuple(self.now(v) for v in statement.images)
+        return [replace(statement, starts=starts, body=tuple(self._out), images=images)]
+
+
+def rewrite(program: Program, rule: Callable[[Rewriter, Assign], tuple[Var, ...]]) -> Program:
+    """Return the program with a rule applied to every assignment in order."""
+    return Rewriter(rule, program).run()
+
+
+def defined(program: Program) -> Iterable[Var]:
+    """Yield every variable: inputs, targets, unknowns."""
+    yield from program.inputs
+    for statement in program.body:
+        if isinstance(statement, Solve):
+            yield from statement.unknowns
+    for assign in program.assigns():
+        yield from assign.targets
+
+
+def uses(program: Program) -> dict[Var, int]:
+    """Return how often each variable is read: by assignments, starts, images and outputs."""
+    count: dict[Var, int] = {}
+
+    def add(variables: Iterable[Var]) -> None:
+        for v in variables:
+            count[v] = count.get(v, 0) + 1
+
+    for assign in program.assigns():
+        add(assign.args)
+    for statement in program.body:
+        if isinstance(statement, Solve):
+            add(statement.starts)
+            add(statement.images)
+    add(var for _, var in program.outputs)
+    return count

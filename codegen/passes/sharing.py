@@ -1,0 +1,35 @@
+"""Shared values: exponentials shared between stages and update, products of exponentials sharing a prefix.
+
+Exact. Value numbering: an operation on the same values is computed once. The terms of a sum are taken in the
+order of their values' first appearance, so that equal sums are seen as equal.
+"""
+
+from __future__ import annotations
+
+from codegen.ir.program import Assign, Operation, Program, Var
+from codegen.passes.rewrite import Rewriter, rewrite
+
+
+def run(program: Program) -> Program:
+    """Return the program with every value computed once."""
+    known: dict[tuple[Operation, tuple[Var, ...], str], tuple[Var, ...]] = {}
+    rank: dict[Var, int] = {}
+
+    def ranked(var: Var) -> int:
+        return rank.setdefault(var, len(rank))
+
+    def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
+        for arg in assign.args:
+            ranked(arg)
+        if assign.operation.name == "lin":
+            terms = sorted(
+                zip(assign.operation.coefficients, assign.args, strict=True), key=lambda term: ranked(term[1])
+            )
+            operation = Operation("lin", tuple(c for c, _ in terms))
+            assign = Assign(assign.targets, operation, tuple(a for _, a in terms))
+        key = (assign.operation, assign.args, assign.targets[0].kind.value)
+        if key not in known:
+            known[key] = rewriter.emit(assign)
+        return known[key]
+
+    return rewrite(program, rule)
