@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from orderconds.tableau import CommutatorFree, RungeKutta, Tableau, find
+
 from codegen.errors import MethodError
 from codegen.ir.number import Number
 from orderconds.ring import QQ
 from orderconds.ring.protocol import Element, Ring
-from orderconds.tableau import CommutatorFree, RungeKutta, Tableau, find
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -79,11 +80,15 @@ def parse(spelling: str, families: Sequence[str]) -> Method:
     """
     match = SPELLING.fullmatch(spelling.strip())
     if match is None:
-        raise MethodError(f"the method {spelling!r}", expected="TABLEAU or FAMILY:TABLEAU", hint="as vcg:triple_jump")
+        raise MethodError(
+            f"the method {spelling!r}", expected="TABLEAU or FAMILY:TABLEAU", hint="as vcg:triple_jump"
+        )
     tableau = find(match["tableau"])
     family, cutoff = match["family"], match["cutoff"]
     if family is not None and family not in families:
-        raise MethodError(f"family {family} on this scene", where=spelling, expected=f"one of {', '.join(families)}")
+        raise MethodError(
+            f"family {family} on this scene", where=spelling, expected=f"one of {', '.join(families)}"
+        )
     wanted = [c for c in tableau.claims.orders if c.family == (family or c.family) and c.family in families]
     if cutoff is not None:
         return Method(family, tableau, int(cutoff))

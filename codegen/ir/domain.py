@@ -102,7 +102,9 @@ class PreciseDomain:
         self.context = mpmath.mp.clone()
         self.context.dps = digits
         self.digits = digits
-        self.h = self.context.mpf(h) if not isinstance(h, Fraction) else self.rational(h.numerator, h.denominator)
+        self.h = (
+            self.context.mpf(h) if not isinstance(h, Fraction) else self.rational(h.numerator, h.denominator)
+        )
 
     def number(self, value: Number) -> Any:
         """Return the number rounded to this domain's precision."""

@@ -39,7 +39,9 @@ def read(space: Space, expression: Any, where: str = "") -> Expr:
         elif isinstance(e, sympy.Function) and e.func.__name__ in CALLS:
             node = space.call(CALLS[e.func.__name__], visit(e.args[0]))
         elif isinstance(e, sympy.Float):
-            raise SceneError(f"the float {e}", where=where, expected="exact numbers", hint="write Rational(1, 10) for 0.1")
+            raise SceneError(
+                f"the float {e}", where=where, expected="exact numbers", hint="write Rational(1, 10) for 0.1"
+            )
         else:
             allowed = "symbols, rationals, + - * /, integer and half-integer powers, sin, cos, exp, log"
             raise SceneError(f"{type(e).__name__} in {e}", where=where, expected=allowed)

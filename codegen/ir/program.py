@@ -173,7 +173,9 @@ class Program:
                 lines.append("  " + statement.text())
                 continue
             pairs = zip(statement.unknowns, statement.starts, strict=True)
-            lines.append(f"  solve {statement.label}: " + ", ".join(f"{u.name} from {s.name}" for u, s in pairs))
+            lines.append(
+                f"  solve {statement.label}: " + ", ".join(f"{u.name} from {s.name}" for u, s in pairs)
+            )
             lines += ["    " + assign.text() for assign in statement.body]
             equations = zip(statement.unknowns, statement.images, strict=True)
             lines.append("    until " + ", ".join(f"{u.name} = {v.name}" for u, v in equations))

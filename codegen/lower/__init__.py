@@ -28,7 +28,9 @@ def setting(scene: Setting, method: Method) -> Setting:
     view = scene.as_field()
     if family == "rk" and not view.group.abelian:
         group = view.group.name
-        raise MethodError(f"rk on {scene.name}, whose group is {group}", expected="R^n", hint="use rkmk, cg or cf")
+        raise MethodError(
+            f"rk on {scene.name}, whose group is {group}", expected="R^n", hint="use rkmk, cg or cf"
+        )
     return view
 
 

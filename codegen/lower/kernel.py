@@ -7,8 +7,9 @@ and body values needed later are read where the last sweep left them.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, walk
@@ -35,7 +36,7 @@ def to_kernel(program: Program, scene: Setting) -> Kernel:
     """Return the kernel of a program in its setting (:func:`codegen.lower.setting`)."""
     domain = ExprDomain()
     space = domain.space
-    env: dict[Var, object] = {}
+    env: dict[Var, Any] = {}
     hints: dict[int, str] = {}
     blocks: list[_Block] = []
     taken = {*scene.symbols, *scene.runtime, "h", TIME}
@@ -81,7 +82,13 @@ def _meaning(kind: Kind, scene: Setting) -> str:
     return texts[kind]
 
 
-def _enter(block: Solve, env: dict, domain: ExprDomain, name, run) -> _Block:  # type: ignore[no-untyped-def, type-arg]
+def _enter(
+    block: Solve,
+    env: dict[Var, Any],
+    domain: ExprDomain,
+    name: Callable[[str], str],
+    run: Callable[[Assign], None],
+) -> _Block:
     """Give the unknowns symbols, run the body on them, and return the block."""
     names: list[str] = []
     starts: list[Expr] = []
@@ -105,9 +112,10 @@ class _Schedule:
     blocks: Sequence[_Block]
     roots: Sequence[Expr]
     hints: dict[int, str]
-    name: object
+    name: Callable[[str], str]
     body: list[Let | Loop] = field(default_factory=list)
     outputs: tuple[Expr, ...] = ()
+    count: int = 0
 
     def run(self) -> tuple[Let | Loop, ...]:
         """Return the kernel's body and set ``outputs``."""
@@ -137,7 +145,7 @@ class _Schedule:
             own = owner.get(node.payload, -1) if node.op == "sym" else -1
             self.level[node.id] = max([own, *levels])
 
-    def _place(self, root: Expr, outer: list, inner: list[Let], loop: int) -> Expr:  # type: ignore[type-arg]
+    def _place(self, root: Expr, outer: list[Any], inner: list[Let], loop: int) -> Expr:
         """Return root with every named part replaced by its symbol, appending the assignments it needs."""
         for node in walk([root], stop=lambda n: n.id in self.done):
             if node.id in self.done:
@@ -157,9 +165,9 @@ class _Schedule:
                 self.size[rebuilt.id] = size
         return self.done[root.id]
 
-    def _let(self, node: Expr, value: Expr, target: list) -> Expr:  # type: ignore[type-arg]
+    def _let(self, node: Expr, value: Expr, target: list[Any]) -> Expr:
         hint = self.hints.get(node.id)
-        self.count = getattr(self, "count", 0) + (hint is None)
-        name = self.name(hint or f"w{self.count}")  # type: ignore[operator]
+        self.count += hint is None
+        name = self.name(hint or f"w{self.count}")
         target.append(Let(name, value))
         return node.space.sym(name)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from codegen.ir.number import Number
-from codegen.ir.program import ONE, Builder, Coefficient, Kind, Program, Solve, Var
+from codegen.ir.program import Builder, Coefficient, Kind, Program, Solve, Var
 from codegen.ir.verify import verify
 from codegen.method import Method
 from codegen.scene import Setting
@@ -69,6 +69,3 @@ class Stages:
         inputs = self.inputs + (() if self.time is None else (self.time,))
         body = (*before, block, *self.builder.take())
         return verify(Program(self.method.label, inputs, body, tuple(outputs.items())))
-
-
-__all__ = ["ONE", "Stages"]

@@ -46,7 +46,9 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     for component in order:
         inside = set(members[component])
         assigns = [block.body[k] for k in members[component]]
-        own = [u for u in block.unknowns if maker.get(image[u]) in inside and any(u in a.args for a in assigns)]
+        own = [
+            u for u in block.unknowns if maker.get(image[u]) in inside and any(u in a.args for a in assigns)
+        ]
         kept = set(own)
         renamed = [_rename(a, names, image, kept) for a in assigns]
         if not own:

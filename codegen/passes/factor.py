@@ -7,13 +7,14 @@ nothing changes, so that nested maps come out one after the other.
 from __future__ import annotations
 
 from codegen.ir.program import LINEAR_LAST, ONE, Assign, Coefficient, Operation, Program, Var
+from codegen.passes import dead
 from codegen.passes.rewrite import Rewriter, rewrite
 
 
 def run(program: Program) -> Program:
     """Return the program with linear maps factored out of sums."""
     while True:
-        new = rewrite(program, _rule)
+        new = dead.run(rewrite(program, _rule))  # what was factored out must not count as used
         if new == program:
             return program
         program = new

@@ -38,7 +38,9 @@ def load(name: str) -> Setting:
         at = f"{name}:{lines[-1]}" if lines else name
         raise SceneError(f"the scene raises {type(error).__name__}: {error}", where=at) from error
     if not isinstance(found, Setting):
-        raise SceneError("no scene is defined", where=name, expected="scene = FieldScene(...) or HamiltonianScene(...)")
+        raise SceneError(
+            "no scene is defined", where=name, expected="scene = FieldScene(...) or HamiltonianScene(...)"
+        )
     return replace(found, name=path.stem)
 
 
