@@ -5,14 +5,14 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from fractions import Fraction
+from pathlib import Path
 from typing import TYPE_CHECKING
-
-from orderconds.tableau import CommutatorFree, RungeKutta, Tableau, find
 
 from codegen.errors import MethodError
 from codegen.ir.number import Number
 from orderconds.ring import QQ
 from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau import CommutatorFree, RungeKutta, Tableau, find
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -56,17 +56,23 @@ class Method:
         method = self.tableau.read_as(("rk",))
         if not isinstance(method, RungeKutta):
             raise MethodError(
-                f"{self.family} reads a Butcher tableau, {self.tableau.name} is of family {self.tableau.family}",
+                f"{self.family} with the {self.tableau.family} tableau {self.tableau.name}",
                 expected="a tableau of family rk or composition",
             )
         return method
 
     def commutator_free(self) -> CommutatorFree:
-        """Return stages and update as products of exponentials; a Butcher tableau is read as Crouch-Grossman."""
+        """Return stages and update as products of exponentials; a Butcher tableau reads as Crouch-Grossman."""
         method = self.tableau.read_as(("cf",))
         if isinstance(method, CommutatorFree):
             return method
         return self.runge_kutta().as_crouch_grossman(self.ring)
+
+
+def _file(name: str) -> Path:
+    """Return the file that name is, or the library's file of that name."""
+    path = Path(name)
+    return path if path.suffix == ".toml" else find(name)
 
 
 _RATIONAL = re.compile(r"-?\d+(/\d+)?")
@@ -83,7 +89,7 @@ def parse(spelling: str, families: Sequence[str]) -> Method:
         raise MethodError(
             f"the method {spelling!r}", expected="TABLEAU or FAMILY:TABLEAU", hint="as vcg:triple_jump"
         )
-    tableau = find(match["tableau"])
+    tableau = Tableau.load(_file(match["tableau"]))
     family, cutoff = match["family"], match["cutoff"]
     if family is not None and family not in families:
         raise MethodError(

@@ -110,7 +110,7 @@ class Setting:
         return replace(self, group=group, action=action, state=(point,), paired=False)
 
     def values(self, domain: Domain, state: Sequence[Any], t: Any = None) -> dict[str, Any]:
-        """Return the values of all symbols, parameters included; run-time ones stay symbols in expressions."""
+        """Return the values of all symbols and parameters; run-time ones stay symbols in expressions."""
         values = dict(zip(self.symbols, state, strict=True))
         for name, number in self.parameters.items():
             symbolic = isinstance(domain, ExprDomain) and name in self.runtime
@@ -169,7 +169,7 @@ def FieldScene(
 ) -> Setting:
     """Return the scene y' = f(y).y for a group acting on a manifold.
 
-    ``y`` is a sympy column of coordinate symbols, ``f`` a column of ``group.dim`` components in those symbols,
+    ``y`` is a sympy column of coordinate symbols, ``f`` a column of ``group.dim`` components in them, in
     the symbol ``t`` and parameters, ``y0`` the exact initial point, ``span`` the rational time interval,
     ``invariants`` a mapping from names to scalar formulas. :class:`SceneError` for a wrong shape or symbol.
     """

@@ -23,12 +23,14 @@ class Cotangent(LieGroup):
         self.abelian = base.abelian
 
     def _split(self, x: Scalars) -> tuple[Scalars, Scalars]:
-        return x[: -self.base.dim], x[-self.base.dim :]
+        at = self.base.size if len(x) == self.size else self.base.dim
+        return tuple(x[:at]), tuple(x[at:])
 
     def identity(self, d: Domain) -> Scalars:
         """Return (e, 0)."""
         e: Scalars = self.base.identity(d)
-        return e + (d.rational(0),) * self.base.dim
+        zeros: Scalars = (d.rational(0),) * self.base.dim
+        return e + zeros
 
     def exp(self, d: Domain, x: Scalars) -> Scalars:
         """Return (exp xi, dexp*_{-xi} n)."""

@@ -22,7 +22,7 @@ def bernoulli_over_factorial(k: int) -> Fraction:
     """
     values = [Fraction(1)]
     for m in range(1, k + 1):
-        values.append(-sum(comb(m + 1, j) * values[j] for j in range(m)) / (m + 1))
+        values.append(-sum((comb(m + 1, j) * values[j] for j in range(m)), Fraction(0)) / (m + 1))
     return values[k] / factorial(k)
 
 
@@ -72,7 +72,7 @@ class LieGroup:
         return total
 
     def symbols(self, name: str) -> list[Any]:
-        """Return sympy symbols for the coordinates of a group element: ``name`` with row and column digits."""
+        """Return sympy symbols of a group element's coordinates: ``name``, row and column digits."""
         from sympy import Symbol
 
         n = round(self.size**0.5)

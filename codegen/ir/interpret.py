@@ -68,7 +68,7 @@ def interpret(
     """Return the new state after one step, by input name.
 
     ``inputs`` gives every input of the program: a Real is a scalar of the domain, anything else a flat tuple
-    of scalars (group elements row by row). Blocks are iterated until the domain says they stand still; a block
+    of scalars (group elements row by row). Blocks are iterated until the domain says they stand still; one
     that does not within ``limit`` sweeps raises :class:`NotConverged` naming it.
     """
     env: dict[Var, Any] = {v: inputs[v.name] for v in program.inputs}

@@ -1,4 +1,4 @@
-"""The program verifier, run after every lowering and every pass: types, single assignment, definition before use."""
+"""The program verifier: types, single assignment, definition before use; run after every pass."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ LINEAR = (Kind.ALG, Kind.DUAL)
 
 
 class IllFormed(AssertionError):
-    """A program that breaks a rule of :mod:`codegen.ir.program`: a fault of this compiler, not of its user."""
+    """A program that breaks a rule of :mod:`codegen.ir.program`: the compiler's fault, not the user's."""
 
 
 def verify(program: Program) -> Program:

@@ -10,13 +10,12 @@ from __future__ import annotations
 from functools import reduce
 from operator import add
 
-from orderconds.tableau import Stage
-
 from codegen.ir.program import Kind, Program, Var
 from codegen.lower.stages import Stages
 from codegen.method import Method
 from codegen.scene import Setting
 from orderconds.ring.protocol import Element
+from orderconds.tableau import Stage
 
 
 def lower(scene: Setting, method: Method) -> Program:

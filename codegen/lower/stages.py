@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from codegen.ir.number import Number
-from codegen.ir.program import Builder, Coefficient, Kind, Program, Solve, Var
+from codegen.ir.program import Builder, Coefficient, Kind, Program, Solve, Statement, Var
 from codegen.ir.verify import verify
 from codegen.method import Method
 from codegen.scene import Setting
@@ -15,7 +15,7 @@ from orderconds.ring.protocol import Element
 
 @dataclass
 class Stages:
-    """Collects a method's stages into a program: unknowns, their starts, the body, their images, the update."""
+    """Collects a method's stages into a program: unknowns, starts, the body, images, the update."""
 
     scene: Setting
     method: Method
@@ -67,5 +67,5 @@ class Stages:
         block = Solve("stages", tuple(unknowns), first, self.builder.take(), found)
         outputs = update()
         inputs = self.inputs + (() if self.time is None else (self.time,))
-        body = (*before, block, *self.builder.take())
+        body: tuple[Statement, ...] = (*before, block, *self.builder.take())
         return verify(Program(self.method.label, inputs, body, tuple(outputs.items())))

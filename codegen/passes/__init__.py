@@ -36,8 +36,8 @@ class PassReport:
 def optimise(program: Program, scene: Setting) -> tuple[Program, tuple[PassReport, ...]]:
     """Return the program after all passes, and a report of each that changed something.
 
-    ``scene`` is the setting that the program was lowered in. Raises :class:`codegen.ir.verify.IllFormed` when a
-    pass breaks the program: a fault of this compiler.
+    ``scene`` is the setting that the program was lowered in. A pass that breaks the program raises
+    :class:`codegen.ir.verify.IllFormed`: a fault of this compiler.
     """
     steps: list[tuple[str, Callable[[Program], Program]]] = [
         ("abelian", lambda p: abelian.run(p, scene.group.abelian)),

@@ -1,4 +1,4 @@
-"""Linear maps taken out of sums: c1 L(x1) + c2 L(x2) becomes L(c1 x1 + c2 x2), where no term is used elsewhere.
+"""Linear maps taken out of sums: c1 L(x1) + c2 L(x2) becomes L(c1 x1 + c2 x2) where no term has other uses.
 
 Exact. L is a coadjoint operation, dexp* or the like with the same group argument; the pass repeats until
 nothing changes, so that nested maps come out one after the other.

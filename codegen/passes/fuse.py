@@ -10,7 +10,7 @@ from codegen.passes.rewrite import Rewriter, rewrite
 
 
 def run(program: Program) -> Program:
-    """Return the program with act(exp(x), y) fused into actexp(x, y); the exponential is left for dead code."""
+    """Return the program with act(exp(x), y) fused into actexp(x, y); exp is left for dead code."""
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         if assign.operation.name == "act":

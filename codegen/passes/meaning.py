@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from codegen.ir.domain import FloatDomain, NotConverged
 from codegen.ir.interpret import flatten, interpret
@@ -20,7 +21,8 @@ def differs(old: Program, new: Program, scene: Setting) -> str:
     relative to the size of the state, far below any order error a wrong rewriting would leave.
     """
     domain = FloatDomain(STEP)
-    values, k = {}, 0
+    values: dict[str, Any] = {}
+    k = 0
     coordinates = scene.initial(domain)
     for block in scene.state:
         values[block.name] = coordinates[k : k + len(block.symbols)]

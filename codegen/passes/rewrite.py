@@ -10,7 +10,7 @@ from codegen.ir.program import Assign, Builder, Program, Solve, Statement, Var
 
 @dataclass
 class Rewriter:
-    """Applies a rule to every assignment; the rule sees definitions made so far and how often values are used.
+    """Applies a rule to every assignment; the rule sees earlier definitions and how often values are used.
 
     ``rule(rewriter, assign)`` returns the variables that stand for the assignment's targets from now on:
     earlier ones (the assignment vanishes), or targets of what it appended by ``emit``.
