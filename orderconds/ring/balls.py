@@ -75,8 +75,7 @@ class Balls:
 
     def size(self, x: Ball) -> int:
         """Return how far, in bits, the largest number in x is from 1; the mantissas are bounded."""
-        low, high = (abs(end) for end in (x.value.mid(), x.value.rad()))
-        return max(_magnitude(low), _magnitude(high))
+        return max(_magnitude(x.value.mid()), _magnitude(x.value.rad()))
 
     def enclose(self, x: arb) -> Ball:
         """Take a flint ball into this ring."""
@@ -134,7 +133,7 @@ class Balls:
 
 def _magnitude(x: arb) -> int:
     mantissa, exponent = x.man_exp()
-    return abs(int(mantissa.bit_length()) + int(exponent))
+    return abs(int(abs(mantissa).bit_length()) + int(exponent))
 
 
 def _supported_places(radius: fmpq) -> int:

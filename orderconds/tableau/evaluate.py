@@ -162,10 +162,13 @@ class _Evaluation:
         self.open.append(name)
         try:
             if isinstance(definition, NamedRoot):
-                near = definition.near
-                return self.scalars.named_root(definition.minpoly, near.value, near.unit, name)
+                return self.isolated(definition, name)
             return self.value(definition)
-        except ValueError as problem:
-            raise self.error(str(problem), "minpoly with exactly one real root near the decimal") from None
         finally:
             self.open.pop()
+
+    def isolated(self, root: NamedRoot, name: str) -> Element:
+        try:
+            return self.scalars.named_root(root.minpoly, root.near.value, root.near.unit, name)
+        except ValueError as problem:
+            raise self.error(str(problem), "minpoly with exactly one real root near the decimal") from None
