@@ -1,0 +1,243 @@
+"""Emitted modules as Python objects: compiled C through cffi (ABI mode), or emitted Python, with one face."""
+
+from __future__ import annotations
+
+import types
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import IntEnum
+from pathlib import Path
+from typing import Any
+
+from codegen.build import build
+from codegen.emission import Emission, read
+from codegen.printers.c.module import prototypes
+from codegen.printers.interface import Interface
+
+State = Any
+"""A sequence of floats; a numpy array is answered by a numpy array, anything else by a list."""
+
+
+class Status(IntEnum):
+    """Why a step was not made; the numbers are those of emitted code."""
+
+    OK = 0
+    NOT_CONVERGED = 1
+    NOT_FINITE = 2
+    BAD_STEP = 3
+
+
+class StepFailed(ArithmeticError):
+    """A step that could not be made: its status, how many steps were made before it, the last good state."""
+
+    def __init__(self, status: Status, step: int, state: State, reason: str) -> None:
+        super().__init__(f"step {step + 1}: {reason}")
+        self.status, self.step, self.state, self.reason = status, step, state, reason
+
+
+@dataclass
+class Statistics:
+    """Fixed-point sweeps by block, the most one block took in one step, and 1 + the block that failed."""
+
+    sweeps: list[int] = field(default_factory=list)
+    most: int = 0
+    failed: int = 0
+
+
+class Integrator(ABC):
+    """A loaded step: ``interface`` tells its arguments, ``defaults`` the scene's parameter values."""
+
+    def __init__(self, interface: Interface, defaults: Mapping[str, float]) -> None:
+        self.interface, self.defaults = interface, dict(defaults)
+
+    def step(
+        self,
+        state: State,
+        h: float,
+        t: float = 0.0,
+        statistics: Statistics | None = None,
+        **parameters: float,
+    ) -> State:
+        """Return the state after one step of size h; a StepFailed if it cannot be made."""
+        return self.run(state, h, 1, t, statistics, **parameters)
+
+    def run(
+        self,
+        state: State,
+        h: float,
+        steps: int,
+        t: float = 0.0,
+        statistics: Statistics | None = None,
+        **parameters: float,
+    ) -> State:
+        """Return the state after that many steps of size h from time t; a StepFailed if one fails."""
+        final, _ = self._call(
+            self._numbers(state), t, h, steps, self._values(parameters), 0, statistics, state
+        )
+        return like(state, final)
+
+    def trajectory(
+        self,
+        state: State,
+        h: float,
+        steps: int,
+        stride: int = 1,
+        t: float = 0.0,
+        statistics: Statistics | None = None,
+        **parameters: float,
+    ) -> State:
+        """Return rows: the initial state and every stride-th state after it."""
+        if stride < 1:
+            raise ValueError(f"expected a stride of at least 1, found {stride}")
+        values = self._values(parameters)
+        _, rows = self._call(self._numbers(state), t, h, steps, values, stride, statistics, state)
+        return like(state, rows)
+
+    def _numbers(self, state: State) -> list[float]:
+        numbers = [float(x) for x in state]
+        if len(numbers) != self.interface.size:
+            raise ValueError(f"expected {self.interface.size} numbers in state, found {len(numbers)}")
+        return numbers
+
+    def _values(self, parameters: Mapping[str, float]) -> list[float]:
+        known = self.interface.parameters
+        for name in parameters:
+            if name not in known:
+                raise TypeError(f"unknown parameter {name}; this step reads {', '.join(known) or 'none'}")
+        values = {**self.defaults, **parameters}
+        for name in known:
+            if name not in values:
+                raise TypeError(f"the parameter {name} has no value")
+        return [float(values[name]) for name in known]
+
+    @abstractmethod
+    def _call(
+        self,
+        numbers: list[float],
+        t: float,
+        h: float,
+        steps: int,
+        values: list[float],
+        stride: int,
+        statistics: Statistics | None,
+        like_state: State,
+    ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
+        """Run and return the final state and the rows."""
+
+
+class CompiledIntegrator(Integrator):
+    """A step in a shared object; calls let go of the interpreter lock."""
+
+    def __init__(self, interface: Interface, defaults: Mapping[str, float], path: Path) -> None:
+        from cffi import FFI
+
+        super().__init__(interface, defaults)
+        self._ffi = FFI()
+        self._ffi.cdef(prototypes(interface))
+        self._library = self._ffi.dlopen(str(path))
+        self._run = getattr(self._library, f"{interface.prefix}run")
+
+    def _call(
+        self,
+        numbers: list[float],
+        t: float,
+        h: float,
+        steps: int,
+        values: list[float],
+        stride: int,
+        statistics: Statistics | None,
+        like_state: State,
+    ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
+        size, blocks = self.interface.size, self.interface.blocks
+        state = self._ffi.new("double[]", numbers)
+        row_count = steps // stride + 1 if stride else 0
+        rows = self._ffi.new("double[]", row_count * size) if stride else self._ffi.NULL
+        completed = self._ffi.new("size_t *")
+        counts = self._ffi.new(f"{self.interface.prefix}statistics *") if blocks else None
+        arguments = [state, *([t] if self.interface.time else []), h, steps, *values, rows, stride]
+        status = Status(self._run(*arguments, *([counts] if blocks else []), completed))
+        if counts is not None and statistics is not None:
+            before = statistics.sweeps or [0] * len(blocks)
+            statistics.sweeps = [a + b for a, b in zip(before, counts.sweeps, strict=True)]
+            statistics.most = max(statistics.most, counts.most)
+            statistics.failed = counts.failed
+        final = self._ffi.unpack(state, size)
+        if status != Status.OK:
+            block = blocks[counts.failed - 1] if counts is not None and counts.failed else ""
+            raise StepFailed(status, completed[0], like(like_state, final), reason(status, block, h))
+        flat = self._ffi.unpack(rows, row_count * size) if stride else []
+        return final, [flat[i : i + size] for i in range(0, len(flat), size)]
+
+
+class InterpretedIntegrator(Integrator):
+    """A step in an emitted Python module."""
+
+    def __init__(self, interface: Interface, defaults: Mapping[str, float], source: str) -> None:
+        super().__init__(interface, defaults)
+        self.module = types.ModuleType(interface.module)
+        exec(compile(source, f"{interface.module}.py", "exec"), self.module.__dict__)
+
+    def _call(
+        self,
+        numbers: list[float],
+        t: float,
+        h: float,
+        steps: int,
+        values: list[float],
+        stride: int,
+        statistics: Statistics | None,
+        like_state: State,
+    ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
+        keywords: dict[str, Any] = {}
+        counts = self.module.Statistics() if self.interface.blocks else None
+        if counts is not None:
+            keywords["statistics"] = counts
+        try:
+            found = self.module.run(
+                numbers, *([t] if self.interface.time else []), h, steps, *values, stride=stride, **keywords
+            )
+        except self.module.StepFailed as failure:
+            status = Status(failure.status)
+            raise StepFailed(status, failure.step, like(like_state, failure.state), failure.reason) from None
+        finally:
+            if counts is not None and statistics is not None:
+                before = statistics.sweeps or [0] * len(counts.sweeps)
+                statistics.sweeps = [a + b for a, b in zip(before, counts.sweeps, strict=True)]
+                statistics.most = max(statistics.most, counts.most)
+                statistics.failed = counts.failed
+        return (found[-1], found) if stride else (found, [])
+
+
+def reason(status: Status, block: str, h: float) -> str:
+    """Say in words why a step failed."""
+    match status:
+        case Status.BAD_STEP:
+            return f"the step size h = {h} is not finite"
+        case Status.NOT_CONVERGED:
+            return f"{block} did not converge"
+        case _:
+            return f"{block or 'the new state'} is not finite"
+
+
+def like(state: State, values: Sequence[Any]) -> State:
+    """Return values as a numpy array if state is one, else as a list."""
+    if type(state).__module__ == "numpy":
+        import numpy as np
+
+        return np.array(values, dtype=float)
+    return list(values)
+
+
+def load(source: Emission | str | Path, module: str = "", target: str = "") -> Integrator:
+    """Return the integrator of an emission, or of a module in a folder that holds a manifest.
+
+    ``module`` and ``target`` choose among the folder's modules where it has several. C is compiled, or taken
+    from the cache. Errors: CompilerMissing, CompileError, InputError for a folder without such a module.
+    """
+    emission = source if isinstance(source, Emission) else read(Path(source), module, target)
+    interface = Interface.from_json(emission.manifest["interface"])
+    defaults = emission.manifest["defaults"]
+    if emission.manifest["target"] == "c":
+        return CompiledIntegrator(interface, defaults, build(emission.files))
+    return InterpretedIntegrator(interface, defaults, emission.files[f"{interface.module}.py"])

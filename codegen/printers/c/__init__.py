@@ -1,0 +1,1 @@
+"""C11: no allocation, no globals, no warnings; every external name under one prefix."""

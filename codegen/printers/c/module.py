@@ -1,0 +1,124 @@
+"""One step as a C module: PREFIX.h with types and functions, PREFIX.c with the recipe and the step."""
+
+from __future__ import annotations
+
+from codegen.ir.kernel import Kernel
+from codegen.printers.arrange import arrange
+from codegen.printers.c.statements import RESERVED, Statements, fill
+from codegen.printers.interface import Interface
+from codegen.printers.layout import layout, register
+from codegen.printers.names import Names
+from codegen.printers.operations import operations, sentences
+from codegen.printers.recipe import Recipe, header
+from codegen.snippets.graph import needed
+from codegen.templates import environment
+
+FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
+"""The flags that emitted C is promised to compile under, without a warning."""
+
+
+def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[str, str]:
+    """Return the texts of PREFIX.h and PREFIX.c for one step."""
+    arrangement = arrange(kernel)
+    names = register(kernel, arrangement, Names(RESERVED))
+    variables = declarations(kernel, interface, names)
+    symbols = tuple(s for f in kernel.state for s in f.symbols)
+    statements = Statements(arrangement, names, interface.prefix)
+    body = list(statements.lines())
+    ends, new = statements.outputs(symbols)
+    read = arrangement.symbols()
+    loads = [f"const double {names.spelled[s]} = state[{i}];" for i, s in enumerate(symbols) if s in read]
+    functions = {*arrangement.functions(), "isfinite"}
+    if interface.blocks:
+        functions |= {"fabs", "greater"}
+    found = needed("c", sorted(functions))
+    variables |= {
+        "recipe": [
+            comment(line) for line in header(recipe, layout(kernel), sentences(operations(arrangement)), 96)
+        ],
+        "usage": usage(interface, recipe),
+        "snippets": found.texts,
+        "body": [*loads, *body, *ends],
+        "new": new,
+    }
+    env = environment("c")
+    return {
+        f"{interface.module}.{kind}": env.get_template(f"module/module.{kind}.j2").render(variables)
+        for kind in ("h", "c")
+    }
+
+
+def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str, object]:
+    """Return what the templates need to spell heads and calls of the functions."""
+    time = ["double t"] if interface.time else []
+    parameters = [f"double {names.spelled[p]}" for p in interface.parameters]
+    statistics = [f"{interface.prefix}statistics *statistics"] if interface.blocks else []
+    state = f"double state[static {interface.size}]"
+    step = [*time, "double h", *parameters, *statistics]
+    run = [*time, "double h", "size_t steps", *parameters, "double *trajectory", "size_t stride"]
+    run += [*statistics, "size_t *completed"]
+    passed = ["h", *(names.spelled[p] for p in interface.parameters)]
+    return {
+        "prefix": interface.prefix,
+        "upper": interface.prefix.upper(),
+        "module": interface.module,
+        "size": interface.size,
+        "time": interface.time,
+        "blocks": interface.blocks,
+        "step_header": signature(f"int {interface.prefix}step", f"double state[{interface.size}]", step, ";"),
+        "run_header": signature(f"int {interface.prefix}run", f"double state[{interface.size}]", run, ";"),
+        "advance_source": signature("static inline int advance", state, step, ""),
+        "step_source": signature(f"int {interface.prefix}step", state, step, ""),
+        "run_source": signature(f"int {interface.prefix}run", state, run, ""),
+        "passed": ", ".join([*passed, *(["statistics"] if interface.blocks else [])]),
+    }
+
+
+def signature(start: str, state: str, arguments: list[str], end: str) -> list[str]:
+    """Return the lines of a function's head."""
+    pieces = [f"{argument}," for argument in arguments[:-1]] + [f"{arguments[-1]})"]
+    return fill(f"{start}({state},", tuple(pieces), end)
+
+
+def prototypes(interface: Interface) -> str:
+    """Return declarations of a module's functions without preprocessor lines, as cffi reads them."""
+    prefix, blocks = interface.prefix, len(interface.blocks)
+    time = "double t, " if interface.time else ""
+    parameters = "".join(f"double p{i}, " for i in range(len(interface.parameters)))
+    statistics = f"{prefix}statistics *statistics, " if blocks else ""
+    record = (
+        f"typedef struct {{ size_t sweeps[{blocks}]; size_t most; size_t failed; }} {prefix}statistics;\n"
+    )
+    return (record if blocks else "") + (
+        f"int {prefix}run(double *state, {time}double h, size_t steps, {parameters}"
+        f"double *trajectory, size_t stride, {statistics}size_t *completed);\n"
+    )
+
+
+def comment(text: str) -> str:
+    """Return text that cannot end the C comment it stands in."""
+    return text.replace("*/", "* /").replace("/*", "/ *")
+
+
+def usage(interface: Interface, recipe: Recipe) -> list[str]:
+    """Return a program, line by line, that runs the step from the scene's initial state."""
+    initial = ", ".join(repr(float(x)) for x in recipe.initial)
+    arguments = ["state", *(["0.0"] if interface.time else []), repr(recipe.h), str(recipe.steps)]
+    arguments += [repr(float(recipe.defaults.get(p, 0.0))) for p in interface.parameters]
+    arguments += ["NULL", "0", *(["NULL"] if interface.blocks else []), "&completed"]
+    return [
+        f'#include "{interface.module}.h"',
+        "#include <stdio.h>",
+        "",
+        "int main(void)",
+        "{",
+        f"    double state[{interface.size}] = {{{initial}}};",
+        "    size_t completed;",
+        f"    const int status = {interface.prefix}run({', '.join(arguments)});",
+        '    printf("status %d after %zu steps\\n", status, completed);',
+        f"    for (int i = 0; i < {interface.size}; i++) {{",
+        '        printf("%.17g\\n", state[i]);',
+        "    }",
+        "    return status;",
+        "}",
+    ]

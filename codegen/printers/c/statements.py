@@ -1,0 +1,145 @@
+"""Statements of a step in C: single assignments are ``const``, a fixed point is a counting ``for``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from codegen.ir.expr import Expr
+from codegen.printers.arrange import Arrangement, Assignment, Iteration, Joint
+from codegen.printers.expression import spell
+from codegen.printers.names import Names
+from codegen.snippets.stumpff import SETS
+
+WIDTH = 100
+
+_WORDS = """
+    auto break case char const continue default do double else enum extern float for goto if inline int long
+    register restrict return short signed sizeof static struct switch typedef union unsigned void volatile
+    while _Bool _Complex _Imaginary
+    main NULL INFINITY NAN size_t memcpy fmax asm typeof linux unix
+    sqrt sin cos exp log fabs isfinite greater
+    state statistics steps step stride trajectory completed status advance row sweep change scale
+    count_sweeps
+"""
+RESERVED = frozenset(_WORDS.split()) | {f"stumpff_{''.join(map(str, orders))}" for orders in SETS}
+"""Words that no variable may take: keywords, what the helpers and templates call their own."""
+
+
+class Statements:
+    """Prints the statements of one arrangement.
+
+    ``prefix`` starts status codes; lines carry no indentation of their own beyond nested blocks.
+    """
+
+    def __init__(self, arrangement: Arrangement, names: Names, prefix: str) -> None:
+        self.arrangement, self.names, self.prefix = arrangement, names, prefix
+
+    def lines(self) -> Iterator[str]:
+        """Yield the lines of every statement, in order."""
+        for statement in self.arrangement.statements:
+            if isinstance(statement, Iteration):
+                yield from self._iteration(statement)
+            else:
+                yield from self._simple(statement)
+
+    def outputs(self, symbols: tuple[str, ...]) -> tuple[list[str], tuple[str, ...]]:
+        """Return the lines that name the new state, and its identifiers in state order."""
+        lines: list[str] = []
+        found: list[str] = []
+        for symbol, value in zip(symbols, self.arrangement.outputs, strict=True):
+            if value.op == "sym" and value.payload not in symbols:
+                found.append(self.names.spelled[value.payload])
+                continue
+            found.append(self.names.fresh(f"new_{symbol}"))
+            lines += self._declare(found[-1], value)
+        return lines, tuple(found)
+
+    def _declare(self, name: str, value: Expr, kind: str = "const double ") -> list[str]:
+        return fill(f"{kind}{name} =", spell(value, self.names.spelled), ";")
+
+    def _simple(self, statement: Assignment | Joint, kept: Iterable[str] = ()) -> Iterator[str]:
+        if isinstance(statement, Assignment):
+            name = self.names.spelled[statement.name]
+            kind = "" if statement.name in kept else "const double "
+            yield from self._declare(name, statement.value, kind)
+            return
+        argument = " ".join(spell(statement.argument, self.names.spelled))
+        names = [self.names.spelled[n] for n in statement.names]
+        if len(names) == 1:
+            yield f"const double {names[0]} = {statement.function}({argument});"
+            return
+        yield f"double {', '.join(names)};"
+        yield f"{statement.function}({argument}, {', '.join(f'&{n}' for n in names)});"
+
+    def _iteration(self, statement: Iteration) -> Iterator[str]:
+        loop, number = statement.loop, statement.number
+        now = [self.names.spelled[u] for u in loop.unknowns]
+        new = [self.names.fresh(f"next_{u}") for u in loop.unknowns]
+        previous = self.names.fresh(f"previous_{number}")
+        yield f"/* {loop.label}: fixed point in {', '.join(now)} */"
+        for name, start in zip(now, statement.starts, strict=True):
+            yield from self._declare(name, start, "double ")
+        if statement.kept:
+            kept = [self.names.spelled[n] for n in statement.kept]
+            yield from fill("double", (*(f"{n}," for n in kept[:-1]), kept[-1]), ";")
+        yield f"double {previous} = INFINITY;"
+        yield "for (size_t sweep = 1;; sweep++) {"
+        for inner in statement.body:
+            for line in self._simple(inner, statement.kept):
+                yield f"    {line}"
+        for name, image in zip(new, statement.images, strict=True):
+            for line in self._declare(name, image):
+                yield f"    {line}"
+        differences = [self.names.fresh(f"change_{u}") for u in loop.unknowns]
+        for difference, x, y in zip(differences, new, now, strict=True):
+            yield f"    const double {difference} = fabs({x} - {y});"
+        for line in self._decision(statement, differences, now, new, previous):
+            yield f"    {line}"
+        yield "}"
+
+    def _decision(
+        self, statement: Iteration, differences: list[str], now: list[str], new: list[str], previous: str
+    ) -> Iterator[str]:
+        loop, block = statement.loop, statement.number - 1
+        yield f"const double change = {greatest(differences)};"
+        yield f"const double scale = {greatest(['1.0', *(f'fabs({x})' for x in now)])};"
+        total = " + ".join(differences)
+        yield f"if (!isfinite({total})) {{"
+        yield f"    count_sweeps(statistics, {block}, sweep, 1);"
+        yield f"    return {self.prefix.upper()}NOT_FINITE;"
+        yield "}"
+        yield f"if (change <= {loop.tolerance!r} * scale && (change >= {previous} || change <= 0.0)) {{"
+        yield f"    count_sweeps(statistics, {block}, sweep, 0);"
+        yield "    break;"
+        yield "}"
+        yield f"if (sweep == {loop.limit}) {{"
+        yield f"    count_sweeps(statistics, {block}, sweep, 1);"
+        yield f"    return {self.prefix.upper()}NOT_CONVERGED;"
+        yield "}"
+        yield f"{previous} = change;"
+        for x, y in zip(now, new, strict=True):
+            yield f"{x} = {y};"
+
+
+def greatest(terms: list[str]) -> str:
+    """Spell the greatest of some terms as a balanced tree of two-argument calls."""
+    if len(terms) == 1:
+        return terms[0]
+    middle = len(terms) // 2
+    return f"greater({greatest(terms[:middle])}, {greatest(terms[middle:])})"
+
+
+def fill(start: str, pieces: tuple[str, ...], end: str, width: int = WIDTH) -> list[str]:
+    """Join start, pieces and end with spaces, breaking lines before pieces that do not fit.
+
+    >>> fill("x =", ("a", "+ b", "+ c"), ";", width=10)
+    ['x = a + b', '    + c;']
+    """
+    lines = [start]
+    for position, piece in enumerate(pieces):
+        tail = end if position == len(pieces) - 1 else ""
+        if position and len(lines[-1]) + 1 + len(piece) + len(tail) > width - 8:
+            lines.append(f"    {piece}{tail}")
+        else:
+            lines[-1] += f" {piece}{tail}"
+    return lines

@@ -1,0 +1,53 @@
+"""What callers of an emitted module see: its prefix, state size, arguments and implicit blocks.
+
+Printers spell it in headers, the manifest stores it and the loader calls through it, so that they agree.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from codegen.ir.kernel import Kernel, Loop
+
+
+@dataclass(frozen=True)
+class Interface:
+    """The calling convention of one module.
+
+    ``prefix`` starts every external C name and ends in an underscore; ``size`` is the number of doubles in a
+    state; ``time`` says whether the step reads t; ``parameters`` are the run-time parameters in order;
+    ``blocks`` are the labels of the implicit blocks, which statistics count.
+    """
+
+    prefix: str
+    size: int
+    time: bool
+    parameters: tuple[str, ...]
+    blocks: tuple[str, ...]
+
+    @classmethod
+    def of(cls, kernel: Kernel, prefix: str) -> Interface:
+        """Return the interface of a kernel: t and parameters that it never reads are left out."""
+        used = kernel.used_scalars()
+        return cls(
+            prefix=prefix,
+            size=sum(len(field.symbols) for field in kernel.state),
+            time="t" in used,
+            parameters=tuple(name for name in used if name not in ("h", "t")),
+            blocks=tuple(s.label for s in kernel.body if isinstance(s, Loop)),
+        )
+
+    @property
+    def module(self) -> str:
+        """The module's name: the prefix without its last underscore."""
+        return self.prefix.removesuffix("_")
+
+    def as_json(self) -> dict[str, Any]:
+        """Return plain data for the manifest; :meth:`from_json` reads it back."""
+        return asdict(self) | {"parameters": list(self.parameters), "blocks": list(self.blocks)}
+
+    @classmethod
+    def from_json(cls, data: dict[str, Any]) -> Interface:
+        """Return the interface that :meth:`as_json` wrote."""
+        return cls(**(data | {"parameters": tuple(data["parameters"]), "blocks": tuple(data["blocks"])}))

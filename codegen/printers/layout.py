@@ -1,0 +1,34 @@
+"""Where the state's numbers lie, and which identifiers a kernel's names get."""
+
+from __future__ import annotations
+
+from codegen.ir.kernel import Kernel
+from codegen.printers.arrange import Arrangement, Iteration, Joint
+from codegen.printers.names import Names
+
+
+def layout(kernel: Kernel) -> tuple[str, ...]:
+    """Return a line for each field of the state: its places, its name and what it means."""
+    lines: list[str] = []
+    start = 0
+    for field in kernel.state:
+        end = start + len(field.symbols)
+        places = f"[{start}]" if end == start + 1 else f"[{start}..{end - 1}]"
+        lines.append(f"{places} {field.name}: {field.meaning}")
+        start = end
+    return tuple(lines)
+
+
+def register(kernel: Kernel, arrangement: Arrangement, names: Names) -> Names:
+    """Give every name of an arranged kernel an identifier and return the names.
+
+    Scalars come first, so that arguments keep their spelling where a state symbol wants the same.
+    """
+    names.add_all(kernel.scalars)
+    names.add_all(s for f in kernel.state for s in f.symbols)
+    for statement in arrangement.statements:
+        if isinstance(statement, Iteration):
+            names.add_all(statement.loop.unknowns)
+        for simple in statement.body if isinstance(statement, Iteration) else (statement,):
+            names.add_all(simple.names if isinstance(simple, Joint) else (simple.name,))
+    return names

@@ -1,0 +1,80 @@
+"""Counting what a step costs: arithmetic and calls outside loops, and in one sweep of each loop."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from codegen.ir.expr import Expr, walk
+from codegen.printers.arrange import Arrangement, Assignment, Iteration, Joint
+
+STEP = "step"
+"""The key under which operations outside loops are counted."""
+
+
+def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
+    """Return how often each operation is carried out: ``add`` (and subtract), ``mul``, ``div``, and calls.
+
+    The key ``step`` holds what a step does once, other keys what each block does a sweep. Changes of sign,
+    comparisons and what a stopping rule costs are not counted.
+    """
+    total = {STEP: _count([], arrangement.outputs)}
+    for statement in arrangement.statements:
+        if isinstance(statement, Iteration):
+            total[STEP] = _plus(total[STEP], _count([], statement.starts))
+            total[statement.loop.label] = _count(statement.body, statement.images)
+        else:
+            total[STEP] = _plus(total[STEP], _count([statement], ()))
+    return total
+
+
+def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
+    """Spell counts for people, a line for the step and one for each block's sweep.
+
+    >>> sentences({"step": {"add": 2, "stumpff_12": 1}, "stage 1": {"mul": 3}})
+    ['2 add, 1 stumpff_12 a step', '3 mul a sweep of stage 1']
+    """
+    lines = []
+    for block, found in counts.items():
+        each = ", ".join(f"{n} {name}" for name, n in found.items()) or "none"
+        lines.append(f"{each} a step" if block == STEP else f"{each} a sweep of {block}")
+    return lines
+
+
+def _count(statements: Iterable[Assignment | Joint], more: Iterable[Expr]) -> dict[str, int]:
+    total: dict[str, int] = {}
+    roots = list(more)
+    for statement in statements:
+        if isinstance(statement, Joint):
+            total = _plus(total, {statement.function: 1})
+            roots.append(statement.argument)
+        else:
+            roots.append(statement.value)
+    for root in roots:
+        total = _plus(total, _spelled(root))
+    first = ("add", "mul", "div")
+    return {k: total[k] for k in (*first, *sorted(set(total) - set(first))) if k in total}
+
+
+def _spelled(root: Expr) -> dict[str, int]:
+    """Count the operations in the text of one expression, which repeats what it shares."""
+    found: dict[int, dict[str, int]] = {}
+    for node in walk([root]):
+        match node.op:
+            case "const" | "sym" | "neg":
+                own = {}
+            case "pow":
+                own = {"mul": node.payload - 1}
+            case "call":
+                own = {node.payload: 1}
+            case "sub":
+                own = {"add": 1}
+            case op:
+                own = {op: 1}
+        for arg in node.args:
+            own = _plus(own, found[arg.id])
+        found[node.id] = own
+    return found[root.id]
+
+
+def _plus(a: dict[str, int], b: dict[str, int]) -> dict[str, int]:
+    return a | {k: a.get(k, 0) + n for k, n in b.items()}

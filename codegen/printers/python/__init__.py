@@ -1,0 +1,1 @@
+"""Python: one module that needs the standard library and nothing else."""

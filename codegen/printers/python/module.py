@@ -1,0 +1,79 @@
+"""One step as a Python module: step and run, an exception that says why, the recipe as docstring."""
+
+from __future__ import annotations
+
+from codegen.ir.kernel import Kernel
+from codegen.printers.arrange import arrange
+from codegen.printers.interface import Interface
+from codegen.printers.layout import layout, register
+from codegen.printers.names import Names
+from codegen.printers.python.statements import RESERVED, Statements
+from codegen.printers.operations import operations, sentences
+from codegen.printers.recipe import Recipe, header
+from codegen.snippets.graph import needed
+from codegen.templates import environment
+
+
+def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[str, str]:
+    """Return the text of PREFIX.py for one step."""
+    arrangement = arrange(kernel)
+    names = register(kernel, arrangement, Names(RESERVED))
+    symbols = tuple(s for f in kernel.state for s in f.symbols)
+    statements = Statements(arrangement, names)
+    body = list(statements.lines())
+    ends, new = statements.outputs(symbols)
+    found = needed("python", sorted({*arrangement.functions(), "isfinite"}))
+    imports = [name for name in found.library if name != "fabs"]
+    parameters = [names.spelled[p] for p in interface.parameters]
+    arguments = parameters
+    if all(p in recipe.defaults for p in interface.parameters):
+        pairs = zip(interface.parameters, parameters, strict=True)
+        arguments = [f"{name}={float(recipe.defaults[p])!r}" for p, name in pairs]
+    time = ["t"] if interface.time else []
+    statistics = ["statistics"] if interface.blocks else []
+    optional = [f"{s}=None" for s in statistics]
+    text = (
+        environment("python")
+        .get_template("module/module.py.j2")
+        .render(
+            recipe=[
+                line.replace("\\", "\\\\").replace('"""', "'''")
+                for line in header(recipe, layout(kernel), sentences(operations(arrangement)), 84)
+            ],
+            usage=usage(interface, recipe),
+            imports=sorted([*imports, *(["inf"] if interface.blocks else [])]),
+            snippets=found.texts,
+            blocks=interface.blocks,
+            size=interface.size,
+            time=interface.time,
+            state=[names.spelled[s] for s in symbols],
+            inner=", ".join(["state", *time, "h", *parameters, *statistics]),
+            step=", ".join(["state", *time, "h", *arguments, *keywords(optional)]),
+            run=", ".join(["state", *time, "h", "steps", *arguments, *keywords(["stride=0", *optional])]),
+            once=", ".join(["state", *time, "h", "1", *parameters, *(f"{n}={n}" for n in statistics)]),
+            passed=", ".join(["h", *parameters, *statistics]),
+            body=[*body, *ends],
+            new=new,
+        )
+    )
+    return {f"{interface.module}.py": text}
+
+
+def keywords(arguments: list[str]) -> list[str]:
+    """Return arguments as keyword-only ones."""
+    return ["*", *arguments] if arguments else []
+
+
+def usage(interface: Interface, recipe: Recipe) -> list[str]:
+    """Return the lines of an example that runs the step from the scene's initial state."""
+    initial = ", ".join(repr(float(x)) for x in recipe.initial)
+    time = ["0.0"] if interface.time else []
+    known = all(p in recipe.defaults for p in interface.parameters)
+    unset = [] if known else [repr(float(recipe.defaults.get(p, 0.0))) for p in interface.parameters]
+    arguments = ["state", *time, repr(recipe.h), str(recipe.steps), *unset]
+    return [
+        f"import {interface.module}",
+        "",
+        f"state = [{initial}]",
+        f"print({interface.module}.run({', '.join(arguments)}))",
+    ]

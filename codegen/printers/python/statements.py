@@ -1,0 +1,117 @@
+"""Statements of a step in Python: assignments, and ``for ... else`` for a fixed point."""
+
+from __future__ import annotations
+
+import keyword
+from collections.abc import Iterator
+
+from codegen.ir.expr import Expr
+from codegen.printers.arrange import Arrangement, Assignment, Iteration, Joint
+from codegen.printers.expression import spell
+from codegen.printers.names import Names
+
+WIDTH = 88
+
+_WORDS = """
+    abs max range float len list map sum tuple zip True False None
+    sqrt sin cos exp log inf isfinite
+    state statistics steps step stride trajectory run row rows sweep change scale error labels count
+    OK NOT_CONVERGED NOT_FINITE BAD_STEP StepFailed Statistics
+"""
+RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split())
+"""Words that no variable may take."""
+
+
+class Statements:
+    """Prints the statements of one arrangement at the indentation of a function body."""
+
+    def __init__(self, arrangement: Arrangement, names: Names) -> None:
+        self.arrangement, self.names = arrangement, names
+
+    def lines(self) -> Iterator[str]:
+        """Yield the lines of every statement, in order."""
+        for statement in self.arrangement.statements:
+            if isinstance(statement, Iteration):
+                yield from self._iteration(statement)
+            else:
+                yield from self._simple(statement, 1)
+
+    def outputs(self, symbols: tuple[str, ...]) -> tuple[list[str], tuple[str, ...]]:
+        """Return the lines that name the new state, and its identifiers in state order."""
+        lines: list[str] = []
+        found: list[str] = []
+        for symbol, value in zip(symbols, self.arrangement.outputs, strict=True):
+            if value.op == "sym" and value.payload not in symbols:
+                found.append(self.names.spelled[value.payload])
+                continue
+            found.append(self.names.fresh(f"new_{symbol}"))
+            lines += self._assign(found[-1], value, 1)
+        return lines, tuple(found)
+
+    def _assign(self, name: str, value: Expr, depth: int) -> list[str]:
+        return indented(f"{name} = ", spell(value, self.names.spelled), depth)
+
+    def _simple(self, statement: Assignment | Joint, depth: int) -> Iterator[str]:
+        if isinstance(statement, Assignment):
+            yield from self._assign(self.names.spelled[statement.name], statement.value, depth)
+            return
+        argument = " ".join(spell(statement.argument, self.names.spelled))
+        names = ", ".join(self.names.spelled[n] for n in statement.names)
+        yield f"{'    ' * depth}{names} = _{statement.function}({argument})"
+
+    def _iteration(self, statement: Iteration) -> Iterator[str]:
+        loop, number = statement.loop, statement.number
+        now = [self.names.spelled[u] for u in loop.unknowns]
+        new = [self.names.fresh(f"next_{u}") for u in loop.unknowns]
+        differences = [self.names.fresh(f"change_{u}") for u in loop.unknowns]
+        previous = self.names.fresh(f"previous_{number}")
+        failure = f'"{loop.label}", {number - 1}, sweep, statistics)'
+        yield from indented("# ", (f"{loop.label}: fixed point in {', '.join(now)}",), 1)
+        for name, start in zip(now, statement.starts, strict=True):
+            yield from self._assign(name, start, 1)
+        yield f"    {previous} = inf"
+        yield f"    for sweep in range(1, {loop.limit + 1}):"
+        for inner in statement.body:
+            yield from self._simple(inner, 2)
+        for name, image in zip(new, statement.images, strict=True):
+            yield from self._assign(name, image, 2)
+        for difference, x, y in zip(differences, new, now, strict=True):
+            yield f"        {difference} = abs({x} - {y})"
+        yield from call("change = max", differences, 2)
+        yield from call("scale = max", ["1.0", *(f"abs({x})" for x in now)], 2)
+        total = " + ".join(differences)
+        yield f"        if not isfinite({total}):"
+        yield f"            raise _failed(NOT_FINITE, {failure}"
+        yield f"        if change <= {loop.tolerance!r} * scale and (change >= {previous} or change == 0.0):"
+        yield "            break"
+        yield f"        {previous} = change"
+        for x, y in zip(now, new, strict=True):
+            yield f"        {x} = {y}"
+        yield "    else:"
+        yield f"        raise _failed(NOT_CONVERGED, {failure}"
+        yield "    if statistics is not None:"
+        yield f"        statistics.count({number - 1}, sweep)"
+
+
+def call(start: str, terms: list[str], depth: int) -> list[str]:
+    """Return a call of a function of several terms; of one term, the term itself."""
+    space = "    " * depth
+    if len(terms) == 1:
+        return [f"{space}{start.rpartition(' ')[0]} {terms[0]}"]
+    line = f"{space}{start}({', '.join(terms)})"
+    if len(line) <= WIDTH:
+        return [line]
+    return [f"{space}{start}(", *(f"{space}    {term}," for term in terms), f"{space})"]
+
+
+def indented(start: str, pieces: tuple[str, ...], depth: int) -> list[str]:
+    """Return start and pieces on one line, or in parentheses with a piece a line where that is too long.
+
+    >>> indented("x = ", ("a", "+ b"), 1)
+    ['    x = a + b']
+    """
+    space = "    " * depth
+    line = f"{space}{start}{' '.join(pieces)}"
+    if len(line) <= WIDTH or len(pieces) == 1:
+        return [line]
+    return [f"{space}{start}(", *(f"{space}    {piece}" for piece in pieces), f"{space})"]

@@ -1,0 +1,62 @@
+"""The recipe: what the head of an emitted file says about where it comes from and how it is used."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """Facts for the header comment, all of them derived, none with a date or a path.
+
+    ``facts`` are (word, sentence) pairs in printing order, such as ("method", "RKMK on rk4 ...");
+    ``left_out`` has one sentence a line; ``initial`` is a state to start the usage example from, ``h`` its
+    step, ``steps`` its length; ``defaults`` are the scene's values of run-time parameters; ``command`` makes the
+    file again; ``version`` is that of orderconds.
+    """
+
+    title: str
+    facts: tuple[tuple[str, str], ...]
+    initial: tuple[float, ...]
+    h: float = 0.01
+    steps: int = 1000
+    defaults: Mapping[str, float] = field(default_factory=dict)
+    left_out: tuple[str, ...] = ()
+    command: str = ""
+    version: str = ""
+
+
+def entry(word: str, sentences: Sequence[str], width: int) -> list[str]:
+    """Return the lines of one header entry: the word, then its sentences with a hanging indent."""
+    indent = " " * 12
+    lines: list[str] = []
+    for number, sentence in enumerate(sentences):
+        start = indent if number else f"{word + ':':<12}"
+        lines += textwrap.wrap(
+            sentence,
+            width,
+            initial_indent=start,
+            subsequent_indent=indent,
+            break_long_words=False,
+            break_on_hyphens=False,
+        )
+    return lines
+
+
+def header(recipe: Recipe, layout: Sequence[str], counts: Sequence[str], width: int) -> list[str]:
+    """Return the recipe's lines up to the usage example, none longer than width where words allow it.
+
+    >>> header(Recipe("Step", (("method", "Lie-Euler"),), (1.0,)), ["m0: momentum"], ["2 mul a step"], 40)
+    ['Step', '', 'method:     Lie-Euler', 'state:      m0: momentum', 'operations: 2 mul a step']
+    """
+    lines = [*textwrap.wrap(recipe.title, width), ""]
+    for word, sentence in recipe.facts:
+        lines += entry(word, [sentence], width)
+    lines += entry("state", layout, width)
+    lines += entry("left out", recipe.left_out, width)
+    lines += entry("operations", counts, width)
+    lines += entry("made by", [recipe.command] if recipe.command else [], width)
+    lines += entry("version", [f"orderconds {recipe.version}"] if recipe.version else [], width)
+    return lines

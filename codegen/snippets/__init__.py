@@ -1,0 +1,1 @@
+"""Run-time helpers that emitted code may call, pulled in only with what uses them."""
