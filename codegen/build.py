@@ -111,7 +111,8 @@ def compile_files(
     for name, text in files.items():
         (directory / name).write_text(text, encoding="utf-8")
     sources = [name for name in sorted(files) if name.endswith(".c")]
-    command = [*compiler.command, *flags, "-o", str(output), *sources, "-lm"]
+    libraries = () if "-c" in flags else ("-lm",)
+    command = [*compiler.command, *flags, "-o", str(output), *sources, *libraries]
     answer = subprocess.run(command, cwd=directory, capture_output=True, text=True, check=False)
     if answer.returncode:
         raise CompileError(

@@ -74,8 +74,8 @@ class Arrangement:
 
     def expressions(self) -> Iterable[Expr]:
         """Yield every expression to be spelled."""
-        for statement in self._simple():
-            yield statement.value if isinstance(statement, Assignment) else statement.argument
+        for simple in self._simple():
+            yield simple.value if isinstance(simple, Assignment) else simple.argument
         for statement in self.statements:
             if isinstance(statement, Iteration):
                 yield from (*statement.starts, *statement.images)

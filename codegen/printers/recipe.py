@@ -13,8 +13,8 @@ class Recipe:
 
     ``facts`` are (word, sentence) pairs in printing order, such as ("method", "RKMK on rk4 ...");
     ``left_out`` has one sentence a line; ``initial`` is a state to start the usage example from, ``h`` its
-    step, ``steps`` its length; ``defaults`` are the scene's values of run-time parameters; ``command`` makes the
-    file again; ``version`` is that of orderconds.
+    step, ``steps`` its length; ``defaults`` are the scene's values of run-time parameters; ``command`` makes
+    the file again; ``version`` is that of orderconds.
     """
 
     title: str

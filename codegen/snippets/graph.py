@@ -29,6 +29,7 @@ class Snippet:
 def snippets() -> tuple[Snippet, ...]:
     """Return every snippet; the same names serve each target."""
     found = [Snippet("greater", "greater")]
+    switch = [repr(float(z)) for z in stumpff.SWITCH]
     for k in range(4):
         values = {"k": k, "coefficients": stumpff.constants(k)}
         found.append(Snippet(f"stumpff_series_{k}", "stumpff_series", (), values))
@@ -40,7 +41,7 @@ def snippets() -> tuple[Snippet, ...]:
         if orders not in ((1,), (2,), (3,), (1, 3)):
             library.append("cos")
         calls = (*library, *(f"stumpff_series_{k}" for k in orders))
-        found.append(Snippet(name, "stumpff", calls, {"name": name, "orders": orders}))
+        found.append(Snippet(name, "stumpff", calls, {"name": name, "orders": orders, "switch": switch}))
     return tuple(found)
 
 

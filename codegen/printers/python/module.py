@@ -7,8 +7,8 @@ from codegen.printers.arrange import arrange
 from codegen.printers.interface import Interface
 from codegen.printers.layout import layout, register
 from codegen.printers.names import Names
-from codegen.printers.python.statements import RESERVED, Statements
 from codegen.printers.operations import operations, sentences
+from codegen.printers.python.statements import RESERVED, Statements
 from codegen.printers.recipe import Recipe, header
 from codegen.snippets.graph import needed
 from codegen.templates import environment

@@ -1,0 +1,209 @@
+"""What every emitted module promises, on hand-made kernels."""
+
+from __future__ import annotations
+
+import math
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from codegen.build import Compiler, compile_files
+from codegen.load import Statistics, Status, StepFailed, load
+from codegen.printers.c.module import FLAGS
+
+GOLDEN = Path(__file__).parents[1] / "golden"
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.mark.parametrize("name", ["rigid", "pendulum", "powers"])
+def test_emitted_code_agrees_with_the_interpreter(kernels, check_codegen, name):
+    kernel = getattr(kernels, name)()
+
+    def step(state, h, t):
+        symbols = [s for f in kernel.state for s in f.symbols]
+        return kernels.interpret(
+            kernel, {**dict(zip(symbols, state, strict=True)), "h": h, "t": t, "lambda": 2.0}
+        )
+
+    c, python = (kernels.emission(kernel, target) for target in ("c", "python"))
+    check_codegen(c, python, step, kernels.STATES[name], 0.125)
+
+
+@pytest.mark.parametrize("name", ["pendulum", "powers"])
+def test_c_and_python_and_the_interpreter_agree_to_the_last_bit_without_stumpff(kernels, name):
+    kernel, state = getattr(kernels, name)(), kernels.STATES[name]
+    symbols = [s for f in kernel.state for s in f.symbols]
+    values = {**dict(zip(symbols, state, strict=True)), "h": 0.125, "t": 0.5, "lambda": 2.0}
+    expected = list(kernels.interpret(kernel, values))
+    for target in ("c", "python"):
+        assert load(kernels.emission(kernel, target)).step(list(state), 0.125, 0.5) == expected
+
+
+def test_compiled_runs_equal_stepping(kernels):
+    for target in ("c", "python"):
+        integrator = load(kernels.emission(kernels.pendulum(), target))
+        state = [0.5, 0.25]
+        for k in range(10):
+            state = integrator.step(state, 0.125, 1.0 + k * 0.125)
+        assert integrator.run([0.5, 0.25], 0.125, 10, 1.0) == state
+        rows = integrator.trajectory([0.5, 0.25], 0.125, 10, stride=5, t=1.0)
+        assert len(rows) == 3
+        assert rows[0] == [0.5, 0.25]
+        assert rows[2] == state
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+def test_a_numpy_state_is_answered_by_a_numpy_state_and_left_alone(kernels, target):
+    integrator = load(kernels.emission(kernels.rigid(), target))
+    state = np.array([0.4, -0.3, 0.9])
+    after = integrator.run(state, 0.1, 3)
+    assert isinstance(after, np.ndarray)
+    assert state.tolist() == [0.4, -0.3, 0.9]
+    assert integrator.trajectory(state, 0.1, 3).shape == (4, 3)
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+@pytest.mark.parametrize("h", [math.nan, math.inf])
+def test_a_step_size_that_is_no_number_is_refused(kernels, target, h):
+    integrator = load(kernels.emission(kernels.rigid(), target))
+    with pytest.raises(StepFailed) as failure:
+        integrator.run([0.4, -0.3, 0.9], h, 5)
+    assert failure.value.status == Status.BAD_STEP
+    assert failure.value.step == 0
+    assert list(failure.value.state) == [0.4, -0.3, 0.9]
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+def test_a_state_that_leaves_the_numbers_stops_the_run_at_the_last_good_one(kernels, target):
+    integrator = load(kernels.emission(kernels.powers(), target))
+    good = [1.25, 0.5]
+    made = 0
+    while True:
+        try:
+            good = integrator.step(good, 0.125)
+        except StepFailed:
+            break
+        made += 1
+    assert 0 < made < 100
+    with pytest.raises(StepFailed) as failure:
+        integrator.run([1.25, 0.5], 0.125, 100)
+    assert failure.value.status == Status.NOT_FINITE
+    assert failure.value.step == made
+    assert list(failure.value.state) == good
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+def test_a_block_that_does_not_converge_is_named(kernels, target):
+    integrator = load(kernels.emission(kernels.pendulum(limit=3), target))
+    statistics = Statistics()
+    with pytest.raises(StepFailed, match="step 1: stage 1 did not converge") as failure:
+        integrator.run([0.5, 0.25], 0.5, 5, statistics=statistics)
+    assert failure.value.status == Status.NOT_CONVERGED
+    assert list(failure.value.state) == [0.5, 0.25]
+    assert (statistics.sweeps, statistics.most, statistics.failed) == ([3], 3, 1)
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+def test_a_block_that_leaves_the_numbers_is_named(kernels, target):
+    integrator = load(kernels.emission(kernels.pendulum(), target))
+    with pytest.raises(StepFailed, match="not finite") as failure:
+        integrator.run([math.inf, 0.25], 0.5, 5)
+    assert failure.value.status == Status.NOT_FINITE
+
+
+def test_statistics_of_c_and_python_are_equal_and_add_up(kernels):
+    counts = []
+    for target in ("c", "python"):
+        statistics = Statistics()
+        integrator = load(kernels.emission(kernels.pendulum(), target))
+        for _ in range(2):
+            integrator.run([0.5, 0.25], 0.125, 4, statistics=statistics)
+        counts.append(statistics)
+    assert counts[0] == counts[1]
+    assert counts[0].sweeps[0] > 8
+
+
+def test_parameters_replace_the_scenes_values(kernels):
+    for target in ("c", "python"):
+        integrator = load(kernels.emission(kernels.pendulum(), target))
+        state = [0.5, 0.25]
+        assert integrator.step(state, 0.1, **{"lambda": 2.0}) == integrator.step(state, 0.1)
+        assert integrator.step(state, 0.1, **{"lambda": 3.0}) != integrator.step(state, 0.1)
+        with pytest.raises(TypeError, match="unknown parameter mu"):
+            integrator.step(state, 0.1, mu=1.0)
+
+
+def test_what_a_kernel_does_not_use_is_not_emitted(kernels):
+    source = kernels.emission(kernels.rigid(), "c").files["rigid.c"]
+    for absent in ("double t", "statistics", "NOT_CONVERGED", "stumpff_series_3", "greater", "cos(s)"):
+        assert absent not in source
+    assert "stumpff_12(z, &c1_1, &c2_1);" in source
+    assert "stumpff" not in kernels.emission(kernels.powers(), "python").files["powers.py"]
+
+
+def test_a_comment_cannot_be_ended_by_a_fact(kernels, compiler: Compiler, tmp_path):
+    from dataclasses import replace
+
+    from codegen.emit import emit_kernel
+
+    kernel = kernels.rigid()
+    recipe = replace(kernels.recipe(kernel), title='*/ evil """ \\N{}', left_out=("*/ #error",))
+    files = emit_kernel(kernel, recipe, "c", "rigid_").files
+    compile_files(files, tmp_path, tmp_path / "out.o", (*FLAGS, "-c"), compiler)
+    load(emit_kernel(kernel, recipe, "python", "rigid_"))
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+def test_emission_is_golden(kernels, target, request):
+    for name, text in kernels.emission(kernels.rigid(), target).files.items():
+        path = GOLDEN / name
+        if request.config.getoption("--update"):
+            path.parent.mkdir(exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+        assert path.read_text(encoding="utf-8") == text
+
+
+def test_emitted_python_runs_without_this_project(kernels, tmp_path):
+    (tmp_path / "rigid.py").write_text(kernels.emission(kernels.rigid(), "python").files["rigid.py"])
+    program = (
+        "import sys, rigid\n"
+        "print(rigid.run([0.4, -0.3, 0.9], 0.125, 4))\n"
+        "assert not {'codegen', 'orderconds', 'numpy'} & set(sys.modules)\n"
+    )
+    answer = subprocess.run(
+        [sys.executable, "-I", "-S", "-c", f"import sys; sys.path.insert(0, {str(tmp_path)!r})\n{program}"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    expected = load(kernels.emission(kernels.rigid(), "python")).run([0.4, -0.3, 0.9], 0.125, 4)
+    assert answer.stdout.strip() == str(expected)
+
+
+def test_emitted_bytes_do_not_depend_on_the_hash_seed(tmp_path):
+    program = (
+        "import sys; sys.path.insert(0, sys.argv[1])\n"
+        "import runpy, hashlib\n"
+        "found = runpy.run_path(sys.argv[2])\n"
+        "for name in sorted(found['KERNELS']):\n"
+        "    for target in ('c', 'python'):\n"
+        "        e = found['emission'](found['KERNELS'][name](), target)\n"
+        "        print(name, target, hashlib.sha256(repr((e.files, e.manifest)).encode()).hexdigest())\n"
+    )
+    conftest = str(Path(__file__).with_name("conftest.py"))
+    answers = [
+        subprocess.run(
+            [sys.executable, "-c", program, str(ROOT), conftest],
+            capture_output=True,
+            text=True,
+            check=True,
+            env={**os.environ, "PYTHONHASHSEED": seed},
+        ).stdout
+        for seed in ("0", "1", "2")
+    ]
+    assert len(answers[0].splitlines()) == 6
+    assert answers[0] == answers[1] == answers[2]

@@ -1,0 +1,126 @@
+/*
+ * rigid
+ *
+ * method:     hand-made, for tests
+ * order:      1
+ * state:      [0..2] m: angular momentum in the body
+ * operations: 14 add, 26 mul, 1 stumpff_12 a step
+ * made by:    none
+ * version:    orderconds test
+ *
+ * Build: cc -std=c11 -O2 -ffp-contract=off -c rigid.c
+ * Use:
+ *
+ *     #include "rigid.h"
+ *     #include <stdio.h>
+ *
+ *     int main(void)
+ *     {
+ *         double state[3] = {0.4, -0.3, 0.9};
+ *         size_t completed;
+ *         const int status = rigid_run(state, 0.125, 8, NULL, 0, &completed);
+ *         printf("status %d after %zu steps\n", status, completed);
+ *         for (int i = 0; i < 3; i++) {
+ *             printf("%.17g\n", state[i]);
+ *         }
+ *         return status;
+ *     }
+ */
+#include "rigid.h"
+
+#include <math.h>
+#include <string.h>
+
+/* c_2(z) = sum (-z)^j/(2j+2)! for small z */
+static inline double stumpff_series_2(double z)
+{
+    const double w = z * z;
+    const double even = -0.041666666666666664 + w * (-2.48015873015873e-05 + w * (-2.08767569878681e-09 + w * (-4.779477332387385e-14)));
+    const double odd = 0.001388888888888889 + w * (2.755731922398589e-07 + w * (1.1470745597729725e-11 + w * (1.5619206968586225e-16)));
+    return 0.5 + z * (even + z * odd);
+}
+
+/* c_1(z) = sum (-z)^j/(2j+1)! for small z */
+static inline double stumpff_series_1(double z)
+{
+    const double w = z * z;
+    const double even = -0.16666666666666666 + w * (-0.0001984126984126984 + w * (-2.505210838544172e-08 + w * (-7.647163731819816e-13)));
+    const double odd = 0.008333333333333333 + w * (2.7557319223985893e-06 + w * (1.6059043836821613e-10 + w * (2.8114572543455206e-15)));
+    return 1.0 + z * (even + z * odd);
+}
+
+/* c_1, c_2 of z >= 0: c_0 = cos s, c_1 = sin(s)/s, c_2 = (1 - c_0)/z, c_3 = (1 - c_1)/z, s = sqrt(z) */
+static inline void stumpff_12(double z, double *c1, double *c2)
+{
+    if (z <= 1.0) {
+        *c1 = stumpff_series_1(z);
+        *c2 = stumpff_series_2(z);
+        return;
+    }
+    const double half = 0.5 * sqrt(z);
+    const double sine = sin(half);
+    const double cosine = cos(half);
+    const double ratio = sine / half;
+    *c1 = ratio * cosine;
+    *c2 = 0.5 * (ratio * ratio);
+}
+
+static inline int advance(double state[static 3], double h)
+{
+    if (!isfinite(h)) {
+        return RIGID_BAD_STEP;
+    }
+    const double m0 = state[0];
+    const double m1 = state[1];
+    const double m2 = state[2];
+    const double w0 = -0.5 * m0 * h;
+    const double w1 = -h * m1;
+    const double w2 = -1.5 * m2 * h;
+    const double z = w0 * w0 + w1 * w1 + w2 * w2;
+    const double v0 = m2 * w1 - m1 * w2;
+    const double v1 = m0 * w2 - m2 * w0;
+    const double v2 = m1 * w0 - m0 * w1;
+    double c1_1, c2_1;
+    stumpff_12(z, &c1_1, &c2_1);
+    const double new_m0 = m0 + v0 * c1_1 + (w1 * v2 - w2 * v1) * c2_1;
+    const double new_m1 = m1 + v1 * c1_1 + (w2 * v0 - w0 * v2) * c2_1;
+    const double new_m2 = m2 + v2 * c1_1 + (w0 * v1 - w1 * v0) * c2_1;
+    if (!(isfinite(new_m0) && isfinite(new_m1) && isfinite(new_m2))) {
+        return RIGID_NOT_FINITE;
+    }
+    state[0] = new_m0;
+    state[1] = new_m1;
+    state[2] = new_m2;
+    return RIGID_OK;
+}
+
+int rigid_step(double state[static 3], double h)
+{
+    return advance(state, h);
+}
+
+int rigid_run(double state[static 3], double h, size_t steps, double *trajectory,
+    size_t stride, size_t *completed)
+{
+    int status = RIGID_OK;
+    size_t step = 0;
+    double *row = stride > 0 ? trajectory : NULL;
+    if (row != NULL) {
+        memcpy(row, state, 3 * sizeof *state);
+    }
+    while (step < steps) {
+        status = advance(state, h);
+        if (status != RIGID_OK) {
+            break;
+        }
+        step++;
+        if (row != NULL && step % stride == 0) {
+            row += 3;
+            memcpy(row, state, 3 * sizeof *state);
+        }
+    }
+    if (completed != NULL) {
+        *completed = step;
+    }
+    return status;
+}

@@ -1,0 +1,125 @@
+"""rigid
+
+method:     hand-made, for tests
+order:      1
+state:      [0..2] m: angular momentum in the body
+operations: 14 add, 26 mul, 1 stumpff_12 a step
+made by:    none
+version:    orderconds test
+
+Use:
+
+    import rigid
+
+    state = [0.4, -0.3, 0.9]
+    print(rigid.run(state, 0.125, 8))
+"""
+
+from math import cos, isfinite, sin, sqrt
+
+OK = 0
+NOT_CONVERGED = 1
+NOT_FINITE = 2
+BAD_STEP = 3
+
+
+class StepFailed(ArithmeticError):
+    """A step that could not be made.
+
+    status: NOT_FINITE or BAD_STEP; step: how many steps were made before it;
+    state: the last good state, as a tuple.
+    """
+
+    def __init__(self, status, reason):
+        super().__init__(reason)
+        self.status, self.reason, self.step, self.state = status, reason, 0, ()
+
+    def __str__(self):
+        return f"step {self.step + 1}: {self.reason}"
+
+
+def _stumpff_series_2(z):
+    """Return c_2(z) = sum (-z)^j/(2j+2)! for small z."""
+    w = z * z
+    even = -0.041666666666666664 + w * (-2.48015873015873e-05 + w * (-2.08767569878681e-09 + w * (-4.779477332387385e-14)))
+    odd = 0.001388888888888889 + w * (2.755731922398589e-07 + w * (1.1470745597729725e-11 + w * (1.5619206968586225e-16)))
+    return 0.5 + z * (even + z * odd)
+
+
+def _stumpff_series_1(z):
+    """Return c_1(z) = sum (-z)^j/(2j+1)! for small z."""
+    w = z * z
+    even = -0.16666666666666666 + w * (-0.0001984126984126984 + w * (-2.505210838544172e-08 + w * (-7.647163731819816e-13)))
+    odd = 0.008333333333333333 + w * (2.7557319223985893e-06 + w * (1.6059043836821613e-10 + w * (2.8114572543455206e-15)))
+    return 1.0 + z * (even + z * odd)
+
+
+def _stumpff_12(z):
+    """Return c_1, c_2 of z >= 0: c_0 = cos s, c_1 = sin(s)/s, c_2 = (1 - c_0)/z, c_3 = (1 - c_1)/z, s = sqrt(z)."""
+    if z <= 1.0:
+        return _stumpff_series_1(z), _stumpff_series_2(z)
+    half = 0.5 * sqrt(z)
+    ratio = sin(half) / half
+    return ratio * cos(half), 0.5 * (ratio * ratio)
+
+
+def _advance(state, h):
+    """Return the state after one step as a tuple."""
+    m0, m1, m2 = state
+    w0 = -0.5 * m0 * h
+    w1 = -h * m1
+    w2 = -1.5 * m2 * h
+    z = w0 * w0 + w1 * w1 + w2 * w2
+    v0 = m2 * w1 - m1 * w2
+    v1 = m0 * w2 - m2 * w0
+    v2 = m1 * w0 - m0 * w1
+    c1_1, c2_1 = _stumpff_12(z)
+    new_m0 = m0 + v0 * c1_1 + (w1 * v2 - w2 * v1) * c2_1
+    new_m1 = m1 + v1 * c1_1 + (w2 * v0 - w0 * v2) * c2_1
+    new_m2 = m2 + v2 * c1_1 + (w0 * v1 - w1 * v0) * c2_1
+    return new_m0, new_m1, new_m2
+
+
+def _checked(state, h):
+    """Return the state after one step, which is finite."""
+    try:
+        new = _advance(state, h)
+    except StepFailed:
+        raise
+    except (ArithmeticError, ValueError) as error:
+        raise StepFailed(NOT_FINITE, f"the new state is not finite ({error})") from None
+    if not all(map(isfinite, new)):
+        raise StepFailed(NOT_FINITE, "the new state is not finite")
+    return new
+
+
+def step(state, h):
+    """Return the state after one step of size h as a list; state itself is left alone.
+
+    A step that cannot be made raises StepFailed.
+    """
+    return run(state, h, 1)
+
+
+def run(state, h, steps, *, stride=0):
+    """Return the state after that many steps of size h, as a list.
+
+    With a positive stride, return rows instead: the initial state and every stride-th one
+    after it. A step that cannot be made raises StepFailed, which holds the last good state.
+    """
+    state = tuple(map(float, state))
+    if len(state) != 3:
+        raise ValueError(f"expected 3 numbers in state, found {len(state)}")
+    rows = [list(state)]
+    made = 0
+    try:
+        if not isfinite(h):
+            raise StepFailed(BAD_STEP, f"the step size h = {h} is not finite")
+        for made in range(steps):
+            state = _checked(state, h)
+            if stride > 0 and (made + 1) % stride == 0:
+                rows.append(list(state))
+    except StepFailed as failure:
+        failure.step, failure.state = made, state
+        raise
+    return rows if stride > 0 else list(state)
