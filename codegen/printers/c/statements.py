@@ -132,7 +132,7 @@ def greatest(terms: list[str]) -> str:
 def fill(start: str, pieces: tuple[str, ...], end: str, width: int = WIDTH) -> list[str]:
     """Join start, pieces and end with spaces, breaking lines before pieces that do not fit.
 
-    >>> fill("x =", ("a", "+ b", "+ c"), ";", width=10)
+    >>> fill("x =", ("a", "+ b", "+ c"), ";", width=18)
     ['x = a + b', '    + c;']
     """
     lines = [start]
