@@ -24,7 +24,9 @@ MODULES = {
     "rkmk": "orderconds.families.rkmk",
     "cg": "orderconds.families.cg",
     "cf": "orderconds.families.cf",
+    "vrkmk": "orderconds.families.vrkmk",
     "vcg": "orderconds.families.vcg",
+    "vcf": "orderconds.families.vcf",
 }
 """Family name to module, in the order in which ``orderconds list families`` shows them."""
 

@@ -41,8 +41,11 @@ class ActionFamily(ABC):
         """Return the action series of a method; raises ZeroWeight for a weight that vanishes."""
 
     @abstractmethod
-    def random_series(self, ring: Residues, generator: np.random.Generator, stages: int) -> ActionSeries:
-        """Return the action series of random members of the family, one for each sample of the ring."""
+    def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
+        """Return the action series of random members of the family, one for each sample of the ring.
+
+        They have as many stages as conditions up to ``order`` can tell apart.
+        """
 
     @abstractmethod
     def formula(self) -> ActionFormula:
@@ -82,7 +85,6 @@ class ActionFamily(ABC):
 
 @cache
 def _independent(family: ActionFamily, order: int) -> tuple[tuple[Velocity, ...], ...]:
-    # The ranks of VCG stand from order - 1 stages on (tested); more stages only cost time.
     from orderconds.series.action_rank import independent_trees
 
-    return independent_trees(partial(family.random_series, stages=max(order - 1, 2)), order)
+    return independent_trees(partial(family.random_series, order=order), order)

@@ -14,9 +14,14 @@ from fractions import Fraction
 from itertools import pairwise
 from math import factorial, prod
 
-from orderconds.formula import Formula, Power, coefficient, fresh, index_sum, one, product, total
+from orderconds.formula import Formula, Power, Total, coefficient, fresh, index_sum, one, product, total, zero
 from orderconds.formula.nodes import Relation
 from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, Word
+from orderconds.series.dexpinv import dexpinv_terms
+from orderconds.words.compositions import compositions
+
+Marked = tuple[Velocity | str, ...]
+"""A word in which a stage's index may stand once, for a variation of that stage's velocity."""
 
 
 def multiplier(tree: Velocity) -> int:
@@ -38,27 +43,18 @@ def _momentum_multiplier(tree: Momentum) -> int:
 
 
 class ActionFormula(ABC):
-    """Writes the conditions of a method whose stages and update are products of exponentials.
+    """Writes action conditions; subclasses say how stages and update depend on the stage velocities.
 
-    Subclasses name the coefficients. ``row`` is the index of a stage, None for the update; ``place`` is the
-    index of an exponential in it.
+    ``row`` is the index of a stage, None for the update.
     """
 
     @abstractmethod
-    def place(self) -> str:
-        """Return a new index for exponentials."""
-
-    @abstractmethod
-    def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
-        """Return the tree's coefficient in one exponent."""
-
-    @abstractmethod
-    def whole_exponent(self, row: str, tree: Velocity) -> Formula:
-        """Return the sum of :meth:`exponent` over all places of a stage."""
+    def word(self, row: str, word: Word) -> Formula:
+        """Return a word's coefficient in a stage, times k! if it repeats one letter."""
 
     @abstractmethod
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of u x v, x where a stage's velocity stands in an exponent."""
+        """Return the coefficient of u x v, x once in place of a stage's velocity."""
 
     def condition(self, tree: Velocity) -> Formula:
         """Return ``sum_i b_i tau_t(i)`` times :func:`multiplier`."""
@@ -67,7 +63,7 @@ class ActionFormula(ABC):
 
     def tau(self, tree: Velocity, stage: str) -> Formula:
         """Return tau_t at a stage, times its multiplier."""
-        return product(self._phi(stage, tree.word), self._psi_product(tree.momenta, stage))
+        return product(self.word(stage, tree.word), self._psi_product(tree.momenta, stage))
 
     def _psi_product(self, momenta: Momenta, stage: str) -> Formula:
         return product(*(self._psi(p, stage) for p in momenta))
@@ -84,17 +80,37 @@ class ActionFormula(ABC):
         )
         return product(weight, index_sum((other,), (), inner))
 
-    def _phi(self, stage: str, word: Word) -> Formula:
-        if len(set(word)) > 1:
-            return self.ordered(stage, word, None, None)
-        factors = [self.whole_exponent(stage, letter) for letter in word]
-        return product(*factors)
 
-    def ordered(self, row: str | None, word: Word, above: str | None, below: str | None) -> Formula:
+class ExponentialsFormula(ActionFormula):
+    """Writes the conditions of products of exponentials; ``place`` is the index of one of them."""
+
+    @abstractmethod
+    def place(self) -> str:
+        """Return a new index for exponentials."""
+
+    @abstractmethod
+    def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
+        """Return the tree's coefficient in one exponent."""
+
+    def word(self, row: str, word: Word) -> Formula:
+        """Return a word's coefficient in a stage, times k! if it repeats one letter."""
+        if len(set(word)) > 1:
+            return self.between(row, word, None, None)
+        return product(*(self._whole_exponent(row, letter) for letter in word))
+
+    def _whole_exponent(self, row: str, tree: Velocity) -> Formula:
+        """Return the sum of a tree's coefficients in all exponents of a stage, ``c_i`` for the leaf."""
+        if tree.vertices == 1:
+            return coefficient("c", row)
+        place = self.place()
+        return index_sum((place,), (), self.exponent(row, place, tree))
+
+    def between(self, row: str | None, word: Word, above: str | None, below: str | None) -> Formula:
         """Return a word's coefficient in the exponentials strictly between two places (None: no bound)."""
         if not word:
             return one()
-        return total(*(self._runs(row, word, lengths, above, below) for lengths in _compositions(len(word))))
+        lengths = reversed(list(compositions(len(word))))  # all places different first
+        return total(*(self._runs(row, word, parts, above, below) for parts in lengths))
 
     def _runs(
         self, row: str | None, word: Word, lengths: tuple[int, ...], above: str | None, below: str | None
@@ -115,13 +131,13 @@ class ActionFormula(ABC):
             for q in range(len(after) + 1):
                 run = before[len(before) - r :] + after[:q]
                 inside = [self.exponent(row, place, letter) for letter in run]
-                earlier = self.ordered(row, before[: len(before) - r], None, place)
-                later = self.ordered(row, after[q:], place, None)
+                earlier = self.between(row, before[: len(before) - r], None, place)
+                later = self.between(row, after[q:], place, None)
                 terms.append((Fraction(1, factorial(1 + len(run))), product(earlier, *inside, later)))
         return total(*terms)
 
 
-class CrouchGrossmanFormula(ActionFormula):
+class CrouchGrossmanFormula(ExponentialsFormula):
     """One exponential for each a_ij and each b_j: places are stages."""
 
     def place(self) -> str:
@@ -130,26 +146,96 @@ class CrouchGrossmanFormula(ActionFormula):
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
         """Return ``a_ij tau_t(j)`` or ``b_j tau_t(j)``."""
-        factor = coefficient("b", place) if row is None else coefficient("a", row, place)
-        return product(factor, self.tau(tree, place))
-
-    def whole_exponent(self, row: str, tree: Velocity) -> Formula:
-        """Return ``sum_j a_ij tau_t(j)``, ``c_i`` for the leaf."""
-        if tree.vertices == 1:
-            return coefficient("c", row)
-        place = self.place()
-        return index_sum((place,), (), self.exponent(row, place, tree))
+        return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
         """Return ``a_ji`` or ``b_i`` times the words on both sides of place i."""
-        factor = coefficient("b", stage) if row is None else coefficient("a", row, stage)
-        return product(factor, self.around(row, stage, before, after))
+        return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
 
-def _compositions(n: int) -> Iterator[tuple[int, ...]]:
-    """Yield the ordered sums that make n, longest first: all different indices come first."""
-    if n == 0:
-        yield ()
-    for first in range(1, n + 1):
-        for rest in _compositions(n - first):
-            yield (first, *rest)
+class CommutatorFreeFormula(ExponentialsFormula):
+    """Exponents ``sum_j alpha_iJj xi_j`` in the stages, ``sum_j beta_Jj xi_j`` in the update."""
+
+    def place(self) -> str:
+        """Return a new index of exponentials."""
+        return fresh("J")
+
+    def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
+        """Return ``sum_j alpha_iJj tau_t(j)`` or ``sum_j beta_Jj tau_t(j)``."""
+        stage = fresh("i")
+        return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
+
+    def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
+        """Return the sum over the exponentials that the stage's velocity enters."""
+        place = self.place()
+        inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
+        return index_sum((place,), (), inner)
+
+    def _entry(self, row: str | None, place: str, stage: str) -> Formula:
+        if row is None:
+            return coefficient("beta", place, stage)
+        return coefficient("alpha", row, place, stage)
+
+
+class MuntheKaasFormula(ActionFormula):
+    """One exponential of ``X_i = sum_j a_ij dexpinv_{(r),X_j} xi_j``."""
+
+    def __init__(self, cutoff: int | None) -> None:
+        self._cutoff = cutoff
+
+    def word(self, row: str, word: Word) -> Formula:
+        """Return a word's coefficient in exp(X_i), times k! if it repeats one letter."""
+        if len(set(word)) > 1:
+            return self._exponential(row, word)
+        return product(*(self._argument(row, (letter,)) for letter in word))
+
+    def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
+        """Return the coefficient of u x v in exp(X_i), or in exp(Y)."""
+        return self._exponential(row, (*before, stage, *after))
+
+    def _exponential(self, row: str | None, word: Marked) -> Formula:
+        return total(
+            *((Fraction(1, factorial(n)), self._power(row, n, word)) for n in range(1, len(word) + 1))
+        )
+
+    def _power(self, row: str | None, n: int, word: Marked) -> Formula:
+        if n == 0 or len(word) < n:
+            return one() if n == len(word) else zero()
+        if n == 1:
+            return self._argument(row, word)
+        return total(
+            *(
+                (1, product(self._argument(row, word[:cut]), self._power(row, n - 1, word[cut:])))
+                for cut in range(1, len(word) - n + 2)
+            )
+        )
+
+    def _argument(self, row: str | None, word: Marked) -> Formula:
+        """Return the coefficient of a word in X_i, or in Y.
+
+        Each letter in turn is the velocity that dexpinv acts on; that of a variation is of one stage only.
+        """
+        if row is not None and len(word) == 1 and isinstance(word[0], Velocity) and word[0].vertices == 1:
+            return coefficient("c", row)
+        terms = []
+        for place, letter in enumerate(word):
+            varied = isinstance(letter, str)
+            stage = letter if isinstance(letter, str) else fresh("i")
+            for q, inner in self._dexpinv(stage, word[:place], word[place + 1 :]):
+                value = one() if isinstance(letter, str) else self.tau(letter, stage)
+                term = product(_runge_kutta(row, stage), inner, value)
+                terms.append((q, term if varied else index_sum((stage,), (), term)))
+        return total(*terms)
+
+    def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
+        letters = len(before) + len(behind)
+        for q, m, n in dexpinv_terms(letters if self._cutoff is None else min(letters, self._cutoff)):
+            inner = product(self._power(stage, m, before), self._power(stage, n, behind))
+            if isinstance(inner, Total):
+                yield from ((q * scale, term) for scale, term in inner.terms)
+            else:
+                yield q, inner
+
+
+def _runge_kutta(row: str | None, stage: str) -> Formula:
+    return coefficient("b", stage) if row is None else coefficient("a", row, stage)

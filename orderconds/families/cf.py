@@ -34,7 +34,6 @@ class CommutatorFreeFamily(OrderedForestFamily):
 
     name = "cf"
     formats: tuple[str, ...] = ("cf", "rk")
-    search_limit = 7
 
     def label(self) -> str:
         """Return ``cf``."""
@@ -67,7 +66,7 @@ def exponentials(method: Any) -> list[Exponentials]:
 
 
 def coefficient_tables(method: Any, ring: Ring) -> dict[str, Any]:
-    """Return the tables alpha_iJj, beta_Jj and c_i that the formulas name, filled up with zeros."""
+    """Return the tables alpha_iJj, beta_Jj, b_j and c_i that the formulas name, filled up with zeros."""
     stages = len(method.stages)
     *rows, update = exponentials(method)
     most = max(1, *(len(row) for row in rows))
@@ -75,6 +74,7 @@ def coefficient_tables(method: Any, ring: Ring) -> dict[str, Any]:
     return {
         "alpha": [[*row, *([empty] * (most - len(row)))] for row in rows],
         "beta": update,
+        "b": [sum(column, ring.zero) for column in zip(*update, strict=True)],
         "c": [sum((x for row in own for x in row), ring.zero) for own in rows],
     }
 

@@ -29,7 +29,6 @@ class CrouchGrossmanFamily(OrderedForestFamily):
 
     name = "cg"
     formats: tuple[str, ...] = ("rk",)
-    search_limit = 7
 
     def label(self) -> str:
         """Return ``cg``."""

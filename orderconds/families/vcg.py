@@ -38,8 +38,9 @@ class VariationalCrouchGrossman(ActionFamily):
         require_nonzero_weights(self.label(), ring, method.b)
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, method.A, method.b))
 
-    def random_series(self, ring: Residues, generator: np.random.Generator, stages: int) -> ActionSeries:
-        """Return the series of random full tableaux."""
+    def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
+        """Return the series of random full tableaux; from order - 1 stages on ranks stand."""
+        stages = max(order - 1, 2)
         rows = [[ring.random(generator) for _ in range(stages)] for _ in range(stages + 1)]
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, rows[:-1], rows[-1]))
 

@@ -1,19 +1,23 @@
 """Independent action conditions: rank modulo products of lower ones, on random tableaux modulo a prime.
 
-A condition of order n is superfluous if its value, for every method, is a combination of the other values of
-order n and of products of values of lower order. The values at many random methods decide that, vectorised;
-greedy pivots in the canonical order keep the simplest trees.
+A condition of order n is superfluous if its value, for every method **and for the flow**, is the same
+combination of the other values of order n and of products of values of lower order. The values at many
+random methods and at the flow decide that, vectorised; greedy pivots in the canonical order keep the
+simplest trees. Were the flow left out, a family that cannot reach an order would not be told so (VRKMK with
+dexpinv cut too early).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
 
 from orderconds.ring.rank import pivot_columns
 from orderconds.ring.residues import PRIMES, Residue, Residues
+from orderconds.series import action_exact
 from orderconds.series.action import ActionSeries
 from orderconds.series.action_switching import representatives
 from orderconds.series.action_trees import Velocity, tree_counts
@@ -53,7 +57,7 @@ def _independent(family: RandomSeries, order: int, prime: int) -> tuple[tuple[Ve
 
 
 def _sample(family: RandomSeries, order: int, prime: int) -> dict[Velocity, Residue]:
-    """Return every condition to the given order at as many random methods as the rank may need."""
+    """Return every condition at as many random methods as the rank may need, and at the flow."""
     trees = [t for n in range(1, order + 1) for t in representatives(n)]
     count = _largest_rank(order) + SPARE_SAMPLES
     blocks: list[list[NDArray[np.int64]]] = []
@@ -61,8 +65,14 @@ def _sample(family: RandomSeries, order: int, prime: int) -> dict[Velocity, Resi
     for start in range(0, count, BLOCK):
         series = family(Residues(prime, min(BLOCK, count - start)), generator)
         blocks.append([series.condition(t).values for t in trees])
-    ring = Residues(prime, count)
+    one = Residues(prime, 1)
+    blocks.append([_rational(one, action_exact.condition(t)) for t in trees])
+    ring = Residues(prime, count + 1)
     return {t: ring.element(np.concatenate(parts)) for t, *parts in zip(trees, *blocks, strict=True)}
+
+
+def _rational(ring: Residues, q: Fraction) -> NDArray[np.int64]:
+    return ring.rational(q.numerator, q.denominator).values
 
 
 def _largest_rank(order: int) -> int:

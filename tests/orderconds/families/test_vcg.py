@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
 from flint import fmpq
@@ -13,22 +11,31 @@ from orderconds.families import get, residuals
 from orderconds.ring import QQ, Residues
 from orderconds.ring.rank import pivot_columns
 from orderconds.series.action import CommutatorFreeSeries, crouch_grossman_rows
+from orderconds.series.action_rank import independent_trees
+from orderconds.series.action_trees import transport, velocities, velocity
+from orderconds.tableau import Tableau
+from orderconds.tableau.library import find
+from orderconds.tableau.methods import RungeKutta
 
 VCG = get("vcg")
 
 
-@dataclass(frozen=True)
-class Butcher:
-    A: tuple
-    b: tuple
+VCG = get("vcg")
 
 
 def butcher(rows, weights):
     s = len(weights)
     full = [[*row, *["0"] * (s - len(row))] for row in rows]
-    return Butcher(
-        tuple(tuple(fmpq(*map(int, x.split("/"))) for x in row) for row in full),
-        tuple(fmpq(*map(int, x.split("/"))) for x in weights),
+    exact = [tuple(fmpq(*map(int, x.split("/"))) for x in row) for row in (*full, weights)]
+    return RungeKutta(tuple(exact[:-1]), exact[-1])
+
+
+def composition(*gamma):
+    """Composed implicit midpoints as a tableau (Lemma 3.5.4)."""
+    return Tableau.loads(
+        'name = "composition"\nfamily = "composition"\nbase = "symmetric-2"\ngamma = ['
+        + ", ".join(f'"{g}"' for g in gamma)
+        + ']\nsource = "test"\n[numbers]\ng = "1/(2-2^(1/3))"\n'
     )
 
 
@@ -93,8 +100,8 @@ def printed_proposition(ring, A, b):
 def test_derived_and_printed_order_three_span_the_same_space_modulo_products():
     ring = Residues(samples=40)
     A, b = random_tableau(ring, 3, 7)
-    derived = list(VCG.evaluate(Butcher(A, b), ring, VCG.conditions(3)))
-    first, second = (VCG.evaluate(Butcher(A, b), ring, VCG.conditions(n))[0] for n in (1, 2))
+    derived = list(VCG.evaluate(RungeKutta(A, b), ring, VCG.conditions(3)))
+    first, second = (VCG.evaluate(RungeKutta(A, b), ring, VCG.conditions(n))[0] for n in (1, 2))
     products = [first * first * first, first * second]
     printed = printed_proposition(ring, A, b)
     ranks = [len(pivot_columns([*products, *extra])) for extra in (derived, printed, derived + printed)]
@@ -102,10 +109,9 @@ def test_derived_and_printed_order_three_span_the_same_space_modulo_products():
 
 
 def test_more_stages_find_no_more_conditions():
-    from orderconds.series.action_rank import independent_trees
-
     for stages in (2, 3, 4):
-        found = independent_trees(lambda ring, g, s=stages: VCG.random_series(ring, g, s), 4)
+        # random_series takes the order and makes one stage less
+        found = independent_trees(lambda ring, g, s=stages: VCG.random_series(ring, g, s + 1), 4)
         assert [len(trees) for trees in found] == ([1, 1, 6, 22] if stages == 2 else [1, 1, 6, 25])
 
 
@@ -115,7 +121,7 @@ def test_printed_sums_are_what_the_engine_computes(order):
     A = [[next(entries) for _ in range(3)] for _ in range(3)]
     b = [fmpq(2, 3), fmpq(-1, 4), fmpq(5, 7)]
     conditions = VCG.all_conditions(order) if order < 4 else VCG.all_conditions(4)[::7]
-    values = VCG.evaluate(Butcher(A, b), QQ, conditions)
+    values = VCG.evaluate(RungeKutta(A, b), QQ, conditions)
     for condition, value in zip(conditions, values, strict=True):
         assert condition.formula.evaluate(QQ, A, b) == value, condition
 
@@ -143,3 +149,74 @@ def test_zero_coefficients_left_out_change_nothing():
     trees = [c.key for n in (1, 2, 3) for c in VCG.all_conditions(n)]
     sparse, dense = CommutatorFreeSeries(QQ, rows), CommutatorFreeSeries(QQ, full)
     assert [sparse.condition(t) for t in trees] == [dense.condition(t) for t in trees]
+
+
+def test_triple_jump_has_order_exactly_four_over_its_number_field():
+    tableau = composition("g", "1-2*g", "g")
+    method = tableau.read_as(VCG.formats)
+    assert order_of(method, 5, tableau.ring) == 4
+
+
+def test_triple_jump_with_a_wrong_middle_step_loses_its_order():
+    tableau = composition("g", "1-2*g", "g")
+    method = tableau.read_as(VCG.formats)
+    nudged = RungeKutta(method.A, (*method.b[:2], method.b[2] + tableau.ring.rational(5, 10**11)))
+    assert order_of(nudged, 2, tableau.ring) == 0
+
+
+@pytest.mark.parametrize("stages", [2, 3])
+def test_gauss_tableaux_stay_at_order_two(stages):
+    tableau = Tableau.load(find(f"gauss{stages}"))
+    assert order_of(tableau.method, 3, tableau.ring) == 2
+
+
+def test_compositions_of_midpoints_have_1_0_1_1_independent_conditions():
+    def random(ring, generator, stages=5):
+        gamma = [ring.random(generator) for _ in range(stages)]
+        half = ring.rational(1, 2)
+        A = [[*gamma[:i], gamma[i] * half, *[ring.zero] * (stages - i - 1)] for i in range(stages)]
+        return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, A, gamma))
+
+    assert [len(trees) for trees in independent_trees(random, 4)] == [1, 0, 1, 1]
+
+
+def test_three_conditions_of_order_four_are_lost_by_one_identity():
+    """psi_{L(H|L)} = 3 psi_{L(HH)} - psi_{L(H)}^2, H the leaf and H|L the leaf with a transported leg."""
+    leaf = velocity()
+    series = CommutatorFreeSeries(QQ, crouch_grossman_rows(QQ, RK4.A, RK4.b))
+    single, double = series.psi(transport((leaf,))), series.psi(transport((leaf, leaf)))
+    nested = series.psi(transport((velocity((), (transport((leaf,)),)),)))
+    assert nested == [3 * y - x * x for x, y in zip(single, double, strict=True)]
+
+
+def test_trees_without_momenta_have_the_values_of_crouch_grossman():
+    lie_butcher = get("cg").series(KUTTA3, QQ)
+    series = VCG.series(KUTTA3, QQ)
+
+    def levels(tree, level=0):
+        return bytes([level]) + b"".join(levels(t, level + 1) for t in tree.word)
+
+    def without_momenta(tree):
+        return not tree.momenta and all(map(without_momenta, tree.word))
+
+    plain = [t for n in range(1, 6) for t in velocities(n) if without_momenta(t)]
+    assert len(plain) == 1 + 1 + 2 + 5 + 14
+    assert [series.condition(t) for t in plain] == [lie_butcher(levels(t)) for t in plain]
+
+
+@pytest.mark.slow
+def test_order_six_has_800_independent_conditions():
+    assert [len(VCG.conditions(n)) for n in (5, 6)] == [139, 800]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["triple_jump6", "yoshida6"])
+def test_sixth_order_compositions_have_order_exactly_six(name):
+    tableau = Tableau.load(find(name))
+    method = tableau.read_as(VCG.formats)
+    ring = tableau.ring
+    for order in range(1, 7):
+        conditions = VCG.decisive_conditions(order)
+        assert not any(ring.is_zero(r) is False for r in residuals(VCG, method, ring, conditions))
+    first = VCG.decisive_conditions(7)[:20]
+    assert any(ring.is_zero(r) is False for r in residuals(VCG, method, ring, first))

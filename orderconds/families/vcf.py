@@ -1,0 +1,70 @@
+"""Variational commutator-free methods: VCG with several stages in one exponential.
+
+The discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)`` with ``Q_i = exp(X_im) ... exp(X_i1) q0``,
+``X_iJ = h sum_j alpha_iJj xi_j``, the update alike with beta_Jj, and ``b_i = sum_J beta_Ji``: the future work
+that Section 3.5 of Bogfjellmo and Marthinsen points to. Negative weights are not needed for order 3.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orderconds.families import require_nonzero_weights
+from orderconds.families.action_family import ActionFamily
+from orderconds.families.action_formula import ActionFormula, CommutatorFreeFormula
+from orderconds.families.cf import exponentials
+from orderconds.ring.protocol import Ring
+from orderconds.series.action import ActionSeries, CommutatorFreeSeries, crouch_grossman_rows
+from orderconds.series.b_series import sparse
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from orderconds.ring.residues import Residues
+
+
+class VariationalCommutatorFree(ActionFamily):
+    """The family ``vcf``; ``update`` and ``stage`` say how many exponentials there are when conditions count.
+
+    Without them there are as many as can make a difference, and the independent conditions are as many as
+    there are elementary Hamiltonians. A Runge-Kutta tableau is read with one stage in each exponential.
+
+    >>> [len(create().conditions(n)) for n in (1, 2, 3, 4)]
+    [1, 1, 6, 28]
+    """
+
+    name = "vcf"
+    formats = ("cf", "rk")
+
+    def __init__(self, update: int | None = None, stage: int | None = None) -> None:
+        self.update, self.stage = update, stage
+
+    def series(self, method: Any, ring: Ring) -> ActionSeries:
+        """Return the action series of ``method.stages`` and ``method.update``, or of a tableau (A, b)."""
+        if not hasattr(method, "update"):
+            require_nonzero_weights(self.label(), ring, method.b)
+            return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, method.A, method.b))
+        weights = [sum(column, ring.zero) for column in zip(*exponentials(method)[-1], strict=True)]
+        require_nonzero_weights(self.label(), ring, weights)
+        return CommutatorFreeSeries(
+            ring, [tuple(sparse(ring, row) for row in rows) for rows in exponentials(method)]
+        )
+
+    def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
+        """Return the series of random methods with full exponentials."""
+        stages = max(order - 1, 2)
+        numbers = [self.stage or max(2, order - 3)] * stages + [self.update or max(3, order - 2)]
+        rows = [
+            tuple(tuple((j, ring.random(generator)) for j in range(stages)) for _ in range(number))
+            for number in numbers
+        ]
+        return CommutatorFreeSeries(ring, rows)
+
+    def formula(self) -> ActionFormula:
+        """Return the writer of index sums over alpha, beta, b, c."""
+        return CommutatorFreeFormula()
+
+
+def create(update: int | None = None, stage: int | None = None) -> VariationalCommutatorFree:
+    """Return the family, its independent conditions for so many exponentials in the update and in a stage."""
+    return VariationalCommutatorFree(update, stage)

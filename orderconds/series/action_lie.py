@@ -1,0 +1,93 @@
+"""The action series of VRKMK: group elements are single exponentials of a Lie series in the stage velocities.
+
+``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j``, the update ``Y`` alike with b_j (3.16). A variation of one
+stage's velocity is one more letter: it stands for that stage alone and occurs once, so the coefficient of
+``u x v`` is that of a word in which the letter x is written between u and v.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import factorial
+
+from orderconds.ring.protocol import Element, Ring
+from orderconds.series.action import ActionSeries, Exponential
+from orderconds.series.action_trees import Velocity, Word
+from orderconds.series.b_series import sparse
+from orderconds.series.dexpinv import dexpinv_terms
+
+Letters = tuple[Velocity | int, ...]
+"""A word in which an int, at most one, is the variation of the velocity of that stage."""
+
+
+class MuntheKaasActionSeries(ActionSeries):
+    """The action series of the tableau (A, b) read as VRKMK with dexpinv cut after the power ``cutoff``."""
+
+    def __init__(
+        self, ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], cutoff: int | None
+    ) -> None:
+        super().__init__(ring, b)
+        self._cutoff = cutoff
+        self._rows: list[Exponential] = [sparse(ring, row) for row in (*A, b)]
+        self._powers: dict[tuple[int, int, Letters], Element] = {}
+        self._summands: dict[tuple[int, Letters], Element] = {}
+        self._exponentials: dict[tuple[int, Letters], Element] = {}
+
+    def coefficient(self, row: int, word: Word) -> Element:
+        """Return the coefficient of a word in exp(X_i), or exp(Y)."""
+        return self._exponential(row, word)
+
+    def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
+        """Return the coefficient of u x v there, x the variation of that stage's velocity."""
+        return self._exponential(row, (*before, stage, *after))
+
+    def _exponential(self, row: int, word: Letters) -> Element:
+        if not word:
+            return self.ring.one
+        key = (row, word)
+        if key not in self._exponentials:
+            self._exponentials[key] = self._sum(
+                self._power(row, n, word) * self.ring.rational(1, factorial(n))
+                if n > 1
+                else self._power(row, 1, word)
+                for n in range(1, len(word) + 1)
+            )
+        return self._exponentials[key]
+
+    def _power(self, row: int, n: int, word: Letters) -> Element:
+        """Return the coefficient of a word in X_i^n."""
+        if n == 0 or len(word) < n:
+            return self.ring.one if n == len(word) else self.ring.zero
+        key = (row, n, word)
+        if key not in self._powers:
+            if n == 1:
+                terms = [weight * self._summand(j, word) for j, weight in self._rows[row]]
+            else:
+                cuts = range(1, len(word) - n + 2)
+                terms = [
+                    self._power(row, 1, word[:cut]) * self._power(row, n - 1, word[cut:]) for cut in cuts
+                ]
+            self._powers[key] = self._sum(terms)
+        return self._powers[key]
+
+    def _summand(self, j: int, word: Letters) -> Element:
+        """Return the coefficient of a word in dexpinv_{(r),X_j} xi_j."""
+        key = (j, word)
+        if key not in self._summands:
+            longest = len(word) - 1 if self._cutoff is None else min(len(word) - 1, self._cutoff)
+            total = self.ring.zero
+            for place, letter in enumerate(word):
+                if isinstance(letter, int) and letter != j:
+                    continue
+                before, behind = word[:place], word[place + 1 :]
+                inner = self._sum(
+                    # In a word the first letter acts first: X^(k-m) xi X^m reads the word of X^m first.
+                    self.ring.rational(q.numerator, q.denominator)
+                    * self._power(j, m, before)
+                    * self._power(j, n, behind)
+                    for q, m, n in dexpinv_terms(longest)
+                    if m <= len(before) and n <= len(behind)
+                )
+                total = total + (inner if isinstance(letter, int) else inner * self.tau(letter)[j])
+            self._summands[key] = total
+        return self._summands[key]
