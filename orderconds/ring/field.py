@@ -74,6 +74,19 @@ class NumberField:
     def __repr__(self) -> str:
         return self.name
 
+    @cached_property
+    def _identity(self) -> tuple[Any, ...]:
+        """What makes two fields one: the same generators with the same enclosed roots, adjoined alike."""
+        return self.name, str(self.modulus), self.named_roots
+
+    def __eq__(self, other: object) -> bool:
+        if self is other:
+            return True
+        return isinstance(other, NumberField) and self._identity == other._identity
+
+    def __hash__(self) -> int:
+        return hash(self.name)
+
     def enclosure(self, bits: int) -> arb:
         """Return a ball around the primitive element, of relative radius about 2^-bits."""
         if bits not in self._enclosed:
@@ -90,7 +103,7 @@ class NumberField:
 
     def lift(self, x: Algebraic) -> Algebraic:
         """Return an element of a smaller field of the same tower as an element of this one."""
-        if x.field is self:
+        if x.field == self:
             return x
         if self.parent is None or self.parent_image is None or x.field.height >= self.height:
             raise TypeError(f"{x.field} is no subfield of {self} by construction")
@@ -125,7 +138,8 @@ class NumberField:
 
     def coordinates(self, x: Algebraic) -> tuple[fmpq, ...]:
         """Return the coordinates of x in :attr:`monomials`."""
-        return tuple((self._to_monomials * _columns([x.polynomial], self.degree)).entries())
+        polynomial = self.lift(x).polynomial
+        return tuple((self._to_monomials * _columns([polynomial], self.degree)).entries())
 
     def text(self, x: Algebraic) -> str:
         """Spell x in the generators, in the grammar of tableau files.
@@ -150,6 +164,7 @@ class NumberField:
 
     def ball(self, x: Algebraic, bits: int) -> arb:
         """Return a ball around x of relative radius at most 2^-bits."""
+        x = self.lift(x)
         if self.is_zero(x):
             return arb(0)
         working = bits + 32
@@ -222,7 +237,7 @@ class Algebraic:
 
     def _pair(self, other: Any) -> tuple[Algebraic, Algebraic] | None:
         if isinstance(other, Algebraic):
-            if other.field is self.field:
+            if other.field == self.field:
                 return self, other
             if other.field.height < self.field.height:
                 return self, self.field.lift(other)
@@ -285,7 +300,10 @@ class Algebraic:
         return result
 
     def __eq__(self, other: object) -> bool:
-        pair = self._pair(other)
+        try:
+            pair = self._pair(other)
+        except TypeError:  # fields of different towers have no elements in common by construction
+            return False
         return pair is not None and bool(pair[0].polynomial == pair[1].polynomial)
 
     def __hash__(self) -> int:

@@ -14,7 +14,7 @@ from typing import Any, Protocol
 
 from orderconds.errors import TableauError
 from orderconds.ring.protocol import Element, Ring
-from orderconds.tableau.grammar import MAX_DEPTH, Constant, Expression, Name, Operation, Power
+from orderconds.tableau.grammar import MAX_DEPTH, Chain, Constant, Expression, Name, Power
 
 MAX_SIZE = 40_000
 """No intermediate value may need integers of more bits than this."""
@@ -60,16 +60,20 @@ def evaluate(
     if not any(c.unit for c in constants):
         tower = Tower()
         try:
-            values = _Evaluation(tower, numbers, where).all(expressions)
+            evaluation = _Evaluation(tower, numbers, where)
+            values = evaluation.all(expressions)
+            ring, lift = tower.ring()
+            evaluation.check_unused()  # after the ring is fixed, which they shall not enlarge
+            return ring, _shared(values, lift)
         except DegreeError:
             pass
-        else:
-            ring, lift = tower.ring()
-            return ring, _shared(values, lift)
     from orderconds.ring.balls import Balls
 
     balls = Balls(_bits(constants))
-    return balls, _Evaluation(balls, numbers, where).all(expressions)
+    evaluation = _Evaluation(balls, numbers, where)
+    values = evaluation.all(expressions)
+    evaluation.check_unused()
+    return balls, values
 
 
 def _shared(values: Mapping[str, Element], lift: Any) -> dict[str, Element]:
@@ -81,9 +85,9 @@ def _shared(values: Mapping[str, Element], lift: Any) -> dict[str, Element]:
 def _constants(x: Definition) -> Iterator[Constant]:
     if isinstance(x, Constant):
         yield x
-    elif isinstance(x, Operation):
-        yield from _constants(x.left)
-        yield from _constants(x.right)
+    elif isinstance(x, Chain):
+        for operand in x.operands:
+            yield from _constants(operand)
     elif isinstance(x, Power):
         yield from _constants(x.base)
 
@@ -106,21 +110,26 @@ class _Evaluation:
         return TableauError(found, where=f"{self.where}: {self.place}", expected=expected)
 
     def all(self, expressions: Mapping[str, Expression]) -> dict[str, Element]:
-        for name in self.numbers:  # also those that nothing uses: they are checked all the same
-            self.place = f"numbers.{name}"
-            self.value(Name(name))
         result = {}
         for self.place, expression in expressions.items():
             result[self.place] = self.value(expression)
         return result
 
+    def check_unused(self) -> None:
+        """Evaluate the numbers that no coefficient refers to, so that an error in one is seen."""
+        for name in self.numbers:
+            self.place = f"numbers.{name}"
+            self.value(Name(name))
+
     def value(self, x: Expression) -> Element:
         if x not in self.known:
-            value = self.compute(x)
-            if self.scalars.size(value) > MAX_SIZE:
-                raise self.error("an exploding number", f"values whose integers have at most {MAX_SIZE} bits")
-            self.known[x] = value
+            self.known[x] = self.bounded(self.compute(x))
         return self.known[x]
+
+    def bounded(self, value: Element) -> Element:
+        if self.scalars.size(value) > MAX_SIZE:
+            raise self.error("an exploding number", f"values whose integers have at most {MAX_SIZE} bits")
+        return value
 
     def compute(self, x: Expression) -> Element:
         if isinstance(x, Constant):
@@ -129,12 +138,17 @@ class _Evaluation:
             return self.named(x.name)
         if isinstance(x, Power):
             return self.power(self.value(x.base), x.exponent)
-        left, right = self.value(x.left), self.value(x.right)
-        if x.operator == "+":
+        result = self.value(x.operands[0])
+        for operator, operand in zip(x.operators, x.operands[1:], strict=True):
+            result = self.bounded(self.joined(result, operator, self.value(operand)))
+        return result
+
+    def joined(self, left: Element, operator: str, right: Element) -> Element:
+        if operator == "+":
             return left + right
-        if x.operator == "-":
+        if operator == "-":
             return left - right
-        if x.operator == "*":
+        if operator == "*":
             return left * right
         try:
             return left / right

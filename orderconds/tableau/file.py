@@ -25,7 +25,7 @@ from orderconds.tableau.formats import (
     RootEntry,
     StageEntry,
 )
-from orderconds.tableau.grammar import Constant, Expression, Operation, parse
+from orderconds.tableau.grammar import Chain, Constant, Expression, parse
 from orderconds.tableau.properties import PROPERTIES
 from orderconds.tableau.record import Claims, OrderClaim, Tableau
 
@@ -181,9 +181,9 @@ def _rational(x: str | int, where: str) -> Fraction:
 def _fraction(x: Expression) -> Fraction:
     if isinstance(x, Constant) and not x.unit:
         return x.value
-    if isinstance(x, Operation) and x.operator in "-/":
-        left, right = _fraction(x.left), _fraction(x.right)
-        return left - right if x.operator == "-" else left / right
+    if isinstance(x, Chain) and x.operators in (("-",), ("/",)):
+        left, right = (_fraction(operand) for operand in x.operands)
+        return left - right if x.operators == ("-",) else left / right
     raise TypeError("not a rational number")
 
 

@@ -16,6 +16,7 @@ bounded here, the size of intermediate values in :mod:`orderconds.tableau.evalua
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -49,12 +50,14 @@ class Name:
 
 
 @dataclass(frozen=True)
-class Operation:
-    """``left operator right`` with an operator among ``+ - * /``."""
+class Chain:
+    """``operands`` joined from left to right by ``operators``, one fewer; all of ``+ -`` or all of ``* /``.
 
-    operator: str
-    left: Expression
-    right: Expression
+    Flat, so that the depth of an expression is that of its parentheses.
+    """
+
+    operators: tuple[str, ...]
+    operands: tuple[Expression, ...]
 
 
 @dataclass(frozen=True)
@@ -65,7 +68,7 @@ class Power:
     exponent: Fraction
 
 
-Expression = Constant | Name | Operation | Power
+Expression = Constant | Name | Chain | Power
 
 
 def parse(text: str, where: str = "") -> Expression:
@@ -134,24 +137,26 @@ class _Parser:
         self.depth += 1
         if self.depth > MAX_DEPTH:
             raise self.error(f"parentheses {MAX_DEPTH} deep in {self.shown()}", "a flatter expression")
-        result = self.product()
-        while operator := self.accept("+", "-"):
-            result = Operation(operator, result, self.product())
+        result = self.chain("+-", self.product)
         self.depth -= 1
         return result
 
     def product(self) -> Expression:
-        result = self.signed()
-        while operator := self.accept("*", "/"):
-            result = Operation(operator, result, self.signed())
-        return result
+        return self.chain("*/", self.signed)
+
+    def chain(self, signs: str, operand: Callable[[], Expression]) -> Expression:
+        operators, operands = [], [operand()]
+        while operator := self.accept(*signs):
+            operators.append(operator)
+            operands.append(operand())
+        return Chain(tuple(operators), tuple(operands)) if operators else operands[0]
 
     def signed(self) -> Expression:
         negative = False
         while sign := self.accept("+", "-"):
             negative ^= sign == "-"
         result = self.power()
-        return Operation("-", Constant(Fraction(0)), result) if negative else result
+        return Chain(("-",), (Constant(Fraction(0)), result)) if negative else result
 
     def power(self) -> Expression:
         base = self.atom()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from orderconds.ring.protocol import Element
 from orderconds.tableau.methods import CommutatorFree, Composition, Row, Stage
 from orderconds.tableau.record import Claims, Tableau
@@ -20,10 +22,10 @@ def dumps(tableau: Tableau) -> str:
     lines = [f"name = {_quoted(tableau.name)}", f'family = "{tableau.family}"']
     method = tableau.method
     if isinstance(method, Composition):
-        lines += [f'base = "{method.base}"', f"gamma = {_row(method.gamma, tableau)}"]
+        lines += [f'base = "{method.base}"', f"gamma = {_full(method.gamma, tableau)}"]
     elif not isinstance(method, CommutatorFree):
         rows = ", ".join(_row(row, tableau) for row in method.A)
-        lines += [f"A = [{rows}]", f"b = {_row(method.b, tableau)}"]
+        lines += [f"A = [{rows}]", f"b = {_full(method.b, tableau)}"]
     if tableau.embedded:
         weights = _row(tableau.embedded.b, tableau)
         lines.append(f"embedded = {{ b = {weights}, order = {tableau.embedded.order} }}")
@@ -41,15 +43,16 @@ def _quoted(text: str) -> str:
     return '"' + "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in escaped) + '"'
 
 
+def _full(row: Sequence[Element], tableau: Tableau) -> str:
+    return "[" + ", ".join(_quoted(tableau.ring.text(x)) for x in row) + "]"
+
+
 def _row(row: Row, tableau: Tableau) -> str:
+    """Spell a row without the zeros at its end, which the format supplies."""
     kept = list(row)
     while kept and tableau.ring.is_zero(kept[-1]) is True:
         kept.pop()
-    return "[" + ", ".join(_coefficient(x, tableau) for x in kept) + "]"
-
-
-def _coefficient(x: Element, tableau: Tableau) -> str:
-    return _quoted(tableau.ring.text(x))
+    return _full(kept, tableau)
 
 
 def _stage(stage: Stage, tableau: Tableau) -> list[str]:
@@ -69,14 +72,13 @@ def _named_roots(tableau: Tableau) -> list[str]:
 
 
 def _claims(claims: Claims) -> list[str]:
-    lines: list[str] = []
-    cutoffs: dict[str, list[str]] = {}
+    spelled: dict[str, str] = {}
     for claim in claims.orders:
         if claim.cutoff is None:
-            lines.append(f"{claim.family} = {claim.order}")
+            spelled[claim.family] = str(claim.order)
         else:
-            rows = cutoffs.setdefault(claim.family, [])
-            rows.append(f"{{ cutoff = {claim.cutoff}, order = {claim.order} }}")
-    lines += [f"{family} = [{', '.join(rows)}]" for family, rows in cutoffs.items()]
-    lines += [f"{name} = {str(value).lower()}" for name, value in claims.properties.items()]
+            before = spelled[claim.family][1:-1] + ", " if claim.family in spelled else ""
+            spelled[claim.family] = f"[{before}{{ cutoff = {claim.cutoff}, order = {claim.order} }}]"
+    spelled |= {name: str(value).lower() for name, value in claims.properties.items()}
+    lines = [f"{key} = {value}" for key, value in spelled.items()]
     return ["[claims]", *lines] if lines else []
