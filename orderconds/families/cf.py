@@ -34,6 +34,7 @@ class CommutatorFreeFamily(OrderedForestFamily):
 
     name = "cf"
     formats: tuple[str, ...] = ("cf", "rk")
+    search_limit = 7
 
     def label(self) -> str:
         """Return ``cf``."""

@@ -29,6 +29,7 @@ class CrouchGrossmanFamily(OrderedForestFamily):
 
     name = "cg"
     formats: tuple[str, ...] = ("rk",)
+    search_limit = 7
 
     def label(self) -> str:
         """Return ``cg``."""

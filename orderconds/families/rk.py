@@ -24,6 +24,7 @@ class RungeKuttaFamily:
 
     name = "rk"
     formats: tuple[str, ...] = ("rk",)
+    search_limit = 11
     needs_nonzero_weights = False
 
     def label(self) -> str:

@@ -8,15 +8,22 @@ even r >= 2, since B_{r+1} = 0.
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import lru_cache
 from math import factorial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
-from orderconds.families.ordered_forests import OrderedForestFamily, scale
+from orderconds.families.ordered_forests import OrderedForestFamily, lyndon_forests, scale
 from orderconds.formula import Formula, Total, coefficient, fresh, index_sum, one, product, total, zero
 from orderconds.ring.protocol import Ring
 from orderconds.series.dexpinv import DexpinvSeries, dexpinv_terms
 from orderconds.trees.levels import Forest, branches, trees_of
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from orderconds.ring.residues import Residues
 
 
 class MuntheKaasFamily(OrderedForestFamily):
@@ -31,6 +38,7 @@ class MuntheKaasFamily(OrderedForestFamily):
 
     name = "rkmk"
     formats: tuple[str, ...] = ("rk",)
+    search_limit = 7
 
     def __init__(self, cutoff: int | None = None) -> None:
         self.cutoff = cutoff
@@ -42,6 +50,15 @@ class MuntheKaasFamily(OrderedForestFamily):
     def series(self, method: Any, ring: Ring) -> DexpinvSeries:
         """Return the series of a step; ``method`` has ``A`` and ``b`` over ``ring``."""
         return DexpinvSeries(ring, method.A, method.b, self.cutoff)
+
+    def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return those of :meth:`conditions` that do not follow from the others and from lower ones.
+
+        They are as many as rooted trees, 1, 1, 2, 4, 9 ..., for dexpinv turns the problem into one on a
+        vector space; and at order R + 3 there is one more, which no tableau meets. Computed by ranks
+        (imports NumPy).
+        """
+        return self._of(_essential(self.cutoff, order)[-1])
 
     def formula(self, forest: Forest) -> Formula:
         """Return the index sum of the scaled value on a forest."""
@@ -85,6 +102,18 @@ class MuntheKaasFamily(OrderedForestFamily):
                 value = self._exponential(j, trees_of(branches(tree)))
                 terms.append((q, product(before, value, behind)))
         return total(*terms)
+
+
+@lru_cache(maxsize=64)
+def _essential(cutoff: int | None, order: int) -> tuple[tuple[Forest, ...], ...]:
+    from orderconds.series.lie_butcher_rank import independent_forests
+
+    def random_series(ring: Residues, generator: np.random.Generator) -> DexpinvSeries:
+        # Trees of an order are told apart by as many stages.
+        A = [[ring.random(generator) for _ in range(order)] for _ in range(order)]
+        return DexpinvSeries(ring, A, [ring.random(generator) for _ in range(order)], cutoff)
+
+    return independent_forests(random_series, [lyndon_forests(n) for n in range(1, order + 1)])
 
 
 def create(cutoff: int | None = None) -> MuntheKaasFamily:

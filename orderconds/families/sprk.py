@@ -38,6 +38,7 @@ class SymplecticPartitionedFamily:
 
     name = "sprk"
     formats: tuple[str, ...] = ("rk",)
+    search_limit = 8
     needs_nonzero_weights = True
 
     def label(self) -> str:

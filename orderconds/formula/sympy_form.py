@@ -62,3 +62,27 @@ def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[tuple
         start = sympy.Max(*lowest) if lowest else 1
         limits.append((_index(index), start, sympy.Min(*bounds) if bounds else last))
     return limits
+
+
+def written_out(expression: Any, stages: int, exponentials: int = 1) -> Any:
+    """Expand the sums of an exported expression for a number of stages (SymPy's ``doit`` stops at ``i < j``).
+
+    >>> from orderconds.formula import coefficient, index_sum, product
+    >>> body = product(coefficient("b", "i"), coefficient("c", "j"))
+    >>> strict = index_sum(("i", "j"), (("i", "<", "j"),), body)
+    >>> written_out(export(strict), 3)
+    b[1]*c[2] + b[1]*c[3] + b[2]*c[3]
+    """
+
+    def summed(body: Any, *limits: Any) -> Any:
+        if not limits:
+            return body
+        *inner, (index, first, last) = limits
+        terms = []
+        for value in range(int(first), int(last) + 1):
+            rest = [(i, low.subs(index, value), high.subs(index, value)) for i, low, high in inner]
+            terms.append(summed(body.subs(index, value), *rest))
+        return sympy.Add(*terms)
+
+    bounded = expression.subs({STAGES: stages, EXPONENTIALS: exponentials})
+    return bounded.replace(sympy.Sum, summed)

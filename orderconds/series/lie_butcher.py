@@ -132,12 +132,22 @@ def exact_value(forest: Forest) -> Fraction:
 
 
 def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
-    """Return the values of a series on every ordered forest with ``order`` vertices.
+    """Return the value a(w) of a series on every ordered forest w with ``order`` vertices.
 
-    Less the exact flow's, these are the coefficients of the elementary differential operators in the local
-    error's leading term.
+    They predict steps: a function phi has phi(y1) = sum_w h^|w| a(w) (X_1 ... X_k phi)(y0) for w = t_1 ...
+    t_k, where X_l differentiates along the fixed element F(t_l) of the Lie algebra and F([t_1 ... t_k]) =
+    (X_1 ... X_k f)(y0); for matrices g1 = sum_w h^|w| a(w) F(t_k) ... F(t_1).
     """
     return {forest: series(forest) for forest in ordered_forests(order)}
+
+
+def forest_residuals(series: ForestSeries, ring: Ring, order: int) -> dict[Forest, Element]:
+    """Return values less the exact flow's: at order p + 1 the leading coefficients of the local error."""
+    found = {}
+    for forest, value in forest_values(series, order).items():
+        exact = exact_value(forest)
+        found[forest] = value - ring.rational(exact.numerator, exact.denominator)
+    return found
 
 
 def _inverse_factorial(ring: Ring, n: int) -> Element:

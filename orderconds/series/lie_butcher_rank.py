@@ -1,0 +1,64 @@
+"""Which values on forests are independent within a family: rank modulo products of lower ones.
+
+A condition is superfluous if its left-hand side, for every method, is a combination of simpler ones of its
+order and of products of lower ones, **and** the exact flow's values obey the same relation. The exact flow
+therefore stands among the samples; where it breaks the relation (RKMK(0) at order 3) the condition cannot
+be met and stays.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from orderconds.ring.rank import pivot_columns
+from orderconds.ring.residues import PRIMES, Residue, Residues
+from orderconds.series.action_rank import products
+from orderconds.series.lie_butcher import ForestSeries, exact_value
+from orderconds.trees.counts import ordered_forest_count
+from orderconds.trees.levels import Forest
+
+RandomSeries = Callable[[Residues, np.random.Generator], ForestSeries]
+"""Makes the series of random methods of a family, one a sample."""
+
+SPARE_SAMPLES = 20
+"""Rows beyond the largest possible rank, so that chance does not hide a dependence."""
+
+
+def independent_forests(
+    family: RandomSeries, candidates: Sequence[Sequence[Forest]], *, with_exact_flow: bool = True
+) -> tuple[tuple[Forest, ...], ...]:
+    """Return those of ``candidates``, one sequence for each order 1, 2, ..., that are independent.
+
+    Computed modulo two primes; a rank modulo a prime can only be too small, so the larger set is kept.
+    Without the exact flow among the samples the result tells which left-hand sides are independent.
+    """
+    found = [_independent(family, candidates, prime, with_exact_flow) for prime in PRIMES]
+    return max(found, key=lambda forests: [len(of_order) for of_order in forests])
+
+
+def _independent(
+    family: RandomSeries, candidates: Sequence[Sequence[Forest]], prime: int, with_exact_flow: bool
+) -> tuple[tuple[Forest, ...], ...]:
+    # Values on forests of an order span at most as many dimensions as there are forests.
+    ring = Residues(prime, ordered_forest_count(len(candidates)) + SPARE_SAMPLES)
+    series = family(ring, np.random.default_rng(prime))
+
+    def column(forest: Forest) -> Residue:
+        values = series(forest).values.copy()
+        if with_exact_flow:
+            exact = exact_value(forest)
+            values[-1] = ring.rational(exact.numerator, exact.denominator).values[-1]
+        return ring.element(values)
+
+    chosen: list[tuple[Forest, ...]] = []
+    generators: list[tuple[int, Residue]] = []
+    for order, forests in enumerate(candidates, start=1):
+        decomposable = list(products(generators, order))
+        values = [column(forest) for forest in forests]
+        pivots = pivot_columns([*decomposable, *values])
+        kept = [place - len(decomposable) for place in pivots if place >= len(decomposable)]
+        chosen.append(tuple(forests[place] for place in kept))
+        generators += [(order, values[place]) for place in kept]
+    return tuple(chosen)

@@ -1,0 +1,126 @@
+"""Exact orders of published methods, and of the mistakes people make with them."""
+
+import pytest
+
+from orderconds import families
+from orderconds.errors import InputError, UnknownName, ZeroWeight
+from orderconds.ring import QQ
+from orderconds.tableau import RungeKutta, Tableau
+
+GAUSS = {
+    2: """
+        A = [["1/4", "1/4-sqrt(3)/6"], ["1/4+sqrt(3)/6", "1/4"]]
+        b = ["1/2", "1/2"]
+        """,
+    3: """
+        A = [["5/36", "2/9-sqrt(15)/15", "5/36-sqrt(15)/30"],
+             ["5/36+sqrt(15)/24", "2/9", "5/36-sqrt(15)/24"],
+             ["5/36+sqrt(15)/30", "2/9+sqrt(15)/15", "5/36"]]
+        b = ["5/18", "4/9", "5/18"]
+        """,
+}
+
+
+def gauss(stages):
+    head = f'name = "gauss{stages}"\nfamily = "rk"\nsource = "HLW Table II.1.1"\nbibtex = "hlw"\n'
+    tableau = Tableau.loads(head + GAUSS[stages], f"gauss{stages}")
+    return tableau.method, tableau.ring
+
+
+def order(name, method, ring=QQ, *, every=False, limit=7):
+    family = families.get(name)
+    for n in range(1, limit + 1):
+        conditions = family.all_conditions(n) if every else family.conditions(n)
+        if not all(ring.is_zero(x) for x in families.residuals(family, method, ring, conditions)):
+            return n - 1
+    return limit
+
+
+ORDERS = {
+    "euler": {"rk": 1, "sprk": 1, "cg": 1, "cf": 1, "rkmk(0)": 1, "rkmk": 1},
+    "midpoint": {"rk": 2, "sprk": 2, "cg": 2, "rkmk(0)": 2, "rkmk": 2},
+    "heun": {"rk": 2, "sprk": 2, "cg": 2, "rkmk(0)": 2},
+    "kutta3": {"rk": 3, "sprk": 3, "cg": 2, "rkmk(0)": 2, "rkmk(1)": 3, "rkmk(2)": 3},
+    "rk4": {"rk": 4, "sprk": 4, "cg": 2, "rkmk(0)": 2, "rkmk(1)": 3, "rkmk(2)": 4, "rkmk(3)": 4, "rkmk": 4},
+    "cg3": {"rk": 3, "cg": 3, "cf": 3, "rkmk(0)": 2, "rkmk(1)": 3},
+    "cg3b": {"rk": 3, "cg": 3, "cf": 3},
+    "cg3 with its third row exchanged": {"rk": 2, "cg": 2},
+    "cg3 with b reversed": {"cg": 1},
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "family"), [(name, family) for name, all_ in ORDERS.items() for family in all_]
+)
+def test_published_tableaux_have_exactly_their_orders(tableaux, name, family):
+    expected = ORDERS[name][family]
+    assert order(family, tableaux[name]) == expected
+    assert order(family, tableaux[name], every=True, limit=5) == expected
+
+
+@pytest.mark.parametrize(("name", "expected"), [("cf3", 3), ("cf4", 4), ("cf4 with its factors swapped", 2)])
+def test_commutator_free_methods_have_exactly_their_orders(commutator_free, name, expected):
+    assert order("cf", commutator_free[name]) == expected
+    assert order("cf", commutator_free[name], every=True, limit=5) == expected
+
+
+def test_attaching_a_row_in_reverse_order_of_application_leaves_cg3_at_three(tableaux):
+    # Only the order in which the exponentials of a row act is reversed, as a commutator-free method.
+    method = tableaux["cg3"].as_crouch_grossman(QQ)
+    reversed_rows = type(method)(
+        tuple(type(stage)(stage.start, stage.exponentials[::-1]) for stage in method.stages), method.update
+    )
+    assert order("cf", reversed_rows) == 3
+
+
+@pytest.mark.parametrize(
+    ("stages", "expected"),
+    [
+        (2, {"rk": 4, "sprk": 4, "cg": 2, "rkmk(0)": 2, "rkmk(1)": 3, "rkmk(2)": 4, "rkmk": 4}),
+        (
+            3,
+            {
+                "rk": 6,
+                "sprk": 6,
+                "cg": 2,
+                "rkmk(0)": 2,
+                "rkmk(1)": 3,
+                "rkmk(2)": 5,
+                "rkmk(3)": 5,
+                "rkmk(4)": 6,
+            },
+        ),
+    ],
+)
+def test_gauss_methods_have_order_twice_their_stages_and_munthe_kaas_order_min_p_r_plus_2(stages, expected):
+    method, ring = gauss(stages)
+    assert {family: order(family, method, ring) for family in expected} == expected
+
+
+def test_rk4_with_one_weight_off_by_5e_11_has_order_zero(tableaux):
+    method = tableaux["rk4"]
+    moved = RungeKutta(method.A, (method.b[0] + QQ.rational(5, 10**11), *method.b[1:]))
+    assert order("rk", moved) == 0
+
+
+def test_a_zero_weight_is_named_where_the_family_divides_by_it(tableaux):
+    method = RungeKutta(tableaux["heun"].A, (QQ.zero, QQ.one))
+    family = families.get("sprk")
+    with pytest.raises(ZeroWeight, match="b_1 = 0"):
+        family.evaluate(method, QQ, family.conditions(2))
+
+
+def test_unknown_families_and_options_are_refused_with_the_nearest_name():
+    with pytest.raises(UnknownName, match="did you mean 'rkmk'"):
+        families.get("rkmc")
+    with pytest.raises(InputError, match="no option"):
+        families.get("cg", cutoff=1)
+    with pytest.raises(InputError, match="takes no argument"):
+        families.get("cg(1)")
+    with pytest.raises(InputError, match="cutoff"):
+        families.get("rkmk", cutoff=-1)
+
+
+def test_families_are_labelled_with_their_options():
+    assert families.get("rkmk", cutoff=1).label() == families.get("rkmk(1)").label() == "rkmk(1)"
+    assert families.get("rkmk").label() == "rkmk"
