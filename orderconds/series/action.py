@@ -130,9 +130,11 @@ class ActionSeries(ABC):
 
         With ``F(t)`` the right-invariant field of t at (q0, mu1), divided by its symmetry, the step moves a
         function f by ``f(q1) = sum_w coefficient(w) F(t_1) ... F(t_k) f (q0)``, the field of the first letter
-        being the first to move the point. The momentum follows from the same coefficients:
-        ``<mubar0, x> = sum_w coefficient(reverse w) <mu1, ad t_1 ... ad t_k x> + sum_t coefficient(t) D_q
-        H(x v | M)`` for ``t = (v, M)``, mubar0 the initial momentum and x acting before v.
+        being the first to move the point. The momentum has no coefficients of its own: mubar1 - mubar0, with
+        mubar1 = Ad*_{q1} mu1, is the sum over t = (v, M) of the coefficient of the one-letter word t times
+        the covector ``x -> -D_q H(x v | M)``, x acting first; and the coefficient of ``<mu1, ad t_1 ... ad
+        t_k x>`` in mubar1 is that of the word ``t_k ... t_1``. (mubar is taken relative to q0.)
+        :meth:`orderconds.series.action_fields.ActionFields.local_error` evaluates both.
         """
         return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}
 

@@ -9,6 +9,7 @@ from flint import fmpq
 from orderconds.errors import ZeroWeight
 from orderconds.families import get, residuals
 from orderconds.ring import QQ, Residues
+from orderconds.ring.laurent import LaurentPolynomials
 from orderconds.ring.rank import pivot_columns
 from orderconds.series.action import CommutatorFreeSeries, crouch_grossman_rows
 from orderconds.series.action_rank import independent_trees
@@ -202,6 +203,14 @@ def test_trees_without_momenta_have_the_values_of_crouch_grossman():
     plain = [t for n in range(1, 6) for t in velocities(n) if without_momenta(t)]
     assert len(plain) == 1 + 1 + 2 + 5 + 14
     assert [series.condition(t) for t in plain] == [lie_butcher(levels(t)) for t in plain]
+
+
+def test_the_engine_runs_over_symbols_that_may_be_divided_by():
+    ring = LaurentPolynomials(["a11", "b1"])
+    a, b = ring.generators
+    conditions = VCG.conditions(3)
+    values = VCG.evaluate(RungeKutta(((a,),), (b,)), ring, conditions)
+    assert [ring.text(x) for x in values[:4]] == ["a11^2*b1"] * 2 + ["1/2*a11*b1^2", "a11^2*b1"]
 
 
 @pytest.mark.slow
