@@ -19,8 +19,9 @@ from orderconds.ring.rank import pivot_columns
 from orderconds.ring.residues import PRIMES, Residue, Residues
 from orderconds.series import action_exact
 from orderconds.series.action import ActionSeries
+from orderconds.series.action_counts import tree_counts
 from orderconds.series.action_switching import representatives
-from orderconds.series.action_trees import Velocity, tree_counts
+from orderconds.series.action_trees import Velocity
 
 RandomSeries = Callable[[Residues, np.random.Generator], ActionSeries]
 """Makes the action series of random methods of a family, one a sample."""

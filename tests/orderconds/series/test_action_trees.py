@@ -1,12 +1,12 @@
 """The trees of the action series: counts against generating functions, canonical text, symmetry."""
 
+from orderconds.series.action_counts import tree_counts
 from orderconds.series.action_trees import (
     force,
     hamiltonian,
     momenta,
     multisets,
     transport,
-    tree_counts,
     velocities,
     velocity,
     words,

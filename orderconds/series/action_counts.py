@@ -1,0 +1,65 @@
+"""How many unrooted action trees there are, from generating functions."""
+
+from __future__ import annotations
+
+
+def tree_counts(order: int) -> tuple[int, ...]:
+    """Return the numbers of unrooted trees, elementary Hamiltonians, with 1..order vertices.
+
+    U = Lie(T) - T P with T = x W E(P), P = x W^2 E(P) + W - 1, W = 1/(1 - T): the most independent
+    conditions there can be.
+
+    >>> tree_counts(6)
+    (1, 1, 6, 28, 174, 1096)
+    """
+    t, p = _generating_functions(order)
+    lie = _lie_counts(t, order)
+    edges = [sum(t[k] * p[n - k] for k in range(n + 1)) for n in range(order + 1)]
+    return tuple(lie[n] - edges[n] for n in range(1, order + 1))
+
+
+def _generating_functions(order: int) -> tuple[list[int], list[int]]:
+    """Iterate the equations of T and P until their first coefficients stand."""
+    size = order + 1
+
+    def times(a: list[int], b: list[int]) -> list[int]:
+        return [sum(a[k] * b[n - k] for k in range(n + 1)) for n in range(size)]
+
+    t, p = [0] * size, [0] * size
+    for _ in range(2 * size):
+        w = [1] + [0] * order
+        for n in range(1, size):
+            w[n] = sum(t[k] * w[n - k] for k in range(1, n + 1))
+        e = [1] + [0] * order  # n e_n = sum_k (sum_{d|k} d p_d) e_{n-k}: Euler transform
+        for n in range(1, size):
+            e[n] = (
+                sum(sum(d * p[d] for d in range(1, k + 1) if k % d == 0) * e[n - k] for k in range(1, n + 1))
+                // n
+            )
+        we = times(w, e)
+        t, p = [0, *we[:-1]], [0, *times(w, we)[:-1]]
+        p = [a + b for a, b in zip(p, [0, *w[1:]], strict=True)]
+    return t, p
+
+
+def _lie_counts(t: list[int], order: int) -> list[int]:
+    """Return the dimensions of the free Lie algebra over t_n letters of weight n (Witt's formula)."""
+    power = [0] * (order + 1)  # n [x^n] log 1/(1 - T)
+    for n in range(1, order + 1):
+        power[n] = n * t[n] + sum(t[k] * power[n - k] for k in range(1, n))
+    return [0] + [
+        sum(_moebius(d) * power[n // d] for d in range(1, n + 1) if n % d == 0) // n
+        for n in range(1, order + 1)
+    ]
+
+
+def _moebius(n: int) -> int:
+    sign, k = 1, 2
+    while n > 1:
+        if n % k == 0:
+            n //= k
+            if n % k == 0:
+                return 0
+            sign = -sign
+        k += 1
+    return sign
