@@ -32,7 +32,11 @@ MODULES = {
 
 
 class Family(Protocol):
-    """What every family offers."""
+    """What every family offers.
+
+    Optional: ``search_limit``, the order up to which ``check`` searches where nothing is claimed, and
+    ``decisive_conditions(order)``, what it evaluates when an independent set costs more than all trees.
+    """
 
     name: str
     formats: tuple[str, ...]

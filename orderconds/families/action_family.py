@@ -31,6 +31,7 @@ class ActionFamily(ABC):
     name: str
     formats: tuple[str, ...]
     needs_nonzero_weights = True
+    search_limit = 6
 
     def label(self) -> str:
         """Return the name with its options."""

@@ -26,6 +26,7 @@ class RungeKuttaFamily:
     formats: tuple[str, ...] = ("rk",)
     search_limit = 11
     needs_nonzero_weights = False
+    search_limit = 12
 
     def label(self) -> str:
         """Return ``rk``."""

@@ -132,6 +132,7 @@ class Balls:
 
 
 def _magnitude(x: arb) -> int:
+    # x is exact and must stay so: arithmetic, even abs, would round it to flint's current precision.
     mantissa, exponent = x.man_exp()
     return abs(int(abs(mantissa).bit_length()) + int(exponent))
 

@@ -1,0 +1,293 @@
+"""The exact order of a tableau in each family that its file claims, with a certificate.
+
+Orders 1, 2, ... are evaluated over the tableau's own ring until the first with a condition that fails. A
+claim is an equality: a method that is better than its file says fails the claim as well.
+
+Certificates. ``exact``: every residual up to the order is zero in an exact ring. ``decimal``: some
+residuals are balls that contain zero, so the order is what the printed digits support, and no more than
+that is claimed: a ball never proves zero. A ball too wide to speak (see :data:`RESOLUTION`) leaves the
+order ``undecided``; one that excludes zero proves that the condition fails.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from decimal import Context, Decimal
+from math import factorial
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from orderconds import families
+from orderconds.conditions import OrderCondition
+from orderconds.errors import InputError
+from orderconds.families import Family
+from orderconds.ring import Element, Ring
+from orderconds.tableau import Tableau, find
+from orderconds.tableau.properties import properties
+
+RESOLUTION = Decimal("1e-3")
+"""A ball supports a condition of order n only when its radius is at most this part of 1/n!, the smallest
+exact value that an elementary integral of that order takes."""
+
+SEARCH_LIMIT = 8
+"""How far to search where a family has no ``search_limit`` of its own; one beyond the claim in any case."""
+
+EXHAUSTIVE = 2000
+"""An order with more conditions than this is evaluated in batches, the simplest trees first, up to the first
+batch in which one fails; those that fail in it are named, and the error norm is left out."""
+
+FORMAT_FAMILY = {"composition": "rk"}
+"""The family in which a tableau without claims is checked, where it is not named as the format is."""
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A condition that does not hold: ``residual`` is the method's value minus the exact flow's."""
+
+    condition: OrderCondition
+    residual: str
+    decimal: str
+
+    def as_json(self) -> dict[str, object]:
+        """Return the JSON object of one failing condition."""
+        return {
+            "order": self.condition.order,
+            "tree": self.condition.tree,
+            "expression": self.condition.expression,
+            "residual": self.residual,
+        }
+
+    def __str__(self) -> str:
+        return f"{self.condition.tree}: {self.condition}, residual {self.residual} ({self.decimal})"
+
+
+@dataclass(frozen=True)
+class FamilyOrder:
+    """The order of one tableau in one family, against what was claimed or required.
+
+    ``failing`` are the conditions of order ``order + 1`` that fail, ``error_norm`` the 2-norm of their
+    residuals. ``limit`` is the order at which the search stopped without a failing condition, None when
+    it found one. ``required`` is a lower bound that was asked for; without it ``claimed`` is an equality.
+    """
+
+    family: str
+    order: int
+    certificate: str
+    decided: bool
+    failing: tuple[Failure, ...]
+    error_norm: float | None
+    claimed: int | None = None
+    required: int | None = None
+    limit: int | None = None
+
+    @property
+    def verdict(self) -> str:
+        """``holds``, ``fails`` or ``undecided``."""
+        if self.required is not None:
+            sound = self.order >= self.required
+            return "holds" if sound else "fails" if self.decided else "undecided"
+        if not self.decided:
+            return "undecided"
+        return "holds" if self.claimed in (None, self.order) else "fails"
+
+    def as_json(self) -> dict[str, object]:
+        """Return the JSON object of one family."""
+        record: dict[str, object] = {
+            "claimed": self.claimed,
+            "order": self.order,
+            "verdict": self.verdict,
+            "certificate": self.certificate,
+            "failing": [failure.as_json() for failure in self.failing],
+            "error_norm": self.error_norm,
+        }
+        return record if self.limit is None else {**record, "limit": self.limit}
+
+
+@dataclass(frozen=True)
+class Report:
+    """What ``check`` found out about one tableau; ``broken_claims`` are property claims that do not hold."""
+
+    name: str
+    file: str | None
+    format: str
+    orders: tuple[FamilyOrder, ...]
+    properties: dict[str, bool | None]
+    broken_claims: tuple[str, ...] = ()
+
+    @property
+    def verdict(self) -> str:
+        """``fails`` if any claim fails, else ``undecided`` if any is, else ``holds``."""
+        verdicts = {family.verdict for family in self.orders}
+        if self.broken_claims or "fails" in verdicts:
+            return "fails"
+        return "undecided" if "undecided" in verdicts else "holds"
+
+    def as_json(self) -> dict[str, object]:
+        """Return the JSON object of one tableau."""
+        return {
+            "name": self.name,
+            "file": self.file,
+            "format": self.format,
+            "verdict": self.verdict,
+            "orders": {family.family: family.as_json() for family in self.orders},
+            "properties": self.properties,
+        }
+
+
+def check(
+    tableau: Tableau | str | PathLike[str], family: str | None = None, order: int | None = None
+) -> Report:
+    """Find the exact order of ``tableau`` (or of the file, or the library name) in each family it claims.
+
+    With ``family`` (``"vcg"``, ``"rkmk(1)"``) that family alone, claimed or not. With ``order`` the order
+    must be at least that, in place of the claims. A tableau without claims is checked in the family of
+    its format.
+
+    Raises :class:`~orderconds.errors.UnknownName` for an unknown family,
+    :class:`~orderconds.errors.ZeroWeight` where a family divides by some b_i = 0,
+    :class:`~orderconds.errors.TableauError` for a file that cannot be read, and
+    :class:`~orderconds.errors.InputError` for a family that does not read this format.
+
+    >>> report = check("rk4", family="rk")
+    >>> report.verdict, [(f.family, f.order, f.certificate) for f in report.orders]
+    ('holds', [('rk', 4, 'exact')])
+    >>> print(check("kutta3", family="rkmk(0)").orders[0].order)
+    2
+    """
+    if not isinstance(tableau, Tableau):
+        tableau = read(tableau)
+    wanted = list(_wanted(tableau, family))
+    return Report(
+        name=tableau.name,
+        file=tableau.path,
+        format=tableau.family,
+        orders=tuple(family_order(tableau, f, claimed, order) for f, claimed in wanted),
+        properties=properties(tableau),
+        broken_claims=tuple(_broken_claims(tableau)) if family is None else (),
+    )
+
+
+def family_order(
+    tableau: Tableau, family: Family, claimed: int | None = None, required: int | None = None
+) -> FamilyOrder:
+    """Find the order of ``tableau`` in ``family``: evaluate orders 1, 2, ... until a condition fails."""
+    return _search(family, _method(tableau, family), tableau.ring, claimed, required)
+
+
+def _search(
+    family: Family, method: Any, ring: Ring, claimed: int | None = None, required: int | None = None
+) -> FamilyOrder:
+    limit = max(getattr(family, "search_limit", SEARCH_LIMIT), (claimed or 0) + 1, (required or 0) + 1)
+    certificate = "exact"
+    for n in range(1, limit + 1):
+        conditions = _conditions(family, n)
+        failing: tuple[Failure, ...] = ()
+        verdicts: set[str] = set()
+        for batch in _batches(conditions):
+            residuals = families.residuals(family, method, ring, batch)
+            judged = [_judge(ring, residual, n) for residual in residuals]
+            verdicts.update(judged)
+            failing = tuple(
+                Failure(condition, ring.text(residual), ring.approximate(residual))
+                for condition, residual, verdict in zip(batch, residuals, judged, strict=True)
+                if verdict == "fails"
+            )
+            if failing:
+                break
+        if failing or "undecided" in verdicts:
+            decided, norm = bool(failing), None
+            if failing and len(conditions) <= EXHAUSTIVE:
+                norm = _norm([failure.decimal for failure in failing])
+            return FamilyOrder(family.label(), n - 1, certificate, decided, failing, norm, claimed, required)
+        if "supported" in verdicts:
+            certificate = "decimal"
+    return FamilyOrder(family.label(), limit, certificate, True, (), None, claimed, required, limit)
+
+
+def _batches(conditions: tuple[OrderCondition, ...]) -> Iterator[tuple[OrderCondition, ...]]:
+    """Yield all conditions at once, or very many of them in batches that double, since engines share work."""
+    start, size = 0, len(conditions) if len(conditions) <= EXHAUSTIVE else EXHAUSTIVE // 10
+    while start < len(conditions):
+        yield conditions[start : start + size]
+        start, size = start + size, 2 * size
+
+
+def _norm(decimals: list[str]) -> float:
+    """Return the 2-norm, to 15 digits."""
+    context = Context(prec=30)
+    total = Decimal(0)
+    for x in map(Decimal, decimals):
+        total = context.fma(x, x, total)
+    return float(f"{context.sqrt(total):.14e}")
+
+
+def read(given: str | PathLike[str]) -> Tableau:
+    """Read a file, or the tableau of the library that has this name.
+
+    >>> read("rk4").name
+    'rk4'
+    """
+    path = Path(given)
+    bare = path.name == str(given) and path.suffix != ".toml"
+    return Tableau.load(find(path.name) if bare and not path.exists() else path)
+
+
+def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int | None]]:
+    """Yield the families to check and what is claimed: the one asked for, else all claimed, else the
+    format's."""
+    claims = {claim.label: claim.order for claim in tableau.claims.orders}
+    if family is not None:
+        found = families.get(family)
+        yield found, claims.get(found.label())
+        return
+    for label, order in claims.items():
+        yield families.get(label), order
+    if not claims:
+        yield families.get(FORMAT_FAMILY.get(tableau.family, tableau.family)), None
+
+
+def _method(tableau: Tableau, family: Family) -> Any:
+    """Read the tableau as the family does; every method is a Runge-Kutta method on an abelian group."""
+    method = tableau.read_as(family.formats)
+    if method is None and family.name == "rk":
+        return tableau.abelian()
+    if method is None:
+        raise InputError(
+            f"a tableau of format {tableau.family} has no reading in family {family.label()}",
+            where=tableau.path or tableau.name,
+            expected=f"format {' or '.join(family.formats)}",
+        )
+    return method
+
+
+def _conditions(family: Family, n: int) -> tuple[OrderCondition, ...]:
+    """Return the conditions that decide order n: an independent set, or every one where a set costs more."""
+    decisive = getattr(family, "decisive_conditions", family.conditions)
+    found: tuple[OrderCondition, ...] = decisive(n)
+    return found
+
+
+def _broken_claims(tableau: Tableau) -> Iterator[str]:
+    """Yield what the file says of properties and of its embedded row, and what was computed instead."""
+    computed = properties(tableau)
+    for name, claimed in tableau.claims.properties.items():
+        found = computed.get(name)
+        if found is not claimed:
+            said = "undecided" if found is None else str(found).lower()
+            yield f"{name} is {said}, claimed {str(claimed).lower()}"
+    if tableau.embedded is not None:
+        abelian = replace(tableau.abelian(), b=tableau.embedded.b)
+        order = _search(families.get("rk"), abelian, tableau.ring, tableau.embedded.order).order
+        if order != tableau.embedded.order:
+            yield f"the embedded row has order {order}, claimed {tableau.embedded.order}"
+
+
+def _judge(ring: Ring, residual: Element, n: int) -> str:
+    """Say ``zero``, ``fails``, ``supported`` (a narrow ball around zero) or ``undecided`` (a wide one)."""
+    zero = ring.is_zero(residual)
+    if zero is not None:
+        return "zero" if zero else "fails"
+    radius = Decimal(ring.radius(residual))  # type: ignore[attr-defined]  # only balls answer None
+    return "supported" if radius <= RESOLUTION / factorial(n) else "undecided"

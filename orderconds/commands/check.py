@@ -1,0 +1,129 @@
+"""``orderconds check``: the exact order and the properties of tableaux, compared with what their files
+claim."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from orderconds.commands import screen
+from orderconds.errors import InputError, TableauError
+
+if TYPE_CHECKING:
+    from orderconds.check import FamilyOrder, Report
+
+SHOWN = 5
+"""How many failing conditions the text names; JSON lists all."""
+
+
+@click.command(name="check", short_help="Find the exact order of tableaux and compare it with their claims.")
+@click.argument("tableaux", nargs=-1, required=True, metavar="FILE|DIR|NAME...")
+@click.option("--family", "-f", help="This family alone (vcg, 'rkmk(1)'), claimed or not.")
+@click.option("--order", "-p", type=click.IntRange(1, 20), help="Require at least this order.")
+@click.option("--json", "as_json", is_flag=True, help="One list of records on stdout, nothing else.")
+def command(tableaux: Sequence[str], family: str | None, order: int | None, as_json: bool) -> int:
+    """Find the exact order and the properties of each tableau: a file, every file below a directory, or a
+    name from the library. A claim is an equality.
+
+    Exits with 0 if all holds, 1 if a claim fails or is undecided, 2 if something could not be read.
+    """
+    from orderconds.check import check
+    from orderconds.families import get
+
+    if family is not None:
+        get(family)  # an unknown family is one error, not one a file
+    reports: list[Report] = []
+    unread = 0
+    for path in _files(tableaux):
+        try:
+            report = check(path, family=family, order=order)
+        except InputError as error:
+            # The other files are still worth checking; the status tells that one was not.
+            message = str(error)
+            click.echo(f"orderconds: {message if path in message else f'{path}: {message}'}", err=True)
+            unread += 1
+            continue
+        reports.append(report)
+        if not as_json:
+            _print_report(report, detailed=len(tableaux) == 1 and not os.path.isdir(tableaux[0]))
+    if as_json:
+        screen.print_json([report.as_json() for report in reports])
+    elif len(reports) + unread > 1:
+        _print_summary(reports, unread)
+    if unread:
+        return 2
+    return 0 if all(report.verdict == "holds" for report in reports) else 1
+
+
+def _files(arguments: Sequence[str]) -> Iterator[str]:
+    """Yield each argument, a directory replaced by the tableau files below it in sorted order."""
+    for argument in arguments:
+        if not os.path.isdir(argument):
+            yield argument
+            continue
+        found = sorted(str(path) for path in Path(argument).rglob("*.toml"))
+        if not found:
+            raise TableauError("no tableau below this directory", where=argument, expected="files *.toml")
+        yield from found
+
+
+def _print_report(report: Report, *, detailed: bool) -> None:
+    """Print one tableau: its orders as a table, then what fails, then its properties."""
+    heading = f"{report.name}: {report.verdict}"
+    click.secho(heading + (f"  ({report.file})" if report.file else ""), bold=True)
+    screen.print_table(
+        ("family", "claimed", "order", "verdict", "certificate", "error norm"),
+        [_row(family) for family in report.orders],
+        indent=2,
+    )
+    for family in report.orders:
+        if detailed or family.verdict != "holds":
+            _print_failing(family)
+    for broken in report.broken_claims:
+        click.echo(f"  claim fails: {broken}")
+    holding = [name for name, value in report.properties.items() if value]
+    click.echo(f"  properties: {', '.join(holding) or 'none'}\n")
+
+
+def _row(family: FamilyOrder) -> tuple[str, ...]:
+    if family.required is not None:
+        claimed = f">= {family.required}"
+    else:
+        claimed = "-" if family.claimed is None else str(family.claimed)
+    order = f">= {family.order}" if family.limit is not None else str(family.order)
+    norm = "-" if family.error_norm is None else f"{family.error_norm:.3e}"
+    certificate = f"certificate: {family.certificate}"
+    return family.family, claimed, order, family.verdict, certificate, norm
+
+
+def _print_failing(family: FamilyOrder) -> None:
+    """Name the conditions that end a family's order, with their residuals."""
+    n = family.order + 1
+    if family.limit is not None:
+        click.echo(f"  {family.family}: no condition fails up to order {family.limit}, the end of the search")
+        return
+    if not family.decided:
+        click.echo(f"  {family.family}: the coefficients have too few digits to decide order {n}")
+        return
+    count = len(family.failing)
+    told = "1 condition" if count == 1 else f"{count} conditions"
+    click.echo(f"  {family.family}: {told} of order {n} not met")
+    for failure in family.failing[:SHOWN]:
+        decimal = "" if failure.decimal == failure.residual else f" = {failure.decimal}"
+        click.echo(f"    {failure.condition.tree}: {failure.condition}")
+        click.echo(f"      residual {failure.residual}{decimal}")
+    if count > SHOWN:
+        click.echo(f"    ... and {count - SHOWN} more (--json lists all)")
+
+
+def _print_summary(reports: Sequence[Report], unread: int) -> None:
+    counts = dict.fromkeys(("holds", "fails", "undecided"), 0)
+    for report in reports:
+        counts[report.verdict] += 1
+    told = [f"{count} {verdict}" for verdict, count in counts.items() if count]
+    told += [f"{unread} not read"] * bool(unread)
+    click.echo(f"{len(reports) + unread} tableaux: {', '.join(told)}")

@@ -1,0 +1,91 @@
+"""``orderconds list``: families and tableaux, and what other packages list (``codegen``: groups and scenes).
+
+A listing of another package is an entry point in the group ``orderconds.listings``: a function without
+arguments that returns pairs (name, one line of description).
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable, Iterable
+from importlib import metadata
+
+import click
+
+from orderconds.commands import screen
+from orderconds.errors import InputError, UnknownName
+
+LISTING_GROUP = "orderconds.listings"
+"""The entry-point group in which other packages offer listings."""
+
+Pairs = Iterable[tuple[str, str]]
+
+
+@click.command(name="list", short_help="List families, tableaux, and what other packages offer.")
+@click.argument("kind", required=False)
+@click.option("--json", "as_json", is_flag=True, help="Names and descriptions on stdout as JSON.")
+def command(kind: str | None, as_json: bool) -> int:
+    """List what there is of one KIND (families, tableaux, groups, scenes), or of all."""
+    kinds = [kind] if kind is not None else kinds_offered()
+    listings = {name: list(listing(name)()) for name in kinds}
+    if as_json:
+        screen.print_json(
+            {
+                name: [{"name": entry, "description": told} for entry, told in pairs]
+                for name, pairs in listings.items()
+            }
+        )
+        return 0
+    for number, (name, pairs) in enumerate(listings.items()):
+        if number:
+            click.echo()
+        screen.print_table((name, ""), pairs)
+    return 0
+
+
+def kinds_offered() -> list[str]:
+    """Return the kinds that can be listed, the built-in ones first."""
+    others = {entry.name for entry in metadata.entry_points(group=LISTING_GROUP)}
+    return [*BUILT_IN, *sorted(others - set(BUILT_IN))]
+
+
+def listing(kind: str) -> Callable[[], Pairs]:
+    """Return the function that lists one kind; entry points are scanned only when it is not built in."""
+    if kind in BUILT_IN:
+        return BUILT_IN[kind]
+    for entry in metadata.entry_points(group=LISTING_GROUP):
+        if entry.name == kind:
+            try:
+                function: Callable[[], Pairs] = entry.load()
+            except (ImportError, AttributeError) as error:
+                where = f"{kind} ({entry.value})"
+                raise InputError(f"cannot load the listing: {error}", where=where) from error
+            return function
+    kinds = kinds_offered()
+    close = difflib.get_close_matches(kind, kinds, n=1)
+    raise UnknownName(
+        f"nothing is listed as {kind!r}",
+        expected=f"one of {', '.join(kinds)}",
+        hint=f"type: orderconds list {close[0]}" if close else "",
+    )
+
+
+def _families() -> Pairs:
+    from importlib import import_module
+    from inspect import getdoc
+
+    from orderconds import families
+
+    for name in families.names():
+        yield name, (getdoc(import_module(families.MODULES[name])) or "").partition("\n")[0]
+
+
+def _tableaux() -> Pairs:
+    from orderconds.tableau import Tableau, available, find
+
+    for name in available():
+        yield name, Tableau.load(find(name)).source
+
+
+BUILT_IN: dict[str, Callable[[], Pairs]] = {"families": _families, "tableaux": _tableaux}
+"""What this package lists itself."""

@@ -1,0 +1,127 @@
+"""``orderconds derive``: counts, formats, and conditions written out for a number of stages."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from fractions import Fraction
+from typing import Any
+
+import pytest
+from click.testing import CliRunner, Result
+
+from orderconds import families
+from orderconds.cli import program
+
+
+def run(*args: str) -> Result:
+    return CliRunner().invoke(program, ["derive", *args])
+
+
+def derived(*args: str) -> Any:
+    result = run(*args, "--json")
+    assert result.exit_code == 0, result.stderr
+    return json.loads(result.stdout)
+
+
+@pytest.mark.parametrize(
+    ("family", "counts"),
+    [
+        ("rk", [1, 1, 2, 4, 9]),
+        ("sprk", [1, 1, 3, 8]),
+        ("cg", [1, 1, 3, 8]),
+        ("cf", [1, 1, 3, 8]),
+        ("rkmk(2)", [1, 1, 3, 8]),
+        ("vcg", [1, 1, 6]),
+    ],
+)
+def test_counts_of_independent_conditions(family: str, counts: list[int]) -> None:
+    record = derived(family, "--order", str(len(counts)))
+    assert list(record) == ["family", "order", "counts", "conditions"]
+    assert (record["family"], record["order"], record["counts"]) == (family, len(counts), counts)
+    assert [sum(c["order"] == n for c in record["conditions"]) for n in range(1, len(counts) + 1)] == counts
+    assert all(list(c) == ["order", "tree", "expression", "latex", "rhs"] for c in record["conditions"])
+
+
+def test_all_prints_the_condition_of_every_tree() -> None:
+    assert derived("vcg", "--order", "3", "--all")["counts"] == [1, 3, 17]
+
+
+def test_text_has_the_six_conditions_of_vcg_order_3() -> None:
+    result = run("vcg", "--order", "3")
+    assert "order 3: 6 conditions" in result.stdout
+    assert "sum_i b_i c_i^2 = 1/3" in result.stdout
+    assert "sum_{i,j} b_i a_ij c_j = 1/6" in result.stdout
+
+
+def test_latex_is_one_aligned_environment() -> None:
+    lines = run("rk", "--order", "3", "--format", "latex").stdout.splitlines()
+    assert (lines[0], lines[-1]) == (r"\begin{align*}", r"\end{align*}")
+    assert sum("&=" in line for line in lines) == 4
+    assert sum(line.endswith(r"\\") for line in lines) == 3
+
+
+def test_sympy_form_reads_back_in_sympy() -> None:
+    sympy = pytest.importorskip("sympy")
+    lines = run("rk", "--order", "2", "--stages", "2", "--format", "sympy").stdout.splitlines()
+    assert len(lines) == 2
+    names = {name: sympy.IndexedBase(name) for name in "ab"}
+    assert all(isinstance(sympy.sympify(line, locals=names), sympy.Eq) for line in lines)
+
+
+def test_written_out_for_two_stages() -> None:
+    expressions = [c["expression"] for c in derived("rk", "--order", "2", "--stages", "2")["conditions"]]
+    assert expressions == ["b_1 + b_2", "b_1 a_11 + b_1 a_12 + b_2 a_21 + b_2 a_22"]
+
+
+@pytest.mark.parametrize(
+    "family", [name for name in families.names() if families.get(name).formats[0] == "rk"]
+)
+def test_written_out_conditions_have_the_values_of_the_engine(family: str) -> None:
+    from orderconds.derive import derive
+    from orderconds.formula.brute_force import value as brute_force
+    from orderconds.ring import QQ
+    from orderconds.tableau import RungeKutta
+    from orderconds.written_out import write_out
+
+    entries = [QQ.rational(k * k - 7, 5 + k) for k in range(6)]
+    A, b = (tuple(entries[:2]), tuple(entries[2:4])), tuple(entries[4:])
+    derivation = derive(family, order=3)
+    engine = families.get(family).evaluate(RungeKutta(A, b), QQ, derivation.conditions)
+    at = {"a": A, "b": b}
+    for condition, value in zip(write_out(derivation, 2).conditions, engine, strict=True):
+        assert brute_force(condition.formula, QQ, at, {"1": 0, "2": 1}) == value
+
+
+@pytest.mark.parametrize(
+    ("args", "said"),
+    [
+        (["vgc", "--order", "3"], "vcg"),
+        (["rk", "--order", "0"], "--order"),
+        (["rk"], "--order"),
+        (["rk", "--order", "2", "--format", "word"], "--format"),
+        (["cf", "--order", "2", "--stages", "2"], "--stages"),
+        (["rk(1)", "--order", "2"], "rk"),
+    ],
+)
+def test_bad_usage_exits_2_with_one_message(args: list[str], said: str) -> None:
+    result = run(*args)
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert isinstance(result.exception, SystemExit)
+    assert said in result.stderr
+    assert result.stderr.count("\n") == 1
+
+
+def test_output_does_not_depend_on_the_hash_seed() -> None:
+    def output(seed: str) -> str:
+        command = [sys.executable, "-m", "orderconds", "derive", "vcg", "--order", "3", "--json"]
+        environment = {**os.environ, "PYTHONHASHSEED": seed}
+        return subprocess.run(command, capture_output=True, text=True, env=environment, check=True).stdout
+
+    assert output("0") == output("1") == output("4242")
+
+
+def test_right_hand_sides_are_fractions() -> None:
+    assert all(Fraction(c["rhs"]) > 0 for c in derived("rk", "--order", "4")["conditions"])

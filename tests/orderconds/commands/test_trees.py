@@ -1,0 +1,66 @@
+"""``orderconds trees``: what is enumerated is as many as its generating function says."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from click.testing import CliRunner, Result
+
+from orderconds.cli import program
+from orderconds.commands.trees import KINDS
+
+
+def run(*args: str) -> Result:
+    return CliRunner().invoke(program, ["trees", *args])
+
+
+@pytest.mark.parametrize(
+    ("kind", "numbers"),
+    [
+        ("rooted", [1, 1, 2, 4, 9, 20, 48]),
+        ("ordered", [1, 1, 2, 5, 14, 42]),
+        ("directed", [1, 1, 3, 8, 27, 91]),
+        ("forests", [1, 2, 5, 14, 42]),
+        ("lyndon", [1, 1, 3, 8, 25, 75]),
+    ],
+)
+def test_enumerated_and_counted_numbers_agree(kind: str, numbers: list[int]) -> None:
+    for order, number in enumerate(numbers, start=1):
+        assert run(kind, "--order", str(order), "--count").stdout == f"{number}\n"
+        listed = run(kind, "--order", str(order)).stdout.splitlines()
+        assert len(listed) == len(set(listed)) == number
+
+
+def test_json_is_one_record() -> None:
+    record = json.loads(run("rooted", "--order", "3", "--json").stdout)
+    assert (record["kind"], record["order"], record["count"], sorted(record["trees"])) == (
+        "rooted",
+        3,
+        2,
+        ["[..]", "[[.]]"],
+    )
+    assert "trees" not in json.loads(run("rooted", "--order", "30", "--count", "--json").stdout)
+
+
+def test_drawings_have_one_line_a_vertex() -> None:
+    for kind in KINDS:
+        lines = run(kind, "--order", "4", "--draw").stdout.splitlines()
+        drawn = [line for line in lines if line.startswith("    ")]
+        assert all(line.endswith("o") for line in drawn)
+        assert len(drawn) == 4 * int(run(kind, "--order", "4", "--count").stdout)
+
+
+def test_the_drawing_of_a_rooted_tree() -> None:
+    out = run("rooted", "--order", "4", "--draw").stdout
+    assert "    o\n    +-o\n    | +-o\n    +-o\n" in out
+
+
+@pytest.mark.parametrize("args", [["roted", "--order", "3"], ["rooted"], ["rooted", "--order", "-1"]])
+def test_bad_usage_exits_2_with_one_message(args: list[str]) -> None:
+    result = run(*args)
+    assert (result.exit_code, result.stdout, result.stderr.count("\n")) == (2, "", 1)
+
+
+def test_a_misspelt_kind_is_told_the_right_one() -> None:
+    assert "orderconds trees rooted" in run("roted", "--order", "3").stderr

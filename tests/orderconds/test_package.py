@@ -1,0 +1,35 @@
+"""The package's front: cheap to import, and its functions are not hidden by the modules that hold them."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+import orderconds
+
+
+def run(code: str) -> str:
+    return subprocess.check_output([sys.executable, "-c", code], text=True).strip()
+
+
+def test_importing_the_package_imports_nothing_else_of_it() -> None:
+    code = "import sys, orderconds; print([m for m in sys.modules if m.startswith('orderconds')])"
+    assert run(code) == "['orderconds']"
+
+
+@pytest.mark.parametrize("name", ["check", "derive"])
+@pytest.mark.parametrize("first", ["", "import orderconds.{0}; ", "from orderconds.{0} import {0}; "])
+def test_a_function_is_found_whatever_was_imported_before(name: str, first: str) -> None:
+    code = first.format(name) + f"import orderconds; print(type(orderconds.{name}).__name__)"
+    assert run(code) == "function"
+
+
+def test_public_names_are_listed_loaded_or_not() -> None:
+    assert set(orderconds.__all__) <= set(dir(orderconds))
+
+
+def test_an_unknown_name_is_an_attribute_error() -> None:
+    with pytest.raises(AttributeError, match="chekc"):
+        orderconds.chekc  # noqa: B018  # the lookup is the test
