@@ -1,0 +1,1 @@
+"""The compiler's commands, a module each, found by the command line through entry points."""

@@ -1,0 +1,95 @@
+"""``orderconds converge``: the observed order of emitted integrators against the stated one."""
+
+from __future__ import annotations
+
+import click
+
+from orderconds.commands.screen import is_terminal, print_json, print_table
+from orderconds.errors import InputError
+
+
+@click.command("converge")
+@click.argument("scene")
+@click.option("--method", "-m", "methods", multiple=True, required=True, help="TABLEAU or FAMILY:TABLEAU.")
+@click.option("--target", default="c", show_default=True, help="c, python or interpreter.")
+@click.option("--steps", multiple=True, help="Prescribe the rungs, as 20,40,80,160.")
+@click.option("--digits", default=16, type=click.IntRange(16, 60), help="Precision of the interpreter.")
+@click.option("--json", "as_json", is_flag=True, help="Machine-readable output.")
+def command(
+    scene: str, methods: tuple[str, ...], target: str, steps: tuple[str, ...], digits: int, as_json: bool
+) -> int:
+    """Measure the order of methods on SCENE (a gallery name or a Python file).
+
+    The exit status is 0 when every observed order is the stated one, 1 when some is not or cannot be told.
+    """
+    from codegen.lab.converge import Convergence, converge
+    from codegen.lab.methods import parse_for
+    from codegen.lab.reference import reference
+    from codegen.lab.runner import runner
+    from codegen.lab.stated import stated
+    from codegen.scenes import load
+
+    prescribed = read_steps(steps)
+    setting = load(scene)
+    chosen = [parse_for(setting, spelling) for spelling in methods]
+    orders = [stated(method) for method in chosen]
+    runners = [runner(setting, method, target, digits) for method in chosen]
+    if is_terminal() and not as_json:
+        click.echo(f"computing the reference of {setting.name} ...", err=True)
+    exact = reference(setting)
+    found: list[Convergence] = []
+    for method, order, run in zip(chosen, orders, runners, strict=True):
+        found.append(
+            converge(
+                setting,
+                run,
+                exact,
+                method=method.label,
+                stated=order.order,
+                certificate=order.certificate,
+                steps=prescribed,
+            )
+        )
+        if not as_json:
+            show(found[-1], first=len(found) == 1)
+    if as_json:
+        print_json([result.as_json() for result in found])
+    return 0 if all(result.verdict == "holds" for result in found) else 1
+
+
+def read_steps(texts: tuple[str, ...]) -> list[int]:
+    """Return the numbers of steps in comma lists, sorted; :class:`InputError` for anything else.
+
+    >>> read_steps(("40,20", "80"))
+    [20, 40, 80]
+    """
+    words = [word.strip() for text in texts for word in text.split(",")]
+    for word in words:
+        if not (word.isdecimal() and int(word[:9]) > 0 and len(word) < 9):
+            expected = "whole numbers from 1 to 99999999, as 20,40,80,160"
+            raise InputError(f"steps {word!r}", where="--steps", expected=expected)
+    return sorted({int(word) for word in words})
+
+
+def show(result: object, first: bool) -> None:
+    """Print one ladder as a table with the verdict below it."""
+    from codegen.lab.converge import Convergence
+
+    assert isinstance(result, Convergence)
+    if not first:
+        click.echo()
+    click.echo(f"{result.method} on {result.scene}, {result.target}")
+    rungs, clean = result.ladder.rungs, result.ladder.clean
+    slopes = dict(zip((r.steps for r in clean[1:]), result.ladder.slopes, strict=True))
+    rows = [
+        [
+            str(r.steps),
+            f"{r.h:.6g}",
+            f"{r.error:.3e}",
+            f"{slopes[r.steps]:.3f}" if r.steps in slopes else "",
+            r.excluded,
+        ]
+        for r in rungs
+    ]
+    print_table(["steps", "h", "error", "slope", "left out"], rows, indent=2)
+    click.echo(f"  {result.sentence()}")

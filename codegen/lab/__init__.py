@@ -1,0 +1,1 @@
+"""The lab: emitted integrators are measured here, against references computed by methods of another kind."""

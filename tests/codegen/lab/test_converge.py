@@ -1,0 +1,162 @@
+"""Observed orders of executed methods: published errors to three digits, and frauds that must be seen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+
+from codegen.lab.converge import Convergence, converge
+from codegen.lab.methods import parse_for
+from codegen.lab.reference import Reference
+from codegen.lab.runner import runner
+from codegen.method import Method
+from codegen.scenes import load
+from orderconds.ring import QQ
+from orderconds.tableau import CommutatorFree, RungeKutta, Stage
+
+Exact = Callable[[str], Reference]
+TARGETS = ("c", "python", "interpreter")
+
+# scene, method, numbers of steps, errors recomputed independently of the thesis
+PUBLISHED = {
+    "free_rigid_body rkmk(0):euler": ((20, 40, 80, 160), (4.135e-2, 2.100e-2, 1.058e-2, 5.313e-3)),
+    "dipole vcg:gauss1": ((5, 10, 20, 40), (3.614e-3, 9.226e-4, 2.319e-4, 5.804e-5)),
+    "dipole vcg:triple_jump": ((5, 10, 20, 40), (6.128e-4, 4.173e-5, 2.668e-6, 1.677e-7)),
+}
+
+
+def measure(
+    exact: Exact,
+    scene: str,
+    method: str | Method,
+    stated: int,
+    target: str = "c",
+    digits: int = 16,
+    steps: tuple[int, ...] = (),
+) -> Convergence:
+    setting = load(scene)
+    chosen = method if isinstance(method, Method) else parse_for(setting, method)
+    run = runner(setting, chosen, target, digits)
+    label = chosen.label
+    return converge(setting, run, exact(scene), method=label, stated=stated, certificate="exact", steps=steps)
+
+
+@pytest.mark.parametrize("target", TARGETS)
+@pytest.mark.parametrize("case", sorted(PUBLISHED))
+def test_published_errors_are_reproduced_to_three_digits(case: str, target: str, exact: Exact) -> None:
+    scene, method = case.split()
+    steps, errors = PUBLISHED[case]
+    found = measure(exact, scene, method, 0, target, steps=steps)
+    for rung, printed in zip(found.ladder.rungs, errors, strict=True):
+        # Three digits as printed: within half a unit of the fourth significant digit.
+        assert f"{rung.error:.3e}" == f"{printed:.3e}"
+
+
+ORDERS = {
+    "free_rigid_body": {
+        "cg:cg3": 3,
+        "cg:cg4": 4,
+        "cf:cf4": 4,
+        "rkmk(2):rk4": 4,
+        "rkmk(1):kutta3": 3,
+        "cg:rk4": 2,
+    },
+    "dipole": {"vcg:gauss1": 2, "vcg:triple_jump": 4, "vcg:triple_jump6": 6, "vcg:gauss2": 2, "cf:cf4": 4},
+}
+
+
+@pytest.mark.parametrize(("scene", "method"), [(s, m) for s, found in ORDERS.items() for m in found])
+def test_emitted_c_shows_its_order_and_no_other(scene: str, method: str, exact: Exact) -> None:
+    order = ORDERS[scene][method]
+    found = measure(exact, scene, method, order)
+    assert found.verdict == "holds", found.sentence()
+    for other in (order - 1, order + 1):
+        assert replace(found, stated=other).verdict == "fails"
+
+
+@pytest.mark.parametrize(("method", "order"), [("rkmk(4):gauss3", 6), ("cf:cf4", 4)])
+def test_forty_digits_decide_what_rounding_hides_from_doubles(method: str, order: int, exact: Exact) -> None:
+    found = measure(exact, "free_rigid_body", method, order, "interpreter", 40)
+    assert found.verdict == "holds", found.sentence()
+    assert found.ladder.observed == pytest.approx(order, abs=0.1)
+
+
+def test_an_order_that_rounding_hides_is_undecided_and_says_how_to_see_it(exact: Exact) -> None:
+    found = measure(exact, "free_rigid_body", "rkmk(4):gauss3", 6)
+    assert found.verdict == "undecided"
+    assert "--digits 40" in found.sentence()
+
+
+def swapped(method: Method) -> Method:
+    """CF4 with the two factors of its update in the wrong order."""
+    tableau = method.tableau
+    assert isinstance(tableau.method, CommutatorFree)
+    rows = tableau.method.update.exponentials[::-1]
+    wrong = replace(tableau.method, update=Stage(None, rows))
+    return replace(method, tableau=replace(tableau, method=wrong))
+
+
+def reversed_rows(method: Method) -> Method:
+    """A Crouch-Grossman method whose coefficients are attached to the stages in reverse."""
+    tableau = method.tableau
+    assert isinstance(tableau.method, RungeKutta)
+    rows = tuple(
+        tuple(row[i - 1 - j] if j < i else row[j] for j in range(len(row)))
+        for i, row in enumerate(tableau.method.A)
+    )
+    return replace(method, tableau=replace(tableau, method=RungeKutta(rows, tableau.method.b)))
+
+
+def late_stage(method: Method) -> Method:
+    """RK4 with k1/2 in the place of k2/2 in its third stage."""
+    tableau = method.tableau
+    assert isinstance(tableau.method, RungeKutta)
+    A = [list(row) for row in tableau.method.A]
+    A[2][0], A[2][1] = A[2][1], A[2][0]
+    rows = tuple(tuple(row) for row in A)
+    return replace(method, tableau=replace(tableau, method=RungeKutta(rows, tableau.method.b)))
+
+
+FRAUDS = {
+    "CF4 with its factors swapped": ("cf:cf4", swapped, 4, 2),
+    "CG3 on reversed stages": ("cg:cg3", reversed_rows, 3, 2),
+    "RKMK4 with k1/2 in stage 3": ("rkmk(2):rk4", late_stage, 4, 2),
+    "RKMK without dexp^-1": ("rkmk(2):rk4", lambda m: replace(m, cutoff=0), 4, 2),
+    "dexp^-1 cut too short": ("rkmk(2):rk4", lambda m: replace(m, cutoff=1), 4, 3),
+}
+
+
+@pytest.mark.parametrize("name", sorted(FRAUDS))
+def test_a_fraud_is_reported_as_failing_with_the_order_it_has(name: str, exact: Exact) -> None:
+    spelling, spoil, claimed, real = FRAUDS[name]
+    good = parse_for(load("free_rigid_body"), spelling)
+    assert measure(exact, "free_rigid_body", good, claimed).verdict == "holds"
+    found = measure(exact, "free_rigid_body", spoil(good), claimed)
+    assert found.verdict == "fails", found.sentence()
+    assert replace(found, stated=real).verdict == "holds", found.sentence()
+
+
+def test_a_weight_off_by_5e_11_is_beyond_any_slope_and_left_to_check(exact: Exact) -> None:
+    # The slope cannot see it in doubles; the order conditions do: orderconds check reports order 0.
+    good = parse_for(load("free_rigid_body"), "rkmk(2):rk4")
+    b = list(good.tableau.method.b)  # type: ignore[union-attr]
+    b[0] = b[0] + QQ.rational(5, 10**11)
+    off = replace(good.tableau, method=RungeKutta(good.tableau.method.A, tuple(b)))  # type: ignore[union-attr]
+    found = measure(exact, "free_rigid_body", replace(good, tableau=off), 4)
+    assert found.verdict == "holds"
+    # In forty digits and fine steps the same fraud is seen here as well: the error stops falling.
+    deep = measure(
+        exact, "free_rigid_body", replace(good, tableau=off), 4, "interpreter", 40, (160, 320, 640, 1280)
+    )
+    assert deep.observed is not None
+    assert deep.observed < 3.5
+
+
+def test_the_json_has_the_documented_fields(exact: Exact) -> None:
+    found = measure(exact, "dipole", "vcg:gauss1", 2).as_json()
+    documented = {"scene", "method", "target", "stated_order", "h", "error", "observed_order", "verdict"}
+    assert documented <= found.keys()
+    assert len(found["h"]) == len(found["error"])
+    assert found["verdict"] == "holds"

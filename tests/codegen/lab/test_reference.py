@@ -1,0 +1,76 @@
+"""References against numbers computed elsewhere, closed forms, and fields that have no reference."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import mpmath
+import pytest
+from sympy import Matrix, sqrt, symbols
+
+from codegen.errors import SceneError
+from codegen.groups import LeftMultiplication, Rn
+from codegen.lab.reference import Reference, reference
+from codegen.scene import FieldScene, Setting
+from codegen.scenes import load
+
+Exact = Callable[[str], Reference]
+
+# scenes of the thesis recomputed by a Taylor method: first row of g and mu at t = 0.5
+DIPOLE_G = ("0.9237505661876837714", "0.3829945723223079841", "-0.0002214488339615999")
+DIPOLE_MU = ("-0.5361870181330790305", "0.003780620329717814678")
+
+
+def scene(f: object, start: list[object], span: tuple[object, object]) -> Setting:
+    y = Matrix(symbols(f"y0:{len(start)}", real=True))
+    field = f(y)  # type: ignore[operator]
+    return FieldScene(
+        group=Rn(len(start)), action=LeftMultiplication(), y=y, f=field, y0=Matrix(start), span=span, name="s"
+    )
+
+
+def test_the_dipole_agrees_with_published_digits(exact: Exact) -> None:
+    found = exact("dipole")
+    assert found.uncertainty < 1e-30
+    context = mpmath.mp.clone()
+    context.dps = 40
+    for value, text in zip((*found.state[:3], *found.state[9:11]), DIPOLE_G + DIPOLE_MU, strict=True):
+        assert abs(value - context.mpf(text)) < 1e-19
+    assert abs(found.state[11]) < 1e-30
+
+
+@pytest.mark.parametrize("name", ["dipole", "free_rigid_body"])
+def test_the_reference_keeps_every_invariant_of_its_scene(name: str, exact: Exact) -> None:
+    from codegen.ir.domain import PreciseDomain
+
+    setting, domain = load(name), PreciseDomain(0, 45)
+    for invariant in setting.invariants:
+        before, after = (
+            setting.invariant(domain, invariant, state)
+            for state in (setting.initial(domain), exact(name).state)
+        )
+        assert abs(after - before) < 1e-30
+
+
+def test_a_rotation_with_time_dependent_speed_has_its_closed_form() -> None:
+    t = symbols("t", real=True)
+    found = reference(scene(lambda y: Matrix([-2 * t * y[1], 2 * t * y[0]]), [1, 0], (0, 2)))
+    context = mpmath.mp.clone()
+    context.dps = 45
+    for value, closed in zip(found.state, (context.cos(4), context.sin(4)), strict=True):
+        assert abs(value - closed) < 1e-30
+
+
+def test_a_solution_that_blows_up_within_the_span_is_an_error_of_the_scene() -> None:
+    with pytest.raises(SceneError, match=r"beyond t = (1|0\.99)"):
+        reference(scene(lambda y: Matrix([y[0] ** 2]), [1], (0, 2)))
+
+
+def test_a_field_with_a_pole_on_the_way_is_an_error_of_the_scene() -> None:
+    with pytest.raises(SceneError, match="beyond t = 0"):
+        reference(scene(lambda y: Matrix([1 / y[0]]), [0], (0, 1)))
+
+
+def test_a_solution_that_ends_within_the_span_is_an_error_that_says_when() -> None:
+    with pytest.raises(SceneError, match="beyond t = 0.613"):
+        reference(scene(lambda y: Matrix([-1 - sqrt(y[0])]), [1], (0, 3)))
