@@ -2,23 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-from codegen.errors import MethodError
 from codegen.method import Method
+from orderconds.check import FamilyOrder, check
 
 
-@dataclass(frozen=True)
-class Stated:
-    """An order and how it is certified: ``exact``, ``ball``, ``decimal``, or ``claimed``."""
+def stated(method: Method) -> FamilyOrder:
+    """Return order, certificate and first failing conditions of a method in its family.
 
-    order: int
-    certificate: str
-
-
-def stated(method: Method) -> Stated:
-    """Return the order of a method; :class:`MethodError` where nothing is known of it."""
-    claim = method.tableau.claims.order(method.family, method.cutoff)
-    if claim is None:
-        raise MethodError(f"no order is claimed of {method.label}", expected="a claim in the tableau's file")
-    return Stated(claim, "claimed")
+    Nothing is taken from what the tableau's file claims. Raises what :func:`orderconds.check.check` raises.
+    """
+    (found,) = check(method.tableau, method.family_label).orders
+    return found
