@@ -2,7 +2,7 @@
 
 exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, the first acting first; stage i alike with alpha_iJj
 (Celledoni, Marthinsen and Owren, FGCS 19 (2003) 341). A stage that starts from another one has that one's
-exponentials before its own.
+exponentials before its own. In print b_j = sum_J beta_Jj, a_ij = sum_J alpha_iJj and c_i = sum_j a_ij.
 """
 
 from __future__ import annotations
@@ -28,8 +28,11 @@ Exponentials = tuple[tuple[Element, ...], ...]
 class CommutatorFreeFamily(OrderedForestFamily):
     """Commutator-free methods; a Runge-Kutta tableau is read with one stage in each exponential.
 
-    >>> [str(condition) for condition in create().conditions(2)]
-    ['sum_{I,i} beta_Ii c_i = 1/2']
+    >>> for condition in create().conditions(3):
+    ...     print(condition)
+    sum_{i,j} b_i a_ij c_j = 1/6
+    sum_i b_i c_i^2 = 1/3
+    sum_{I,i,j} beta_Ii c_i beta_Ij + 2 sum_{I<J,i,j} beta_Ii c_i beta_Jj = 1/3
     """
 
     name = "cf"
@@ -49,7 +52,7 @@ class CommutatorFreeFamily(OrderedForestFamily):
 
     def formula(self, forest: Forest) -> Formula:
         """Return the index sum of the scaled value on a forest."""
-        return _word(forest, lambda J, j: coefficient("beta", J, j), None)
+        return _word(forest, lambda J, j: coefficient("beta", J, j), lambda j: coefficient("b", j), None)
 
 
 def create() -> CommutatorFreeFamily:
@@ -67,7 +70,10 @@ def exponentials(method: Any) -> list[Exponentials]:
 
 
 def coefficient_tables(method: Any, ring: Ring) -> dict[str, Any]:
-    """Return the tables alpha_iJj, beta_Jj, b_j and c_i that the formulas name, filled up with zeros."""
+    """Return the tables that the formulas name, filled up with zeros.
+
+    alpha_iJj and beta_Jj, and summed over the exponentials a_ij and b_j; c_i = sum_j a_ij.
+    """
     stages = len(method.stages)
     *rows, update = exponentials(method)
     most = max(1, *(len(row) for row in rows))
@@ -75,18 +81,29 @@ def coefficient_tables(method: Any, ring: Ring) -> dict[str, Any]:
     return {
         "alpha": [[*row, *([empty] * (most - len(row)))] for row in rows],
         "beta": update,
-        "b": [sum(column, ring.zero) for column in zip(*update, strict=True)],
-        "c": [sum((x for row in own for x in row), ring.zero) for own in rows],
+        "a": [_totals(own, stages, ring) for own in rows],
+        "b": _totals(update, stages, ring),
+        "c": [sum(_totals(own, stages, ring), ring.zero) for own in rows],
     }
 
 
-def _word(word: Forest, row: Callable[[str, str], Formula], row_sum: Formula | None) -> Formula:
+def _totals(rows: Exponentials, stages: int, ring: Ring) -> list[Element]:
+    return [sum((row[j] for row in rows), ring.zero) for j in range(stages)]
+
+
+def _word(
+    word: Forest,
+    row: Callable[[str, str], Formula],
+    row_total: Callable[[str], Formula],
+    row_sum: Formula | None,
+) -> Formula:
     """Return length! times the coefficient of a word in the product of exponentials of ``row``."""
     letters = trees_of(word)
     if len(set(letters)) == 1:
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None
-        J = fresh("J")
-        first = alone or index_sum((J,), (), _letter(letters[0], J, row))
+        # One letter does not see the order of the exponentials: only their totals count.
+        j = fresh()
+        first = alone or index_sum((j,), (), product(row_total(j), _stage(letters[0], j)))
         return product(*([first] * len(letters)))
     terms = []
     for runs in compositions(len(letters)):
@@ -106,7 +123,12 @@ def _letter(tree: Tree, J: str, row: Callable[[str, str], Formula]) -> Formula:
 def _stage(tree: Tree, i: str) -> Formula:
     if len(tree) == 1:
         return one()
-    return _word(branches(tree), lambda J, j: coefficient("alpha", i, J, j), coefficient("c", i))
+    return _word(
+        branches(tree),
+        lambda J, j: coefficient("alpha", i, J, j),
+        lambda j: coefficient("a", i, j),
+        coefficient("c", i),
+    )
 
 
 def _repeated(numbers: Sequence[str], runs: Sequence[int]) -> list[str]:

@@ -24,7 +24,6 @@ class RungeKuttaFamily:
 
     name = "rk"
     formats: tuple[str, ...] = ("rk",)
-    search_limit = 11
     needs_nonzero_weights = False
     search_limit = 12
 

@@ -5,7 +5,7 @@ import pytest
 from orderconds import families
 from orderconds.errors import InputError, UnknownName, ZeroWeight
 from orderconds.ring import QQ
-from orderconds.tableau import RungeKutta, Tableau
+from orderconds.tableau import RungeKutta, Tableau, find
 
 GAUSS = {
     2: """
@@ -124,3 +124,29 @@ def test_unknown_families_and_options_are_refused_with_the_nearest_name():
 def test_families_are_labelled_with_their_options():
     assert families.get("rkmk", cutoff=1).label() == families.get("rkmk(1)").label() == "rkmk(1)"
     assert families.get("rkmk").label() == "rkmk"
+
+
+def library_method(name):
+    tableau = Tableau.load(find(name))
+    return tableau.method, tableau.ring
+
+
+def with_each_row_reversed(method):
+    """The same coefficients attached to the stages in reverse, within each row."""
+    rows = [row[:i][::-1] + row[i:] for i, row in enumerate(method.A)]
+    return RungeKutta(tuple(rows), method.b)
+
+
+def test_owren_and_marthinsens_method_has_order_four_and_its_misreadings_less():
+    method, ring = library_method("cg4")
+    assert order("cg", method, ring) == order("rk", method, ring) == 4
+    assert order("cg", with_each_row_reversed(method), ring) <= 2
+    assert order("cg", RungeKutta(method.A, method.b[::-1]), ring) <= 2
+    read = method.as_crouch_grossman(ring)
+    backwards = tuple(type(stage)(stage.start, stage.exponentials[::-1]) for stage in read.stages)
+    assert order("cf", type(read)(backwards, read.update), ring) == 3
+
+
+def test_attaching_each_row_of_cg3_in_reverse_leaves_order_two():
+    method, ring = library_method("cg3")
+    assert order("cg", with_each_row_reversed(method), ring) == 2
