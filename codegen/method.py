@@ -62,9 +62,12 @@ class Method:
         return method
 
     def commutator_free(self) -> CommutatorFree:
-        """Return stages and update as products of exponentials; a Butcher tableau reads as Crouch-Grossman."""
+        """Return stages and update as products of exponentials; a Butcher tableau reads as Crouch-Grossman.
+
+        A Crouch-Grossman method is given by a Butcher tableau only.
+        """
         method = self.tableau.read_as(("cf",))
-        if isinstance(method, CommutatorFree):
+        if isinstance(method, CommutatorFree) and self.family != "cg":
             return method
         return self.runge_kutta().as_crouch_grossman(self.ring)
 
@@ -83,6 +86,7 @@ def parse(spelling: str, families: Sequence[str]) -> Method:
 
     Without a family the tableau's claims decide: the highest order wins, and among equals the family named
     first in ``families``. ``rkmk`` without a cut-off takes the least with the highest claimed order.
+    :class:`MethodError` for what cannot be read, and where nothing is claimed that decides.
     """
     match = SPELLING.fullmatch(spelling.strip())
     if match is None:
@@ -95,17 +99,23 @@ def parse(spelling: str, families: Sequence[str]) -> Method:
         raise MethodError(
             f"family {family} on this scene", where=spelling, expected=f"one of {', '.join(families)}"
         )
+    if cutoff is not None and family != "rkmk":
+        raise MethodError(
+            f"a cut-off for family {family}", where=spelling, expected="one for rkmk only, as rkmk(2):rk4"
+        )
     wanted = [c for c in tableau.claims.orders if c.family == (family or c.family) and c.family in families]
     if cutoff is not None:
-        return Method(family, tableau, int(cutoff))
+        return Method("rkmk", tableau, int(cutoff))
     if family is not None and family != "rkmk":
         return Method(family, tableau)
     if not wanted:
         raise MethodError(
-            f"the tableau {tableau.name} claims no order under {', '.join(families)}",
+            f"the tableau {tableau.name} claims no order under {family or ', '.join(families)}",
             where=spelling,
-            expected="a family in the method's name",
-            hint=f"write {families[0]}:{match['tableau']}",
+            expected="a cut-off in the method's name" if family else "a family in the method's name",
+            hint=f"write {family}(2):{match['tableau']}"
+            if family
+            else f"write {families[0]}:{match['tableau']}",
         )
     best = min(wanted, key=lambda c: (-c.order, families.index(c.family), c.cutoff or 0))
     return Method(best.family, tableau, best.cutoff)

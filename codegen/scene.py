@@ -7,6 +7,7 @@ which a step program is interpreted and compiled.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -22,6 +23,13 @@ from codegen.ir.from_sympy import read
 from codegen.ir.number import Number
 from codegen.ir.program import Kind
 
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+RESERVED = {
+    "t": "t is the time; it may stand in formulas, but it is no coordinate and no parameter",
+    "h": "h is the step size",
+}
+"""Names that programs use themselves, and why."""
+
 GROUP_OPERATIONS = frozenset({"identity", "exp", "mul", "Ad", "Adt", "Adtinv", "ad", "adt", "dexpt"})
 TIME = "t"
 
@@ -30,16 +38,19 @@ def param(name: str, default: Any) -> Any:
     """Return a sympy symbol for a parameter with a rational default.
 
     The default is folded into emitted code unless the parameter is asked for at run time.
+    :class:`SceneError` for a default that is not rational.
     """
     import sympy
 
-    value = sympy.Rational(default)
-    symbol = sympy.Symbol(name, real=True)
-    _DEFAULTS[name] = Number.rational(int(value.p), int(value.q))
-    return symbol
+    from codegen.parameter import Parameter
 
-
-_DEFAULTS: dict[str, Number] = {}
+    try:
+        value = sympy.Rational(default)
+    except TypeError:
+        value = None
+    if value is None or not value.is_Rational:
+        raise SceneError(f"the default {default}", where=f"parameter {name}", expected="a rational number")
+    return Parameter(name, int(value.p), int(value.q))
 
 
 @dataclass(frozen=True)
@@ -173,10 +184,11 @@ def FieldScene(
     the symbol ``t`` and parameters, ``y0`` the exact initial point, ``span`` the rational time interval,
     ``invariants`` a mapping from names to scalar formulas. :class:`SceneError` for a wrong shape or symbol.
     """
-    reader = _Reader(name, [s.name for s in y])
+    reader = _Reader(name, list(y))
+    _acts(reader, group, action)
     roots = reader.column(f, group.dim, "f")
     start = reader.column(y0, len(y), "y0", constant=True)
-    state = (StateField("y", Kind.POINT, tuple(s.name for s in y), start),)
+    state = (StateField("y", Kind.POINT, tuple(reader.coordinates), start),)
     known = {key: reader.scalar(value, f"invariant {key}") for key, value in (invariants or {}).items()}
     return Setting(
         *(name, title or name, group, action, state, roots, None, known, _span(name, span)),
@@ -204,7 +216,14 @@ def HamiltonianScene(
     initial values, ``parts`` named summands of H. xi = D_2 H and n = -(D_1 H).q^-1, that is n_a = -d/deps
     H(exp(eps e_a) q, mu) (thesis eq. 3.4), are found by differentiation. The energy is an invariant.
     """
-    reader = _Reader(name, [s.name for s in q] + [s.name for s in mu])
+    reader = _Reader(name, [*q, *mu])
+    if (len(q), len(mu)) != (group.size, group.dim):
+        raise SceneError(
+            f"{len(q)} coordinates of q and {len(mu)} of mu",
+            where=name,
+            expected=f"{group.size} and {group.dim}, those of {group.name}",
+            hint='take group.point("q") and group.dual("mu")',
+        )
     hamiltonian = reader.scalar(H, "H")
     for key, part in (parts or {}).items():
         reader.scalar(part, f"part {key}")
@@ -239,10 +258,30 @@ def _force(space: Space, group: Any, qs: tuple[str, ...], slope: list[Expr]) -> 
     return tuple(result)
 
 
+def _acts(reader: _Reader, group: Any, action: Any) -> None:
+    """Raise :class:`SceneError` where the group acts on points of another number of coordinates."""
+    domain = ExprDomain(reader.space)
+    y = tuple(domain.space.sym(s) for s in reader.coordinates)
+    zero = (domain.rational(0),) * group.dim
+    try:
+        width = len(action.velocity(domain, group, zero, y))
+    except (ValueError, IndexError):  # a product of tuples of different lengths
+        width = -1
+    if width != len(y):
+        raise SceneError(
+            f"a point with {len(y)} coordinates",
+            where=reader.name,
+            expected=f"one that {group.name} acts on by {action.name}",
+        )
+
+
 def _span(name: str, span: tuple[Any, Any]) -> tuple[Fraction, Fraction]:
     import sympy
 
-    first, last = (Fraction(int(r.p), int(r.q)) for r in map(sympy.Rational, span))
+    try:
+        first, last = (Fraction(int(r.p), int(r.q)) for r in map(sympy.Rational, span))
+    except (TypeError, ValueError, AttributeError):
+        raise SceneError(f"the span {span}", where=name, expected="two rational times") from None
     if not last > first:
         raise SceneError(f"the span ({first}, {last})", where=name, expected="an end after the beginning")
     return first, last
@@ -251,16 +290,42 @@ def _span(name: str, span: tuple[Any, Any]) -> tuple[Fraction, Fraction]:
 class _Reader:
     """Reads a scene's formulas into one space and remembers which parameters occur."""
 
-    def __init__(self, name: str, coordinates: list[str]) -> None:
-        if len(set(coordinates)) != len(coordinates):
+    def __init__(self, name: str, coordinates: Sequence[Any]) -> None:
+        self.name = name
+        self.coordinates = [str(getattr(symbol, "name", "")) for symbol in coordinates]
+        for symbol, spelled in zip(coordinates, self.coordinates, strict=True):
+            if not spelled:
+                raise SceneError(f"the coordinate {symbol}", where=name, expected="symbols")
+            self._allowed(spelled)
+        if len(set(self.coordinates)) != len(self.coordinates):
             raise SceneError("a coordinate symbol twice", where=name, expected="distinct symbols")
-        self.name, self.coordinates = name, coordinates
         self.space = Space()
-        self.seen: set[str] = set()
+        self.defaults: dict[str, Number] = {}
+
+    def _allowed(self, symbol: str) -> None:
+        if symbol in RESERVED:
+            raise SceneError(
+                f"a symbol called {symbol}", where=self.name, expected="another name", hint=RESERVED[symbol]
+            )
+        if not NAME.fullmatch(symbol):
+            raise SceneError(
+                f"a symbol called {symbol!r}", where=self.name, expected="a letter, then letters, digits or _"
+            )
 
     def parameters(self) -> dict[str, Number]:
         """Return the defaults of the parameters that occur, by name."""
-        return {name: _DEFAULTS[name] for name in sorted(self.seen)}
+        return dict(sorted(self.defaults.items()))
+
+    def _admit(self, symbol: Any) -> None:
+        """Note a parameter's default."""
+        self._allowed(symbol.name)
+        value = Number.rational(*symbol.default)
+        if symbol.name in self.coordinates or self.defaults.setdefault(symbol.name, value) != value:
+            raise SceneError(
+                f"the parameter {symbol.name} has the name of a coordinate, or two defaults",
+                where=self.name,
+                expected="one meaning for each name",
+            )
 
     def scalar(self, formula: Any, what: str, constant: bool = False) -> Expr:
         """Return one formula; its symbols must be coordinates, t, or parameters."""
@@ -269,17 +334,16 @@ class _Reader:
         if hasattr(formula, "shape"):
             raise SceneError(f"{what} has shape {formula.shape}", where=self.name, expected="a scalar")
         root = read(self.space, formula, f"{self.name}, {what}")
-        for node in walk([root]):
-            if node.op != "sym":
-                continue
-            if node.payload in _DEFAULTS and node.payload not in self.coordinates:
-                self.seen.add(node.payload)
-            elif constant or node.payload not in (*self.coordinates, TIME):
+        known = () if constant else (*self.coordinates, TIME)
+        for symbol in sorted(getattr(formula, "free_symbols", ()), key=lambda s: str(s.name)):
+            if hasattr(symbol, "default"):
+                self._admit(symbol)
+            elif symbol.name not in known:
                 raise SceneError(
-                    f"the symbol {node.payload} in {what} has no value",
+                    f"the symbol {symbol.name} in {what} has no value",
                     where=self.name,
                     expected="numbers and parameters" if constant else "coordinates, t and parameters",
-                    hint=f'write {node.payload} = param("{node.payload}", 1) to make it a parameter',
+                    hint=f'write {symbol.name} = param("{symbol.name}", 1) to make it a parameter',
                 )
         return root
 

@@ -1,17 +1,20 @@
 """Matrix groups given by a basis of their Lie algebra, without closed forms: GL(n), nilpotent groups.
 
-They serve exact series and interpretation; emission needs a group with closed forms.
+They serve exact series and interpretation. Over expressions a series is summed too, which ends for a
+nilpotent algebra only: emission for any other matrix group needs closed forms.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
 from codegen.groups.protocol import LieGroup, Scalars, dot, matmul
-from codegen.ir.domain import Domain, SeriesDomain
+from codegen.ir.domain import Domain, ExprDomain, SeriesDomain
+
+LONGEST = 1000
+"""The most terms of an exponential series: what needs more has left the doubles."""
 
 
 class MatrixGroup(LieGroup):
@@ -83,15 +86,20 @@ class MatrixGroup(LieGroup):
 
     def Ad(self, d: Domain, g: Scalars, x: Scalars) -> Scalars:
         """Return g x g^-1."""
-        return self.vee(d, matmul(matmul(g, self.hat(d, x), self.n), _invert(d, g, self.n), self.n))
+        return self._conjugated(d, g, x, _invert(d, g, self.n))
+
+    def _conjugated(self, d: Domain, g: Scalars, x: Scalars, inverse: Scalars) -> Scalars:
+        return self.vee(d, matmul(matmul(g, self.hat(d, x), self.n), inverse, self.n))
 
     def Adt(self, d: Domain, g: Scalars, mu: Scalars) -> Scalars:
         """Return Ad*_g mu: its pairing with y is that of mu with Ad_g y."""
-        return tuple(dot(mu, self.Ad(d, g, e)) for e in self._units(d))
+        inverse = _invert(d, g, self.n)
+        return tuple(dot(mu, self._conjugated(d, g, e, inverse)) for e in self._units(d))
 
     def Adtinv(self, d: Domain, g: Scalars, mu: Scalars) -> Scalars:
         """Return Ad*_{g^-1} mu."""
-        return self.Adt(d, _invert(d, g, self.n), mu)
+        inverse = _invert(d, g, self.n)
+        return tuple(dot(mu, self._conjugated(d, inverse, e, g)) for e in self._units(d))
 
     def dexpt(self, d: Domain, x: Scalars, mu: Scalars) -> Scalars:
         """Return dexp*_x mu = sum (ad*_x)^k mu/(k+1)!."""
@@ -120,10 +128,14 @@ def _weighted(d: Domain, weights: Sequence[Fraction], values: Sequence[Any]) -> 
 
 
 def _entire(d: Domain, first: Scalars, advance: Any, shift: int) -> Scalars:
-    """Return sum over k of advance^k(first) shift!/(k + shift)!, until it stands still."""
-    total, term, k = first, first, shift
-    while True:
-        k += 1
+    """Return sum over k of advance^k(first) shift!/(k + shift)!, until it stands still.
+
+    Raises ArithmeticError where it does not: numbers that are not finite, expressions whose powers do not
+    vanish, as those of a nilpotent matrix or bracket do within its size.
+    """
+    total, term = first, first
+    longest = 2 * len(first) if isinstance(d, ExprDomain) else LONGEST
+    for k in range(shift + 1, shift + 1 + longest):
         factor = d.rational(1, k)
         term = tuple(factor * t for t in advance(term))
         new = tuple(s + t for s, t in zip(total, term, strict=True))
@@ -131,11 +143,10 @@ def _entire(d: Domain, first: Scalars, advance: Any, shift: int) -> Scalars:
             still = d.settled(total, new, None)[0]
         else:
             still = all(a == b for a, b in zip(total, new, strict=True))
-            if any(isinstance(x, float) and not math.isfinite(x) for x in new):
-                raise ArithmeticError("a matrix series left the finite numbers")
         if still:
             return new
         total = new
+    raise ArithmeticError(f"an exponential series does not end within {longest} terms")
 
 
 def _inverse(a: list[list[Fraction]]) -> list[list[Fraction]]:

@@ -94,7 +94,7 @@ class FloatDomain:
 
 
 class PreciseDomain:
-    """mpmath numbers of a given number of decimal digits; enter it as a context to set the precision."""
+    """mpmath numbers of a given number of decimal digits, in a context of their own."""
 
     def __init__(self, h: Any, digits: int = 50) -> None:
         import mpmath

@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from codegen.errors import SceneError
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, walk
 from codegen.ir.interpret import apply, flatten
@@ -33,7 +34,10 @@ class _Block:
 
 
 def to_kernel(program: Program, scene: Setting) -> Kernel:
-    """Return the kernel of a program in its setting (:func:`codegen.lower.setting`)."""
+    """Return the kernel of a program in its setting (:func:`codegen.lower.setting`).
+
+    :class:`codegen.errors.SceneError` where an operation of the group has no closed form.
+    """
     domain = ExprDomain()
     space = domain.space
     env: dict[Var, Any] = {}
@@ -53,7 +57,15 @@ def to_kernel(program: Program, scene: Setting) -> Kernel:
             hints.setdefault(x.id, f"{var.name}_{k}" if var.kind is not Kind.REAL else var.name)
 
     def run(assign: Assign) -> None:
-        results = apply(scene, domain, assign, tuple(env[a] for a in assign.args))
+        try:
+            results = apply(scene, domain, assign, tuple(env[a] for a in assign.args))
+        except ArithmeticError as error:
+            raise SceneError(
+                f"{assign.operation.name} on {scene.group.name}: {error}",
+                where=scene.name,
+                expected="a group whose operations have closed forms",
+                hint="this group serves exact series and interpretation",
+            ) from error
         for target, value in zip(assign.targets, results, strict=True):
             env[target] = value
             remember(target)

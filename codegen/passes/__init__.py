@@ -1,7 +1,7 @@
 """The passes: one file each, pure functions over programs, run in a fixed order and verified after each.
 
 ``optimise`` runs them on a scene: types and single assignment are checked after every pass, and meaning by
-interpretation at a point where the passes must agree to rounding.
+interpretation at points where the program must agree with the lowered one to rounding.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from codegen.ir.program import Program
 from codegen.ir.verify import IllFormed, verify
 from codegen.passes import abelian, blocks, dead, factor, fuse, sharing, zeros
-from codegen.passes.meaning import differs
+from codegen.passes.meaning import Reference
 from codegen.scene import Setting
 
 
@@ -53,13 +53,14 @@ def optimise(program: Program, scene: Setting) -> tuple[Program, tuple[PassRepor
         ("dead code", dead.run),
     ]
     reports: list[PassReport] = []
+    meaning = Reference(program, scene)
     for name, step in steps:
         new = verify(step(program))
         if new == program:
             continue
-        distance = differs(program, new, scene)
-        if distance:
-            raise IllFormed(f"the pass {name} changed the meaning of {program.name}: {distance}")
+        account = meaning.differs(new)
+        if account:
+            raise IllFormed(f"the pass {name} changed the meaning of {program.name}: {account}")
         reports.append(PassReport(name, program.counts(), new.counts(), new))
         program = new
     return program, tuple(reports)

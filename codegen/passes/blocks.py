@@ -29,8 +29,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     """Return the statements of one block in order; ``names`` maps unknowns to their images from now on."""
     import networkx
 
-    image = dict(zip(block.unknowns, block.images, strict=True))
-    start = dict(zip(block.unknowns, block.starts, strict=True))
+    start = {u: names.get(s, s) for u, s in zip(block.unknowns, block.starts, strict=True)}
+    image = _resolved(dict(zip(block.unknowns, block.images, strict=True)), start)
     maker = {target: k for k, assign in enumerate(block.body) for target in assign.targets}
     graph = networkx.DiGraph()
     graph.add_nodes_from(range(len(block.body)))
@@ -58,6 +58,18 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
         images = tuple(image[u] for u in own)
         result.append(Solve(label, tuple(own), tuple(start[u] for u in own), tuple(renamed), images))
     names.update(image)
+    return result
+
+
+def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
+    """Follow images that are themselves unknowns; one that must only equal itself stays at its start."""
+    result = {}
+    for unknown in image:
+        var, seen = image[unknown], [unknown]
+        while var in image and var not in seen:
+            seen.append(var)
+            var = image[var]
+        result[unknown] = start[unknown] if var in seen else var
     return result
 
 

@@ -21,14 +21,15 @@ def run(program: Program) -> Program:
                 live.update(statement.args)
                 kept.append(statement)
             continue
-        block = _trim(statement, live)
-        if block is not None:
-            kept.append(block)
+        kept += reversed(_trim(statement, live))
     return replace(program, body=tuple(reversed(kept)))
 
 
-def _trim(block: Solve, live: set[Var]) -> Statement | None:
-    """Keep the body assignments that are live, adding what they need to ``live``."""
+def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
+    """Keep the body assignments that are live, adding what they need to ``live``.
+
+    Where none of them depends on an unknown there is nothing to solve, and they stand alone.
+    """
     image = dict(zip(block.unknowns, block.images, strict=True))
     maker = {target: assign for assign in block.body for target in assign.targets}
     wanted = [v for v in (*block.unknowns, *maker) if v in live]
@@ -46,10 +47,8 @@ def _trim(block: Solve, live: set[Var]) -> Statement | None:
     pairs = list(zip(block.unknowns, block.starts, block.images, strict=True))
     pairs = [p for p in pairs if p[0] in needed]
     body = tuple(a for a in block.body if needed.intersection(a.targets))
-    if not pairs and not body:
-        return None
     if not pairs:
-        return replace(block, unknowns=(), starts=(), images=(), body=body)
+        return body
     unknowns, starts, images = zip(*pairs, strict=True)
     live.update(starts)
-    return replace(block, unknowns=unknowns, starts=starts, images=images, body=body)
+    return (replace(block, unknowns=unknowns, starts=starts, images=images, body=body),)

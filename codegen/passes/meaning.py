@@ -1,44 +1,115 @@
-"""Whether two programs mean the same: interpretation at a point of the scene, in double precision."""
+"""Whether two programs mean the same: interpretation at points of the scene, in double precision."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 from codegen.ir.domain import FloatDomain, NotConverged
+from codegen.ir.expr import evaluate
 from codegen.ir.interpret import flatten, interpret
 from codegen.ir.program import Kind, Program
 from codegen.scene import Setting
 
-STEP = 2.0**-9
+STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
+"""Step sizes to try, the largest first: what a wrong rewriting leaves is largest there."""
+
+REACH = 0.5
+"""The most that a step may move along the field: beyond, rounding would be amplified."""
+
+FAILURES = (NotConverged, ArithmeticError, ValueError)
+"""How an interpretation fails; ValueError for the root of a negative number."""
+
+Result = tuple[float, dict[str, Any], dict[str, Any]]
+"""Step size, inputs, new state."""
+
+SWEEPS = 24
+"""The most sweeps over a block: a step that needs more is too large to compare roundings."""
+
 AGREE = 2.0**-36
+"""Relative difference of results that mean the same: far above rounding and the tolerance of a block."""
 
 
-def differs(old: Program, new: Program, scene: Setting) -> str:
-    """Return an account of the difference of two programs over one step from the initial state, or ''.
+class Reference:
+    """What a program means: its results after one step from points of a scene.
 
-    Both are interpreted with a small step, where every implicit block settles; results must agree to 2^-36
-    relative to the size of the state, far below any order error a wrong rewriting would leave.
+    The points are the initial state, which may be special (an equilibrium, a symmetric position), and one
+    nearby without any symmetry; the step is the largest of moderate reach for which the blocks settle.
     """
-    domain = FloatDomain(STEP)
-    values: dict[str, Any] = {}
-    k = 0
-    coordinates = scene.initial(domain)
-    for block in scene.state:
-        values[block.name] = coordinates[k : k + len(block.symbols)]
-        k += len(block.symbols)
-    values["t"] = float(scene.span[0])
-    inputs = {v.name: values[v.name] for v in old.inputs}
+
+    def __init__(self, program: Program, scene: Setting) -> None:
+        self.scene = scene
+        self.kinds = {v.name: v.kind for v in program.inputs}
+        found = (self._first(program, state) for state in _states(scene))
+        self.results = [result for result in found if result is not None]
+
+    def _first(self, program: Program, state: dict[str, Any]) -> Result | None:
+        speed = _speed(self.scene, state)
+        inputs = {name: state[name] for name in self.kinds}
+        for step in STEPS:
+            if step * speed <= REACH:
+                try:
+                    return (
+                        step,
+                        inputs,
+                        interpret(program, self.scene, FloatDomain(step), inputs, limit=SWEEPS),
+                    )
+                except FAILURES:
+                    continue
+        return None
+
+    def differs(self, program: Program) -> str:
+        """Return an account of what a program does differently, or ''."""
+        for step, inputs, before in self.results:
+            try:
+                after = interpret(program, self.scene, FloatDomain(step), inputs, limit=2 * SWEEPS)
+            except FAILURES as error:
+                return f"interpretation failed: {error}"
+            account = self._gap(before, after)
+            if account:
+                return account
+        return "" if self.results else "no step was found with which the program can be interpreted"
+
+    def _gap(self, before: dict[str, Any], after: dict[str, Any]) -> str:
+        for name, kind in self.kinds.items():
+            if name not in before:
+                continue
+            x, y = (flatten(kind, side[name]) for side in (before, after))
+            scale = max(1.0, *(abs(s) for s in x))
+            gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
+            if not gap <= AGREE * scale or not math.isfinite(scale):
+                return f"{name} moved by {gap:.3g}"
+        return ""
+
+
+def _speed(scene: Setting, state: dict[str, Any]) -> float:
+    """Return the largest component of the field, or of the Hamiltonian's derivatives, at a state."""
+    domain = FloatDomain(0.0)
+    coordinates = tuple(x for block in scene.state for x in state[block.name])
     try:
-        a = interpret(old, scene, domain, inputs)
-        b = interpret(new, scene, domain, inputs)
-    except (NotConverged, ArithmeticError) as error:
-        return f"interpretation failed: {error}"
-    kinds = {v.name: v.kind for v in old.inputs}
-    for name in a:
-        x, y = (flatten(kinds.get(name, Kind.POINT), side[name]) for side in (a, b))
-        scale = max(1.0, *(abs(s) for s in x))
-        gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
-        if not gap <= AGREE * scale or not math.isfinite(scale):
-            return f"{name} moved by {gap:.3g}"
-    return ""
+        values = evaluate(scene.roots, domain, scene.values(domain, coordinates, state["t"]))
+    except (ArithmeticError, ValueError):
+        return math.inf
+    return max(map(abs, map(float, values)))
+
+
+def _states(scene: Setting) -> Iterator[dict[str, Any]]:
+    """Yield the initial state, and one moved from it by the group along fixed directions."""
+    domain = FloatDomain(0.0)
+    start = scene.initial(domain)
+    directions = [math.sin(7.0 * k + 1.0) / 8 for k in range(2 * scene.group.dim)]
+    x, covector = tuple(directions[: scene.group.dim]), directions[scene.group.dim :]
+    time = float(scene.span[0])
+    for moved in (False, True):
+        state: dict[str, Any] = {"t": time + moved / 8}
+        first = 0
+        for block in scene.state:
+            value = start[first : first + len(block.symbols)]
+            first += len(block.symbols)
+            if moved and block.kind is Kind.DUAL:
+                value = tuple(a + b for a, b in zip(value, covector, strict=True))
+            elif moved:
+                value = tuple(scene.action.actexp(domain, scene.group, x, value))
+            state[block.name] = value
+        yield state

@@ -31,17 +31,25 @@ def load(name: str) -> Setting:
         raise SceneError("no such file", where=name, expected="a Python file that defines `scene`")
     try:
         found = runpy.run_path(str(path)).get("scene")
-    except InputError:
-        raise
-    except Exception as error:
-        lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == str(path)]
-        at = f"{name}:{lines[-1]}" if lines else name
+    except InputError as error:
+        at = f"{_line(name, path, error)}: {error.where}"
+        raise SceneError(error.found, where=at, expected=error.expected, hint=error.hint) from error
+    except (Exception, SystemExit) as error:
+        at = _line(name, path, error)
         raise SceneError(f"the scene raises {type(error).__name__}: {error}", where=at) from error
     if not isinstance(found, Setting):
         raise SceneError(
             "no scene is defined", where=name, expected="scene = FieldScene(...) or HamiltonianScene(...)"
         )
     return replace(found, name=path.stem)
+
+
+def _line(name: str, path: Path, error: BaseException) -> str:
+    """Return file and line of the user's code where an error arose."""
+    lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == str(path)]
+    if isinstance(error, SyntaxError):
+        lines.append(error.lineno)
+    return f"{name}:{lines[-1]}" if lines else name
 
 
 def listing() -> list[dict[str, str]]:

@@ -1,0 +1,116 @@
+"""What tests draw from: groups and their elements over every domain, polynomial scenes, tableaux.
+
+Everything is drawn by seeded generators, so that a failure repeats. Exact samples are rational numbers or
+power series with small coefficients.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from codegen.groups import GL, SO3, Cotangent, MatrixGroup, Rn
+from codegen.groups.matrix import _invert
+from codegen.ir.domain import FloatDomain, PreciseDomain, SeriesDomain
+from orderconds.ring import QQ
+
+ORDER = 5
+"""Exact samples are series in h up to this power."""
+
+
+def heisenberg() -> MatrixGroup:
+    """Upper triangular 3 x 3 matrices with ones on the diagonal: the smallest non-abelian nilpotent group."""
+    return MatrixGroup(
+        "Heisenberg", [[[int((i, j) == p) for j in range(3)] for i in range(3)] for p in PLACES]
+    )
+
+
+PLACES = ((0, 1), (1, 2), (0, 2))
+
+BASE_GROUPS = {"SO(3)": SO3(), "R^3": Rn(3), "GL(2)": GL(2), "Heisenberg": heisenberg()}
+ALL_GROUPS = BASE_GROUPS | {f"T*{name}": Cotangent(group) for name, group in BASE_GROUPS.items()}
+
+
+@dataclass
+class Sampler:
+    """Elements of one group over one domain; ``size`` scales what is drawn from the algebra."""
+
+    group: Any
+    domain: Any
+    kind: str
+    tolerance: Any
+    rng: random.Random
+
+    def scalar(self) -> Any:
+        """Return a number; over power series one without constant term, so that exponentials are exact."""
+        if isinstance(self.domain, SeriesDomain):
+            some = (QQ.rational(self.rng.randint(-4, 4), self.rng.randint(1, 3)) for _ in range(ORDER))
+            return self.domain.ring.from_coefficients((QQ.zero, *some))
+        return self.domain.rational(1) * self.rng.uniform(-1, 1)
+
+    def vector(self) -> tuple[Any, ...]:
+        """Return an element of the algebra or its dual, of the kind that is sampled."""
+        x = tuple(self.scalar() for _ in range(self.group.dim))
+        if self.kind == "near the identity":
+            return tuple(a * 1e-7 for a in x)
+        if self.kind == "half a turn":
+            length = math.sqrt(sum(float(a) ** 2 for a in x[:3]))
+            return tuple(a * (math.pi / length) for a in x)
+        if self.kind == "one axis":
+            return (x[0], *(a * 0 for a in x[1:]))
+        return x
+
+    def covector(self) -> tuple[Any, ...]:
+        """Return an element of the dual with constant terms."""
+        return tuple(
+            self.domain.rational(self.rng.randint(-5, 5), 3) + self.scalar() for _ in range(self.group.dim)
+        )
+
+    def element(self) -> tuple[Any, ...]:
+        """Return a group element: a product of two exponentials."""
+        exp = self.group.exp
+        return self.group.mul(self.domain, exp(self.domain, self.vector()), exp(self.domain, self.vector()))
+
+    def equal(self, a: tuple[Any, ...], b: tuple[Any, ...]) -> bool:
+        """Whether two tuples agree: exactly, or to rounding relative to the larger."""
+        pairs = list(zip(a, b, strict=True))
+        if isinstance(self.domain, SeriesDomain):
+            return all(self.domain.ring.is_zero(x - y) is True for x, y in pairs)
+        scale = max(1, *(abs(x) for x in a), *(abs(x) for x in b))
+        return all(abs(x - y) <= self.tolerance * scale for x, y in pairs)
+
+
+SAMPLES = (
+    "doubles, uniform",
+    "doubles, near the identity",
+    "doubles, half a turn",
+    "doubles, one axis",
+    "40 digits, uniform",
+    "40 digits, near the identity",
+    "exact, series",
+)
+
+
+def sampler(group: Any, sample: str, seed: int = 0) -> Sampler:
+    """Return the sampler of that name."""
+    numbers, kind = sample.split(", ")
+    rng = random.Random(f"{group.name} {sample} {seed}")
+    if numbers == "doubles":
+        return Sampler(group, FloatDomain(0.1), kind, 1e-13, rng)
+    if numbers == "40 digits":
+        return Sampler(group, PreciseDomain(Fraction(1, 10), 40), kind, 1e-37, rng)
+    return Sampler(group, SeriesDomain(QQ, ORDER), kind, 0, rng)
+
+
+def inverse(group: Any, d: Any, g: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return g^-1, independently of the group's own operations where it can be."""
+    if isinstance(group, Cotangent):
+        a = inverse(group.base, d, g[: group.base.size])
+        moved = group.base.Adtinv(d, a, g[group.base.size :])
+        return a + tuple(-m for m in moved)
+    if isinstance(group, Rn):
+        return tuple(-x for x in g)
+    return _invert(d, g, round(group.size**0.5))
