@@ -125,6 +125,13 @@ def test_fields_of_high_degree_are_refused() -> None:
         sqrt(tower, 11)
 
 
+def test_balls_are_as_narrow_as_asked_even_where_digits_cancel() -> None:
+    tower = Tower()
+    x = (sqrt(tower, 2) - 1) ** 60
+    assert x.field.ball(x, 200).rel_accuracy_bits() >= 200
+    assert float(x) == pytest.approx((2**0.5 - 1) ** 60, rel=1e-13)
+
+
 def test_division_by_zero_is_refused_even_when_zero_is_disguised() -> None:
     tower = Tower()
     r, s = sqrt(tower, 2), sqrt(tower, 3)

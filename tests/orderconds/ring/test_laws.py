@@ -16,7 +16,7 @@ from orderconds.ring.decimals import endpoints
 SMALL = st.fractions(min_value=-9, max_value=9, max_denominator=12)
 SERIES = PowerSeries(QQ, 4)
 POLYNOMIALS = Polynomials(["x", "y"])
-RESIDUES = Residues(101, 3)
+RESIDUES = Residues(10007, 3)
 
 
 def elements(ring: Ring) -> st.SearchStrategy[Any]:
@@ -114,10 +114,14 @@ def test_working_precision_belongs_to_the_ring_and_is_given_back() -> None:
     assert ctx.prec == before
 
 
-@given(f=st.fractions(min_value=-100, max_value=100), digits=st.integers(3, 30))
-def test_the_spelling_of_a_ball_encloses_it(f: Any, digits: int) -> None:
+@given(
+    f=st.fractions(min_value=-100, max_value=100),
+    digits=st.integers(3, 30),
+    part=st.fractions(min_value=Fraction(1, 20), max_value=1, max_denominator=20),
+)
+def test_the_spelling_of_a_ball_encloses_it(f: Any, digits: int, part: Any) -> None:
     ring = Balls(200)
-    x = ring.around(fmpq(f.numerator, f.denominator), fmpq(1, 10**digits))
+    x = ring.constant(f, part / 10**digits)
     text = ring.text(x)
     assert text.endswith("~")
     places = len(text.split(".")[1]) - 1 if "." in text else 0
@@ -152,6 +156,13 @@ def test_decimals_of_rationals_are_within_half_a_unit(p: int, q: int, digits: in
         if abs(x) < Fraction(10) ** exponent:
             exponent -= 1
         assert 2 * abs(spelled - x) <= Fraction(10) ** (exponent - digits + 1)
+
+
+def test_decimals_round_ties_to_even_and_carry() -> None:
+    halves = [QQ.approximate(fmpq(n, 2), 1) for n in (1, 3, 5, 7, -5)]
+    assert halves == ["0.5", "2", "2", "4", "-2"]
+    assert QQ.approximate(fmpq(19999, 2), 4) == "10000"
+    assert QQ.approximate(fmpq(1, 10**7), 3) == "1e-07"
 
 
 @given(p=st.integers(-(10**25), 10**25), q=st.integers(1, 10**25))

@@ -32,6 +32,7 @@ INLINE = {
         {"explicit", "fsal", "stiffly_accurate"},
     ),
     "symplectic only": ('[["1/8"], ["1/4", "3/8"]]', '["1/4", "3/4"]', {"diagonally_implicit", "symplectic"}),
+    "halved steps": ('[["1/4"], ["1/4", "1/4"]]', '["1/2", "1/2"]', {"diagonally_implicit"}),
     "midpoint off by 5e-11": ('[["0.50000000005"]]', '["1"]', {"diagonally_implicit"}),
 }
 
