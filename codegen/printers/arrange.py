@@ -95,19 +95,17 @@ def arrange(kernel: Kernel) -> Arrangement:
     loops = 0
     for position, statement in enumerate(kernel.body):
         if isinstance(statement, Let):
-            value = scope.rewrite(statement.value)
-            statements += [*scope.take(), Assignment(statement.name, value)]
+            statements += scope.assign(statement, False)
             continue
         starts = tuple(scope.rewrite(e) for e in statement.starts)
         statements += scope.take()
         inner = scope.inside([*(let.value for let in statement.body), *statement.images])
         body: list[Assignment | Joint] = []
+        later = _read_later(kernel, position)
         for let in statement.body:
-            value = inner.rewrite(let.value)
-            body += [*inner.take(), Assignment(let.name, value)]
+            body += inner.assign(let, let.name in later)
         images = tuple(inner.rewrite(e) for e in statement.images)
         body += inner.take()
-        later = _read_later(kernel, position)
         kept = tuple(let.name for let in statement.body if let.name in later)
         loops += 1
         statements.append(Iteration(statement, loops, starts, tuple(body), images, kept))
@@ -137,6 +135,7 @@ class _Scope:
     known: dict[int, Expr] = field(default_factory=dict)
     orders: dict[int, tuple[int, ...]] = field(default_factory=dict)
     pending: list[Assignment | Joint] = field(default_factory=list)
+    results: dict[str, int] = field(default_factory=dict)
 
     def inside(self, expressions: list[Expr]) -> _Scope:
         """Return the scope of a loop body: it sees what stands before the loop."""
@@ -151,6 +150,15 @@ class _Scope:
             if node.op == "call" and node.payload in STUMPFF and node.id not in self.known:
                 needed.setdefault(node.args[0].id, []).append(STUMPFF[node.payload])
         self.orders = {argument: tuple(sorted(set(ks))) for argument, ks in needed.items()}
+
+    def assign(self, let: Let, kept: bool) -> list[Assignment | Joint]:
+        """Return the statements of an assignment: none of its own where a joint call made its value."""
+        value = self.rewrite(let.value)
+        before = self.take()
+        if value.op == "sym" and value.payload in self.results and not kept:
+            self.known[value.space.sym(let.name).id] = value
+            return before
+        return [*before, Assignment(let.name, value)]
 
     def take(self) -> list[Assignment | Joint]:
         """Return and forget the statements that must stand before the next one."""
@@ -182,6 +190,7 @@ class _Scope:
         names = tuple(self._fresh(f"c{k}") for k in orders)
         self.pending.append(Joint(names, orders, argument))
         for k, name in zip(orders, names, strict=True):
+            self.results[name] = k
             call = node.space.call(f"stumpff{k}", node.args[0])
             self.known[call.id] = node.space.sym(name)
 

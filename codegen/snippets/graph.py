@@ -31,7 +31,8 @@ def snippets() -> tuple[Snippet, ...]:
     found = [Snippet("greater", "greater")]
     switch = [repr(float(z)) for z in stumpff.SWITCH]
     for k in range(4):
-        values = {"k": k, "coefficients": stumpff.constants(k)}
+        first, *rest = stumpff.constants(k)
+        values = {"k": k, "first": first, "even": rest[::2], "odd": rest[1::2]}
         found.append(Snippet(f"stumpff_series_{k}", "stumpff_series", (), values))
     for orders in stumpff.SETS:
         name = "stumpff_" + "".join(map(str, orders))

@@ -40,6 +40,9 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "snippets": found.texts,
         "body": [*loads, *body, *ends],
         "new": new,
+        "finite": fill(
+            "if (!(", (f"isfinite({new[0]})", *(f"&& isfinite({n})" for n in new[1:])), ")) {", joint=""
+        ),
     }
     env = environment("c")
     return {

@@ -74,7 +74,11 @@ class Statements:
     def _iteration(self, statement: Iteration) -> Iterator[str]:
         loop, number = statement.loop, statement.number
         now = [self.names.spelled[u] for u in loop.unknowns]
-        new = [self.names.fresh(f"next_{u}") for u in loop.unknowns]
+        plain = [x.op == "sym" and x.payload not in loop.unknowns for x in statement.images]
+        new = [
+            self.names.spelled[x.payload] if already else self.names.fresh(f"next_{u}")
+            for u, x, already in zip(loop.unknowns, statement.images, plain, strict=True)
+        ]
         previous = self.names.fresh(f"previous_{number}")
         yield f"/* {loop.label}: fixed point in {', '.join(now)} */"
         for name, start in zip(now, statement.starts, strict=True):
@@ -87,8 +91,8 @@ class Statements:
         for inner in statement.body:
             for line in self._simple(inner, statement.kept):
                 yield f"    {line}"
-        for name, image in zip(new, statement.images, strict=True):
-            for line in self._declare(name, image):
+        for name, image, already in zip(new, statement.images, plain, strict=True):
+            for line in [] if already else self._declare(name, image):
                 yield f"    {line}"
         differences = [self.names.fresh(f"change_{u}") for u in loop.unknowns]
         for difference, x, y in zip(differences, new, now, strict=True):
@@ -101,10 +105,11 @@ class Statements:
         self, statement: Iteration, differences: list[str], now: list[str], new: list[str], previous: str
     ) -> Iterator[str]:
         loop, block = statement.loop, statement.number - 1
-        yield f"const double change = {greatest(differences)};"
-        yield f"const double scale = {greatest(['1.0', *(f'fabs({x})' for x in now)])};"
-        total = " + ".join(differences)
-        yield f"if (!isfinite({total})) {{"
+        yield from fill("const double change =", broken(greatest(differences)), ";")
+        sizes = ["1.0", *(f"fabs({x})" for x in now)]
+        yield from fill("const double scale =", broken(greatest(sizes)), ";")
+        total = (differences[0], *(f"+ {x}" for x in differences[1:]))
+        yield from fill("if (!isfinite(", total, ")) {", joint="")
         yield f"    count_sweeps(statistics, {block}, sweep, 1);"
         yield f"    return {self.prefix.upper()}NOT_FINITE;"
         yield "}"
@@ -129,8 +134,15 @@ def greatest(terms: list[str]) -> str:
     return f"greater({greatest(terms[:middle])}, {greatest(terms[middle:])})"
 
 
-def fill(start: str, pieces: tuple[str, ...], end: str, width: int = WIDTH) -> list[str]:
+def broken(text: str) -> tuple[str, ...]:
+    """Cut nested calls after their commas."""
+    return tuple(text.replace(", ", ",|").split("|"))
+
+
+def fill(start: str, pieces: tuple[str, ...], end: str, width: int = WIDTH, joint: str = " ") -> list[str]:
     """Join start, pieces and end with spaces, breaking lines before pieces that do not fit.
+
+    ``joint`` stands between start and the first piece.
 
     >>> fill("x =", ("a", "+ b", "+ c"), ";", width=18)
     ['x = a + b', '    + c;']
@@ -141,5 +153,5 @@ def fill(start: str, pieces: tuple[str, ...], end: str, width: int = WIDTH) -> l
         if position and len(lines[-1]) + 1 + len(piece) + len(tail) > width - 8:
             lines.append(f"    {piece}{tail}")
         else:
-            lines[-1] += f" {piece}{tail}"
+            lines[-1] += f"{' ' if position else joint}{piece}{tail}"
     return lines

@@ -15,7 +15,8 @@ WIDTH = 88
 _WORDS = """
     abs max range float len list map sum tuple zip True False None
     sqrt sin cos exp log inf isfinite
-    state statistics steps step stride trajectory run row rows sweep change scale error labels count
+    state statistics steps step stride trajectory run row rows sweep change scale total
+    settled error labels count
     OK NOT_CONVERGED NOT_FINITE BAD_STEP StepFailed Statistics
 """
 RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split())
@@ -62,7 +63,11 @@ class Statements:
     def _iteration(self, statement: Iteration) -> Iterator[str]:
         loop, number = statement.loop, statement.number
         now = [self.names.spelled[u] for u in loop.unknowns]
-        new = [self.names.fresh(f"next_{u}") for u in loop.unknowns]
+        plain = [x.op == "sym" and x.payload not in loop.unknowns for x in statement.images]
+        new = [
+            self.names.spelled[x.payload] if already else self.names.fresh(f"next_{u}")
+            for u, x, already in zip(loop.unknowns, statement.images, plain, strict=True)
+        ]
         differences = [self.names.fresh(f"change_{u}") for u in loop.unknowns]
         previous = self.names.fresh(f"previous_{number}")
         failure = f'"{loop.label}", {number - 1}, sweep, statistics)'
@@ -79,10 +84,12 @@ class Statements:
             yield f"        {difference} = abs({x} - {y})"
         yield from call("change = max", differences, 2)
         yield from call("scale = max", ["1.0", *(f"abs({x})" for x in now)], 2)
-        total = " + ".join(differences)
-        yield f"        if not isfinite({total}):"
+        pieces = (differences[0], *(f"+ {x}" for x in differences[1:]))
+        yield from indented("total = ", pieces, 2)
+        yield "        if not isfinite(total):"
         yield f"            raise _failed(NOT_FINITE, {failure}"
-        yield f"        if change <= {loop.tolerance!r} * scale and (change >= {previous} or change == 0.0):"
+        yield f"        settled = change >= {previous} or change == 0.0"
+        yield f"        if settled and change <= {loop.tolerance!r} * scale:"
         yield "            break"
         yield f"        {previous} = change"
         for x, y in zip(now, new, strict=True):
