@@ -42,7 +42,7 @@ class Emission:
             folder.mkdir(parents=True, exist_ok=True)
             entries = [e for e in entries_of(folder) if (e["module"], e["target"]) != self.key]
             texts = dict(self.files) | {MANIFEST: manifest_text([*entries, dict(self.manifest)])}
-            return [_replace(folder / name, text) for name, text in texts.items()]
+            return [write_text(folder / name, text) for name, text in texts.items()]
         except OSError as error:
             raise InputError(
                 f"cannot write there: {error.strerror}",
@@ -105,7 +105,8 @@ def read(directory: str | Path, module: str = "", target: str = "") -> Emission:
     return Emission(files, found[0])
 
 
-def _replace(path: Path, text: str) -> Path:
+def write_text(path: Path, text: str) -> Path:
+    """Write a file under a temporary name, then give it its own; return its path."""
     handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     try:
         with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:

@@ -1,17 +1,139 @@
-"""From scene and method to emitted files and a manifest entry; also from a bare kernel."""
+"""From scene and method to emitted files and a manifest entry; also from a bare kernel.
+
+The whole line of the compiler stands in :func:`compile_method`: lowering, passes, kernel. What is emitted says
+how it was made, so the same scene, method and options give the same bytes.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import PurePath
 from typing import Any
 
+from codegen import scenes
+from codegen.certify import certified_order
 from codegen.emission import Emission, digest
-from codegen.ir.kernel import Kernel
+from codegen.ir.domain import FloatDomain
+from codegen.ir.kernel import Kernel, Loop
+from codegen.ir.program import Program
+from codegen.lower import LOWERINGS, ON_COTANGENT, lower, setting
+from codegen.lower.kernel import to_kernel
+from codegen.method import Method, parse
+from codegen.passes import PassReport, optimise
 from codegen.printers import target as printer_of
 from codegen.printers.arrange import arrange
 from codegen.printers.interface import Interface
 from codegen.printers.operations import operations
 from codegen.printers.recipe import Recipe
+from codegen.scene import TIME, Setting
+from orderconds import __version__
+from orderconds.errors import InputError
+
+STEPS = 100
+"""How many steps the usage example makes over the scene's span."""
+
+
+@dataclass(frozen=True)
+class Compiled:
+    """A method on a scene, ready to be printed: the program before and after each pass, and the kernel."""
+
+    scene: Setting
+    method: Method
+    lowered: Program
+    program: Program
+    trace: tuple[PassReport, ...]
+    kernel: Kernel
+
+
+def families_for(scene: Setting) -> tuple[str, ...]:
+    """Return the families that serve a scene, those made for its kind first."""
+    first = tuple(f for f in LOWERINGS if f in ON_COTANGENT) if scene.is_hamiltonian else ()
+    rest = tuple(f for f in LOWERINGS if f not in ON_COTANGENT and (f != "rk" or scene.group.abelian))
+    return first + rest
+
+
+def compile_method(scene: Setting | str, method: Method | str, parameters: Sequence[str] = ()) -> Compiled:
+    """Return a method on a scene (or their names) lowered, optimised and made a kernel.
+
+    ``parameters`` stay run-time arguments; all others are folded at the scene's values. SceneError,
+    MethodError, UnknownName or TableauError for what cannot be read or does not fit.
+    """
+    if isinstance(scene, str):
+        scene = scenes.load(scene)
+    if parameters:
+        scene = scene.with_runtime(tuple(parameters))
+    if isinstance(method, str):
+        method = parse(method, families_for(scene))
+    view = setting(scene, method)
+    lowered = lower(scene, method)
+    program, trace = optimise(lowered, view)
+    return Compiled(scene, method, lowered, program, trace, to_kernel(program, view))
+
+
+def emit(
+    scene: Setting | str,
+    method: Method | str,
+    target: str = "c",
+    *,
+    prefix: str = "",
+    parameters: Sequence[str] = (),
+) -> Emission:
+    """Return the integrator of a method on a scene as a module of a target.
+
+    ``scene`` is a name of the gallery, the path of a Python file, or a setting; ``method`` is spelled
+    ``FAMILY:TABLEAU`` or ``TABLEAU``; ``prefix`` starts every external name, by default scene and method.
+    Errors as :func:`compile_method`, UnknownName for a target, InputError for a prefix that C cannot take.
+    """
+    printer_of(target)
+    named = {"scene": bare(scene) if isinstance(scene, str) else scene.name}
+    named["method"] = bare(method) if isinstance(method, str) else method.label
+    return emit_compiled(compile_method(scene, method, parameters), target, prefix, named)
+
+
+def emit_compiled(
+    compiled: Compiled, target: str, prefix: str = "", named: Mapping[str, str] | None = None
+) -> Emission:
+    """Return a compiled method as a module of a target; ``named`` spells scene and method for the command."""
+    scene, method = compiled.scene, compiled.method
+    named = named or {"scene": scene.name, "method": method.label}
+    chosen = prefix_of(prefix) if prefix else default_prefix(scene, method)
+    order = certified_order(method)
+    options = [f"--prefix {chosen}"] if prefix else []
+    options += [f"--parameter {p}" for p in scene.runtime]
+    words = ["orderconds emit", named["scene"], "--method", quoted(named["method"]), "--target", target]
+    command = " ".join([*words, *options, "-o", "."])
+    first, last = scene.span
+    recipe = Recipe(
+        title=f"{scene.title}: one step by {method.label}",
+        facts=(
+            ("method", f"family {method.family_label}, tableau {method.tableau.name}"),
+            ("source", method.tableau.source),
+            ("order", order.text()),
+            ("scene", f"{scene.title}, group {scene.group.name}"),
+        ),
+        initial=tuple(float(x) for x in scene.initial(FloatDomain(0.0))),
+        h=float((last - first) / STEPS),
+        steps=STEPS,
+        defaults={p: float(scene.parameters[p]) for p in scene.runtime},
+        left_out=left_out(compiled),
+        command=command,
+        version=__version__,
+    )
+    about = {
+        "scene": scene.name,
+        "method": method.label,
+        "family": method.family_label,
+        "tableau": method.tableau.name,
+        "source": method.tableau.source,
+        "order": order.order,
+        "certificate": order.certificate,
+        "initial": list(recipe.initial),
+        "span": [float(first), float(last)],
+        "left_out": list(recipe.left_out),
+    }
+    return emit_kernel(compiled.kernel, recipe, target, chosen, about)
 
 
 def emit_kernel(
@@ -36,3 +158,56 @@ def emit_kernel(
         "version": recipe.version,
     }
     return Emission(files, manifest)
+
+
+def left_out(compiled: Compiled) -> tuple[str, ...]:
+    """Say what the emitted step does not hold because this scene and method do not need it."""
+    kernel, scene = compiled.kernel, compiled.scene
+    lines: list[str] = []
+    for report in compiled.trace:
+        removed = [f"{n} {name}" for name, n in report.removed.items() if n > 0]
+        if removed:
+            lines.append(f"{', '.join(removed)} ({report.name})")
+    folded = [f"{name} = {x.text()}" for name, x in scene.parameters.items() if name not in scene.runtime]
+    if folded:
+        lines.append(f"parameters, folded: {', '.join(folded)}")
+    if TIME not in kernel.used_scalars():
+        lines.append("the time: the scene does not depend on it")
+    if not any(isinstance(s, Loop) for s in kernel.body):
+        lines.append("equation solving: every stage is explicit here")
+    return tuple(lines)
+
+
+def bare(name: str) -> str:
+    """Return a name without folders, so that no path reaches emitted text.
+
+    >>> bare("vcg:some/where/mine.toml"), bare("scenes/top.py")
+    ('vcg:mine.toml', 'top.py')
+    """
+    family, colon, rest = name.rpartition(":") if re.match(r"[a-z]+(\(\d+\))?:", name) else ("", "", name)
+    return f"{family}{colon}{PurePath(rest).name}"
+
+
+def quoted(word: str) -> str:
+    """Quote a word that a shell would read otherwise."""
+    return f"'{word}'" if re.search(r"[^\w.:/-]", word) else word
+
+
+def default_prefix(scene: Setting, method: Method) -> str:
+    """Return SCENE_FAMILY_TABLEAU_, without the family where the tableau's name says it.
+
+    A family's cut-off follows its name: ``free_rigid_body_rkmk2_rk4_``.
+    """
+    family = method.family + ("" if method.cutoff is None else str(method.cutoff))
+    tableau = method.tableau.name
+    parts = [scene.name, *([] if tableau.startswith(method.family) else [family]), tableau]
+    return prefix_of(re.sub(r"\W", "_", "_".join(parts), flags=re.ASCII))
+
+
+def prefix_of(name: str) -> str:
+    """Return a prefix that ends in one underscore; an InputError for what C cannot take as a name."""
+    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
+        raise InputError(
+            f"the prefix {name!r}", where="--prefix", expected="a letter, then letters, digits and _"
+        )
+    return name.rstrip("_") + "_"

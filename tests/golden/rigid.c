@@ -35,12 +35,11 @@
 static inline double stumpff_series_2(double z)
 {
     const double w = z * z;
+    const double w2 = w * w;
     double even = -2.08767569878681e-09 + w * -4.779477332387385e-14;
-    even = -2.48015873015873e-05 + w * even;
-    even = -0.041666666666666664 + w * even;
+    even = -0.041666666666666664 + w * -2.48015873015873e-05 + w2 * even;
     double odd = 1.1470745597729725e-11 + w * 1.5619206968586225e-16;
-    odd = 2.755731922398589e-07 + w * odd;
-    odd = 0.001388888888888889 + w * odd;
+    odd = 0.001388888888888889 + w * 2.755731922398589e-07 + w2 * odd;
     return 0.5 + z * (even + z * odd);
 }
 
@@ -48,12 +47,11 @@ static inline double stumpff_series_2(double z)
 static inline double stumpff_series_1(double z)
 {
     const double w = z * z;
+    const double w2 = w * w;
     double even = -2.505210838544172e-08 + w * -7.647163731819816e-13;
-    even = -0.0001984126984126984 + w * even;
-    even = -0.16666666666666666 + w * even;
+    even = -0.16666666666666666 + w * -0.0001984126984126984 + w2 * even;
     double odd = 1.6059043836821613e-10 + w * 2.8114572543455206e-15;
-    odd = 2.7557319223985893e-06 + w * odd;
-    odd = 0.008333333333333333 + w * odd;
+    odd = 0.008333333333333333 + w * 2.7557319223985893e-06 + w2 * odd;
     return 1.0 + z * (even + z * odd);
 }
 

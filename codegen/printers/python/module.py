@@ -8,7 +8,7 @@ from codegen.printers.interface import Interface
 from codegen.printers.layout import layout, register
 from codegen.printers.names import Names
 from codegen.printers.operations import operations, sentences
-from codegen.printers.python.statements import RESERVED, Statements
+from codegen.printers.python.statements import RESERVED, WIDTH, Statements, listed
 from codegen.printers.recipe import Recipe, header
 from codegen.snippets.graph import needed
 from codegen.templates import environment
@@ -46,17 +46,27 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             blocks=interface.blocks,
             size=interface.size,
             time=interface.time,
-            state=[names.spelled[s] for s in symbols],
+            state=unpacking([names.spelled[s] for s in symbols]),
             inner=", ".join(["state", *time, "h", *parameters, *statistics]),
             step=", ".join(["state", *time, "h", *arguments, *keywords(optional)]),
             run=", ".join(["state", *time, "h", "steps", *arguments, *keywords(["stride=0", *optional])]),
             once=", ".join(["state", *time, "h", "1", *parameters, *(f"{n}={n}" for n in statistics)]),
             passed=", ".join(["h", *parameters, *statistics]),
             body=[*body, *ends],
-            new=new,
+            new=listed("return ", new, 1),
         )
     )
     return {f"{interface.module}.py": text}
+
+
+def unpacking(symbols: list[str]) -> list[str]:
+    """Return the lines that give the numbers of a state their names."""
+    lines = listed("", symbols, 1)
+    return (
+        [*lines[:-1], f"{lines[-1]} = state"]
+        if len(f"{lines[-1]} = state") <= WIDTH
+        else ["    (", *(f"        {symbol}," for symbol in symbols), "    ) = state"]
+    )
 
 
 def keywords(arguments: list[str]) -> list[str]:

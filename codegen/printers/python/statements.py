@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import keyword
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from codegen.ir.expr import Expr
 from codegen.printers.arrange import Arrangement, Assignment, Iteration, Joint
@@ -121,4 +121,15 @@ def indented(start: str, pieces: tuple[str, ...], depth: int) -> list[str]:
     line = f"{space}{start}{' '.join(pieces)}"
     if len(line) <= WIDTH or len(pieces) == 1:
         return [line]
-    return [f"{space}{start}(", *(f"{space}    {piece}" for piece in pieces), f"{space})"]
+    inner = f"{space}    {' '.join(pieces)}"
+    lines = [inner] if len(inner) <= WIDTH else [f"{space}    {piece}" for piece in pieces]
+    return [f"{space}{start}(", *lines, f"{space})"]
+
+
+def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
+    """Return start and a tuple of terms: bare on one line, else in parentheses with a term a line."""
+    space = "    " * depth
+    line = f"{space}{start}{', '.join(terms)}{',' if len(terms) == 1 else ''}"
+    if len(line) <= WIDTH:
+        return [line]
+    return [f"{space}{start}(", *(f"{space}    {term}," for term in terms), f"{space})"]

@@ -1,0 +1,40 @@
+"""The order of a method as its header states it: computed by ``orderconds.check``, never copied from a claim."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from codegen.errors import MethodError
+from codegen.method import Method
+
+
+@dataclass(frozen=True)
+class CertifiedOrder:
+    """An order with how it is known; ``bound`` says that the search ended before a condition failed."""
+
+    order: int
+    certificate: str
+    bound: bool = False
+
+    def text(self) -> str:
+        """Say it in words."""
+        how = {
+            "exact": "every order condition up to it is zero in exact arithmetic",
+            "decimal": "what the printed digits of the coefficients support",
+        }
+        least = "at least " if self.bound else ""
+        explained = f" ({how[self.certificate]})" if self.certificate in how else ""
+        return f"{least}{self.order}, certificate: {self.certificate}{explained}"
+
+
+def certified_order(method: Method) -> CertifiedOrder:
+    """Return the order of a method in its family; a MethodError where it cannot be decided."""
+    from orderconds.check import check
+
+    (found,) = check(method.tableau, family=method.family_label).orders
+    if not found.decided:
+        raise MethodError(
+            f"the order of {method.label} is undecided beyond {found.order}",
+            expected="coefficients with more digits",
+        )
+    return CertifiedOrder(found.order, found.certificate, found.limit is not None)

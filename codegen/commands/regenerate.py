@@ -1,0 +1,50 @@
+"""``orderconds regenerate``: rewrite the folder of emitted modules, or check it to the byte."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from orderconds.commands import screen
+
+
+@click.command(name="regenerate", short_help="Rewrite generated/, or check it to the byte.")
+@click.option("--check", "check_only", is_flag=True, help="Change nothing; exit 1 on a byte of difference.")
+@click.option("--output", "-o", metavar="DIR", help="The folder; by default generated/ of the source tree.")
+@click.option("--list", "listing", metavar="FILE", help="The list of modules, by default regenerate.toml.")
+@click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
+def command(check_only: bool, output: str | None, listing: str | None, as_json: bool) -> int:
+    """Rewrite the emitted modules that regenerate.toml lists; with --check say which files differ.
+
+    Files that nothing on the list makes are stale: they are removed, or reported.
+    """
+    from codegen.regenerate import LIST, compare, contents, entries, write
+
+    directory = Path(output) if output is not None else source_folder()
+    files = contents(entries(Path(listing) if listing is not None else LIST))
+    differences = compare(directory, files) if check_only else write(directory, files)
+    if as_json:
+        screen.print_json(
+            {
+                "directory": str(directory),
+                "files": len(files),
+                "differences": [{"file": d.path, "kind": d.kind} for d in differences],
+            }
+        )
+    else:
+        for difference in differences:
+            click.echo(f"{directory / difference.path}: {difference.kind}")
+        count = f"{len(differences)} of {len(files)} files"
+        said = "differ; type: orderconds regenerate" if differences else "differ"
+        click.echo(f"{count} {said}" if check_only else f"{count} rewritten in {directory}")
+    return 1 if check_only and differences else 0
+
+
+def source_folder() -> Path:
+    """Return ``generated/`` beside the source tree's pyproject.toml, or say that -o is needed."""
+    root = Path(__file__).resolve().parents[2]
+    pyproject = root / "pyproject.toml"
+    if pyproject.is_file() and 'name = "orderconds"' in pyproject.read_text(encoding="utf-8").splitlines():
+        return root / "generated"
+    raise click.UsageError("this is not a source tree: say with -o which folder to regenerate")

@@ -1,0 +1,107 @@
+"""The folder ``generated/``: what stands in it is what ``regenerate.toml`` lists, to the byte."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from codegen.emission import MANIFEST, Emission, manifest_text, write_text
+from codegen.emit import compile_method, emit_compiled
+from orderconds.errors import InputError
+
+LIST = Path(__file__).with_name("regenerate.toml")
+KEYS = ("scene", "method", "targets")
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One line of the list: a method on a scene, and the targets it is kept in."""
+
+    scene: str
+    method: str
+    targets: tuple[str, ...]
+
+    def emissions(self) -> list[Emission]:
+        """Return the modules of this entry."""
+        compiled = compile_method(self.scene, self.method)
+        named = {"scene": self.scene, "method": self.method}
+        return [emit_compiled(compiled, target, "", named) for target in self.targets]
+
+
+def entries(path: Path = LIST) -> list[Entry]:
+    """Return the list; an InputError names the entry that cannot be read."""
+    try:
+        modules = tomllib.loads(path.read_text(encoding="utf-8")).get("module", [])
+    except FileNotFoundError:
+        raise InputError("no such file", where=str(path), expected="a list of modules") from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"this is not TOML: {error}", where=str(path)) from None
+    found = []
+    for number, module in enumerate(modules):
+        if not isinstance(module, dict) or sorted(module) != sorted(KEYS):
+            raise InputError(
+                f"module {number + 1} has the keys {', '.join(sorted(module))}",
+                where=str(path),
+                expected=", ".join(KEYS),
+            )
+        found.append(Entry(module["scene"], module["method"], tuple(module["targets"])))
+    return found
+
+
+def contents(listed: list[Entry]) -> dict[str, str]:
+    """Return every file that belongs in the folder, by its path within it, manifests included."""
+    files: dict[str, str] = {}
+    manifests: dict[str, list[dict[str, Any]]] = {}
+    for entry in listed:
+        for emission in entry.emissions():
+            folder = Path(entry.scene).stem
+            manifests.setdefault(folder, []).append(dict(emission.manifest))
+            for name, text in emission.files.items():
+                if files.setdefault(f"{folder}/{name}", text) != text:
+                    raise InputError(f"two modules want the file {name}", where=str(LIST))
+    for folder, manifest in manifests.items():
+        files[f"{folder}/{MANIFEST}"] = manifest_text(manifest)
+    return dict(sorted(files.items()))
+
+
+@dataclass(frozen=True)
+class Difference:
+    """A file that is not as it should be: ``missing``, ``different`` or ``stale`` (nothing makes it)."""
+
+    path: str
+    kind: str
+
+
+def compare(directory: Path, files: dict[str, str]) -> list[Difference]:
+    """Return what differs between the folder and the files that belong in it, by path."""
+    there = {p.relative_to(directory).as_posix() for p in directory.rglob("*") if p.is_file()}
+    found = [Difference(path, "stale") for path in sorted(there - files.keys()) if not ignored(path)]
+    for path, text in files.items():
+        if path not in there:
+            found.append(Difference(path, "missing"))
+        elif (directory / path).read_bytes() != text.encode():
+            found.append(Difference(path, "different"))
+    return sorted(found, key=lambda d: d.path)
+
+
+def ignored(path: str) -> bool:
+    """Whether a file is a by-product of running what stands beside it."""
+    return "__pycache__" in path.split("/")
+
+
+def write(directory: Path, files: dict[str, str]) -> list[Difference]:
+    """Make the folder hold these files and no others; return what was changed."""
+    changed = compare(directory, files)
+    try:
+        for difference in changed:
+            path = directory / difference.path
+            if difference.kind == "stale":
+                path.unlink()
+                continue
+            path.parent.mkdir(parents=True, exist_ok=True)
+            write_text(path, files[difference.path])
+    except OSError as error:
+        raise InputError(f"cannot write there: {error.strerror}", where=str(directory)) from None
+    return changed
