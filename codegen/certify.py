@@ -1,4 +1,4 @@
-"""The order of a method as its header states it: computed by ``orderconds.check``, never copied from a claim."""
+"""The order that a header states: computed by ``orderconds.check``, never copied from a claim."""
 
 from __future__ import annotations
 

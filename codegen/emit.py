@@ -1,7 +1,7 @@
 """From scene and method to emitted files and a manifest entry; also from a bare kernel.
 
-The whole line of the compiler stands in :func:`compile_method`: lowering, passes, kernel. What is emitted says
-how it was made, so the same scene, method and options give the same bytes.
+The whole line of the compiler stands in :func:`compile_method`: lowering, passes, kernel. What is emitted
+says how it was made, so the same scene, method and options give the same bytes.
 """
 
 from __future__ import annotations
