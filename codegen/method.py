@@ -62,7 +62,7 @@ class Method:
         return method
 
     def commutator_free(self) -> CommutatorFree:
-        """Return stages and update as products of exponentials; a Butcher tableau reads as Crouch-Grossman.
+        """Return stages and update as products of exponentials, a Butcher tableau as Crouch-Grossman.
 
         A Crouch-Grossman method is given by a Butcher tableau only.
         """

@@ -1,0 +1,448 @@
+/*
+ * Dipole on a stick, T*SO(3) (thesis section 3.6): one step by vcg:midpoint
+ *
+ * method:     family vcg, tableau midpoint
+ * source:     Table 3.2a of Bogfjellmo and Marthinsen
+ * order:      2, certificate: exact (every order condition up to it is zero in exact arithmetic)
+ * scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
+ * state:      [0..8] q: element of SO(3), row by row
+ *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
+ * left out:   3 Adtinv, 2 mul (zeros)
+ *             1 identity (sharing)
+ *             1 identity (dead code)
+ *             1 dexpt (factors)
+ *             1 lin (sharing)
+ *             parameters, folded: beta = 1
+ *             the time: the scene does not depend on it
+ * operations: 114 add, 178 mul, 2 sqrt, 6 div, 1 stumpff_12 a step
+ *             148 add, 230 mul, 6 div, 2 sqrt, 1 stumpff_12, 2 stumpff_23 a sweep of the equations
+ *             of xi1, n1
+ * made by:    orderconds emit dipole --method vcg:midpoint --target c -o .
+ * version:    orderconds 0.1.0
+ *
+ * Build: cc -std=c11 -O2 -ffp-contract=off -c dipole_vcg_midpoint.c
+ * Use:
+ *
+ *     #include "dipole_vcg_midpoint.h"
+ *     #include <stdio.h>
+ *
+ *     int main(void)
+ *     {
+ *         double state[12] = {1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.01, 0.0};
+ *         size_t completed;
+ *         const int status = dipole_vcg_midpoint_run(state, 0.005, 100, NULL, 0, NULL, &completed);
+ *         printf("status %d after %zu steps\n", status, completed);
+ *         for (int i = 0; i < 12; i++) {
+ *             printf("%.17g\n", state[i]);
+ *         }
+ *         return status;
+ *     }
+ */
+#include "dipole_vcg_midpoint.h"
+
+#include <math.h>
+#include <string.h>
+
+/* c_3(z) = sum (-z)^j/(2j+3)! for small z */
+static inline double stumpff_series_3(double z)
+{
+    const double w = z * z;
+    const double w2 = w * w;
+    double even = -1.9572941063391263e-20;
+    even = -1.6059043836821613e-10 + w * -2.8114572543455206e-15 + w2 * even;
+    even = -0.008333333333333333 + w * -2.7557319223985893e-06 + w2 * even;
+    double odd = 3.868170170630684e-23;
+    odd = 7.647163731819816e-13 + w * 8.22063524662433e-18 + w2 * odd;
+    odd = 0.0001984126984126984 + w * 2.505210838544172e-08 + w2 * odd;
+    return 0.16666666666666666 + z * (even + z * odd);
+}
+
+/* c_2(z) = sum (-z)^j/(2j+2)! for small z */
+static inline double stumpff_series_2(double z)
+{
+    const double w = z * z;
+    const double w2 = w * w;
+    double even = -2.08767569878681e-09 + w * -4.779477332387385e-14;
+    even = -0.041666666666666664 + w * -2.48015873015873e-05 + w2 * even;
+    double odd = 1.1470745597729725e-11 + w * 1.5619206968586225e-16;
+    odd = 0.001388888888888889 + w * 2.755731922398589e-07 + w2 * odd;
+    return 0.5 + z * (even + z * odd);
+}
+
+/* c_1(z) = sum (-z)^j/(2j+1)! for small z */
+static inline double stumpff_series_1(double z)
+{
+    const double w = z * z;
+    const double w2 = w * w;
+    double even = -2.505210838544172e-08 + w * -7.647163731819816e-13;
+    even = -0.16666666666666666 + w * -0.0001984126984126984 + w2 * even;
+    double odd = 1.6059043836821613e-10 + w * 2.8114572543455206e-15;
+    odd = 0.008333333333333333 + w * 2.7557319223985893e-06 + w2 * odd;
+    return 1.0 + z * (even + z * odd);
+}
+
+/* For z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
+static inline void stumpff_23(double z, double *c2, double *c3)
+{
+    if (z <= 1.0) {
+        *c2 = stumpff_series_2(z);
+        *c3 = stumpff_series_3(z);
+        return;
+    }
+    const double half = 0.5 * sqrt(z);
+    const double sine = sin(half);
+    const double cosine = cos(half);
+    const double ratio = sine / half;
+    *c2 = 0.5 * (ratio * ratio);
+    *c3 = z <= 4.0 ? stumpff_series_3(z) : (1.0 - ratio * cosine) / z;
+}
+
+/* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
+static inline void stumpff_12(double z, double *c1, double *c2)
+{
+    if (z <= 1.0) {
+        *c1 = stumpff_series_1(z);
+        *c2 = stumpff_series_2(z);
+        return;
+    }
+    const double half = 0.5 * sqrt(z);
+    const double sine = sin(half);
+    const double cosine = cos(half);
+    const double ratio = sine / half;
+    *c1 = ratio * cosine;
+    *c2 = 0.5 * (ratio * ratio);
+}
+
+static inline double greater(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static void count_sweeps(dipole_vcg_midpoint_statistics *statistics, size_t block, size_t sweeps, int failed)
+{
+    if (statistics == NULL) {
+        return;
+    }
+    statistics->sweeps[block] += sweeps;
+    if (sweeps > statistics->most) {
+        statistics->most = sweeps;
+    }
+    if (failed) {
+        statistics->failed = block + 1;
+    }
+}
+
+static inline int advance(double state[static 12], double h,
+    dipole_vcg_midpoint_statistics *statistics)
+{
+    if (!isfinite(h)) {
+        return DIPOLE_VCG_MIDPOINT_BAD_STEP;
+    }
+    const double g00 = state[0];
+    const double g01 = state[1];
+    const double g02 = state[2];
+    const double g10 = state[3];
+    const double g11 = state[4];
+    const double g12 = state[5];
+    const double g20 = state[6];
+    const double g21 = state[7];
+    const double g22 = state[8];
+    const double mu0 = state[9];
+    const double mu1 = state[10];
+    const double mu2 = state[11];
+    const double w1 = 100.0 * g22;
+    const double w2 = 100.0 * g02;
+    const double w3 = 100.0 * g12;
+    const double w4 = mu0 * w2 + mu1 * w3 + mu2 * w1;
+    const double w5 = 0.9900990099009901 * g20;
+    const double w6 = 0.9900990099009901 * g00;
+    const double w7 = 0.9900990099009901 * g10;
+    const double w8 = mu0 * w6 + mu1 * w7 + mu2 * w5;
+    const double w9 = g01 * mu0 + g11 * mu1 + g21 * mu2;
+    const double w10 = 0.5 * mu0;
+    const double w11 = 0.5 * mu1;
+    const double w12 = 0.5 * mu2;
+    const double w13 = g01 * w10 + g11 * w11 + g21 * w12;
+    const double w14 = g00 * w10 + g10 * w11 + g20 * w12;
+    const double w15 = 0.5 * (g00 * w8 + g01 * w9 + g02 * w4) + g01 * w13 + w6 * w14;
+    const double w16 = g02 * w10 + g12 * w11 + g22 * w12;
+    const double w17 = 0.5 * (g10 * w8 + g11 * w9 + g12 * w4) + g11 * w13 + w7 * w14;
+    const double w18 = 0.5 * (g20 * w8 + g21 * w9 + g22 * w4) + g21 * w13 + w5 * w14;
+    const double w19 = w8 * w11 + 0.9900990099009901 * (mu1 * w14);
+    const double w20 = 1.5 + 0.1 * g21 - g22;
+    const double w21 = 0.1 * g01 - g02;
+    const double w22 = 0.1 * g11 - g12;
+    const double w23 = sqrt(w21 * w21 + w22 * w22 + w20 * w20);
+    const double w24 = 1.0 / w23 / w23 * (0.5 / w23);
+    const double w25 = 2.0 * w22 * w24;
+    const double w26 = 1.5 - 0.1 * g21 - g22;
+    const double w27 = -0.1 * g01 - g02;
+    const double w28 = -0.1 * g11 - g12;
+    const double w29 = sqrt(w27 * w27 + w28 * w28 + w26 * w26);
+    const double w30 = -1.0 / w29 / w29 * (0.5 / w29);
+    const double w31 = 2.0 * w28 * w30;
+    const double w32 = 0.1 * w31 - 0.1 * w25 + w9 * w11 + mu1 * w13;
+    const double w33 = w25 + w31 + w4 * w11 + 100.0 * (mu1 * w16);
+    const double w34 = w8 * w12 + 0.9900990099009901 * (mu2 * w14);
+    const double w35 = 2.0 * w20 * w24;
+    const double w36 = 2.0 * w26 * w30;
+    const double w37 = 0.1 * w36 - 0.1 * w35 + w9 * w12 + mu2 * w13;
+    const double w38 = w35 - 1.0 + w36 + w4 * w12 + 100.0 * (mu2 * w16);
+    const double n0_0 = g20 * w19 + g21 * w32 + g22 * w33 - g10 * w34 - g11 * w37 - g12 * w38;
+    const double w39 = w8 * w10 + 0.9900990099009901 * (mu0 * w14);
+    const double w40 = 2.0 * w21 * w24;
+    const double w41 = 2.0 * w27 * w30;
+    const double w42 = 0.1 * w41 - 0.1 * w40 + w9 * w10 + mu0 * w13;
+    const double w43 = w40 + w41 + w4 * w10 + 100.0 * (mu0 * w16);
+    const double n0_1 = g00 * w34 - (g20 * w39 + g21 * w42 + g22 * w43) + g01 * w37 + g02 * w38;
+    const double n0_2 = g10 * w39 + g11 * w42 + g12 * w43 - g00 * w19 - g01 * w32 - g02 * w33;
+    const double w44 = 0.5 * h;
+    const double w68 = -0.5 * h;
+    /* the equations of xi1, n1: fixed point in xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2 */
+    double xi1_0 = w15 + w2 * w16;
+    double xi1_1 = w17 + w3 * w16;
+    double xi1_2 = w18 + w1 * w16;
+    double n1_0 = n0_0;
+    double n1_1 = n0_1;
+    double n1_2 = n0_2;
+    double s_mu_2, s_mu_0, s_mu_1, f1_0, f1_1, f1_2;
+    double previous_1 = INFINITY;
+    for (size_t sweep = 1;; sweep++) {
+        const double xE1_1_1 = xi1_1 * w44;
+        const double xE1_1_0 = xi1_0 * w44;
+        const double xE1_1_2 = xi1_2 * w44;
+        const double w45 = xE1_1_0 * xE1_1_0 + xE1_1_1 * xE1_1_1 + xE1_1_2 * xE1_1_2;
+        double c1_1, c2_1;
+        stumpff_12(w45, &c1_1, &c2_1);
+        const double w47 = xE1_1_1 * c2_1;
+        const double w48 = xE1_1_1 * w47;
+        const double w49 = xE1_1_2 * c2_1 * xE1_1_2;
+        const double gE1_1_0 = 1.0 - (w48 + w49);
+        const double w50 = xE1_1_0 * c2_1;
+        const double w51 = xE1_1_1 * w50;
+        const double w53 = xE1_1_2 * c1_1;
+        const double gE1_1_1 = w51 - w53;
+        const double w54 = xE1_1_1 * c1_1;
+        const double w55 = xE1_1_2 * w50;
+        const double gE1_1_2 = w54 + w55;
+        const double Q1_2 = g02 * gE1_1_0 + g12 * gE1_1_1 + g22 * gE1_1_2;
+        const double w56 = xE1_1_2 * w47;
+        const double w57 = xE1_1_0 * c1_1;
+        const double gE1_1_5 = w56 - w57;
+        const double w58 = xE1_1_0 * w50;
+        const double gE1_1_8 = 1.0 - (w48 + w58);
+        const double nu1_2 = n1_0 * gE1_1_2 + n1_1 * gE1_1_5 + n1_2 * gE1_1_8;
+        s_mu_2 = mu2 + h * nu1_2;
+        const double w59 = h * xi1_0;
+        const double w60 = h * xi1_1;
+        const double w61 = h * xi1_2;
+        const double w62 = w59 * w59 + w60 * w60 + w61 * w61;
+        double c2_2, c3_1;
+        stumpff_23(w62, &c2_2, &c3_1);
+        const double gE1_1_3 = w51 + w53;
+        const double gE1_1_6 = w55 - w54;
+        const double nu1_0 = n1_0 * gE1_1_0 + n1_1 * gE1_1_3 + n1_2 * gE1_1_6;
+        s_mu_0 = mu0 + h * nu1_0;
+        const double gE1_1_4 = 1.0 - (w49 + w58);
+        const double gE1_1_7 = w56 + w57;
+        const double nu1_1 = n1_0 * gE1_1_1 + n1_1 * gE1_1_4 + n1_2 * gE1_1_7;
+        s_mu_1 = mu1 + h * nu1_1;
+        const double w64 = w60 * s_mu_0 - w59 * s_mu_1;
+        const double w66 = w61 * s_mu_1 - s_mu_2 * w60;
+        const double w67 = s_mu_2 * w59 - w61 * s_mu_0;
+        const double y1_2_0 = xi1_0 * w68;
+        const double y1_2_1 = xi1_1 * w68;
+        const double y1_2_2 = xi1_2 * w68;
+        const double w69 = y1_2_0 * y1_2_0 + y1_2_1 * y1_2_1 + y1_2_2 * y1_2_2;
+        double c2_3, c3_2;
+        stumpff_23(w69, &c2_3, &c3_2);
+        const double w71 = nu1_1 * y1_2_0 - nu1_0 * y1_2_1;
+        const double w73 = nu1_0 * y1_2_2 - nu1_2 * y1_2_0;
+        const double w74 = nu1_2 * y1_2_1 - nu1_1 * y1_2_2;
+        const double M1_2 = s_mu_2 - w64 * c2_2 + (w60 * w66 - w59 * w67) * c3_1
+            + w68 * (nu1_2 - w71 * c2_3 + (y1_2_0 * w73 - y1_2_1 * w74) * c3_2);
+        const double Q1_8 = g02 * gE1_1_6 + g12 * gE1_1_7 + g22 * gE1_1_8;
+        const double w75 = 100.0 * Q1_8;
+        const double M1_0 = s_mu_0 - w66 * c2_2 + (w61 * w67 - w60 * w64) * c3_1
+            + w68 * (nu1_0 - w74 * c2_3 + (y1_2_1 * w71 - y1_2_2 * w73) * c3_2);
+        const double w76 = 100.0 * Q1_2;
+        const double M1_1 = s_mu_1 - w67 * c2_2 + (w59 * w64 - w61 * w66) * c3_1
+            + w68 * (nu1_1 - w73 * c2_3 + (y1_2_2 * w74 - y1_2_0 * w71) * c3_2);
+        const double Q1_5 = g02 * gE1_1_3 + g12 * gE1_1_4 + g22 * gE1_1_5;
+        const double w77 = 100.0 * Q1_5;
+        const double w78 = M1_0 * w76 + M1_1 * w77 + M1_2 * w75;
+        const double Q1_0 = g00 * gE1_1_0 + g10 * gE1_1_1 + g20 * gE1_1_2;
+        const double Q1_6 = g00 * gE1_1_6 + g10 * gE1_1_7 + g20 * gE1_1_8;
+        const double w79 = 0.9900990099009901 * Q1_6;
+        const double w80 = 0.9900990099009901 * Q1_0;
+        const double Q1_3 = g00 * gE1_1_3 + g10 * gE1_1_4 + g20 * gE1_1_5;
+        const double w81 = 0.9900990099009901 * Q1_3;
+        const double w82 = M1_0 * w80 + M1_1 * w81 + M1_2 * w79;
+        const double Q1_1 = g01 * gE1_1_0 + g11 * gE1_1_1 + g21 * gE1_1_2;
+        const double Q1_7 = g01 * gE1_1_6 + g11 * gE1_1_7 + g21 * gE1_1_8;
+        const double Q1_4 = g01 * gE1_1_3 + g11 * gE1_1_4 + g21 * gE1_1_5;
+        const double w83 = M1_0 * Q1_1 + M1_1 * Q1_4 + M1_2 * Q1_7;
+        const double w84 = 0.5 * M1_0;
+        const double w85 = 0.5 * M1_1;
+        const double w86 = 0.5 * M1_2;
+        const double w87 = Q1_1 * w84 + Q1_4 * w85 + Q1_7 * w86;
+        const double w88 = Q1_0 * w84 + Q1_3 * w85 + Q1_6 * w86;
+        const double w89 = 0.5 * (Q1_0 * w82 + Q1_1 * w83 + Q1_2 * w78) + Q1_1 * w87 + w80 * w88;
+        const double w90 = Q1_2 * w84 + Q1_5 * w85 + Q1_8 * w86;
+        f1_0 = w89 + w76 * w90;
+        const double w91 = 0.5 * (Q1_3 * w82 + Q1_4 * w83 + Q1_5 * w78) + Q1_4 * w87 + w81 * w88;
+        f1_1 = w91 + w77 * w90;
+        const double w92 = 0.5 * (Q1_6 * w82 + Q1_7 * w83 + Q1_8 * w78) + Q1_7 * w87 + w79 * w88;
+        f1_2 = w92 + w75 * w90;
+        const double w93 = w82 * w85 + 0.9900990099009901 * (M1_1 * w88);
+        const double w94 = 1.5 + 0.1 * Q1_7 - Q1_8;
+        const double w95 = 0.1 * Q1_1 - Q1_2;
+        const double w96 = 0.1 * Q1_4 - Q1_5;
+        const double w97 = sqrt(w95 * w95 + w96 * w96 + w94 * w94);
+        const double w98 = 1.0 / w97 / w97 * (0.5 / w97);
+        const double w99 = 2.0 * w96 * w98;
+        const double w100 = 1.5 - 0.1 * Q1_7 - Q1_8;
+        const double w101 = -0.1 * Q1_1 - Q1_2;
+        const double w102 = -0.1 * Q1_4 - Q1_5;
+        const double w103 = sqrt(w101 * w101 + w102 * w102 + w100 * w100);
+        const double w104 = -1.0 / w103 / w103 * (0.5 / w103);
+        const double w105 = 2.0 * w102 * w104;
+        const double w106 = 0.1 * w105 - 0.1 * w99 + w83 * w85 + M1_1 * w87;
+        const double w107 = w99 + w105 + w78 * w85 + 100.0 * (M1_1 * w90);
+        const double w108 = w82 * w86 + 0.9900990099009901 * (M1_2 * w88);
+        const double w109 = 2.0 * w94 * w98;
+        const double w110 = 2.0 * w100 * w104;
+        const double w111 = 0.1 * w110 - 0.1 * w109 + w83 * w86 + M1_2 * w87;
+        const double w112 = w109 - 1.0 + w110 + w78 * w86 + 100.0 * (M1_2 * w90);
+        const double r1_0 = Q1_6 * w93 + Q1_7 * w106 + Q1_8 * w107 - Q1_3 * w108 - Q1_4 * w111
+            - Q1_5 * w112;
+        const double w113 = w82 * w84 + 0.9900990099009901 * (M1_0 * w88);
+        const double w114 = 2.0 * w95 * w98;
+        const double w115 = 2.0 * w101 * w104;
+        const double w116 = 0.1 * w115 - 0.1 * w114 + w83 * w84 + M1_0 * w87;
+        const double w117 = w114 + w115 + w78 * w84 + 100.0 * (M1_0 * w90);
+        const double r1_1 = Q1_0 * w108 - (Q1_6 * w113 + Q1_7 * w116 + Q1_8 * w117) + Q1_1 * w111
+            + Q1_2 * w112;
+        const double r1_2 = Q1_3 * w113 + Q1_4 * w116 + Q1_5 * w117 - Q1_0 * w93 - Q1_1 * w106
+            - Q1_2 * w107;
+        const double change_xi1_0 = fabs(f1_0 - xi1_0);
+        const double change_xi1_1 = fabs(f1_1 - xi1_1);
+        const double change_xi1_2 = fabs(f1_2 - xi1_2);
+        const double change_n1_0 = fabs(r1_0 - n1_0);
+        const double change_n1_1 = fabs(r1_1 - n1_1);
+        const double change_n1_2 = fabs(r1_2 - n1_2);
+        const double change = greater(greater(change_xi1_0, greater(change_xi1_1, change_xi1_2)),
+            greater(change_n1_0, greater(change_n1_1, change_n1_2)));
+        const double scale = greater(greater(1.0, greater(fabs(xi1_0), fabs(xi1_1))),
+            greater(greater(fabs(xi1_2), fabs(n1_0)), greater(fabs(n1_1), fabs(n1_2))));
+        if (!isfinite(change_xi1_0 + change_xi1_1 + change_xi1_2 + change_n1_0 + change_n1_1
+            + change_n1_2)) {
+            count_sweeps(statistics, 0, sweep, 1);
+            return DIPOLE_VCG_MIDPOINT_NOT_FINITE;
+        }
+        if (change <= 5.684341886080802e-14 * scale && (change >= previous_1 || change <= 0.0)) {
+            count_sweeps(statistics, 0, sweep, 0);
+            break;
+        }
+        if (sweep == 100) {
+            count_sweeps(statistics, 0, sweep, 1);
+            return DIPOLE_VCG_MIDPOINT_NOT_CONVERGED;
+        }
+        previous_1 = change;
+        xi1_0 = f1_0;
+        xi1_1 = f1_1;
+        xi1_2 = f1_2;
+        n1_0 = r1_0;
+        n1_1 = r1_1;
+        n1_2 = r1_2;
+    }
+    const double xe1_1 = h * f1_1;
+    const double xe1_0 = h * f1_0;
+    const double xe1_2 = h * f1_2;
+    const double w118 = xe1_0 * xe1_0 + xe1_1 * xe1_1 + xe1_2 * xe1_2;
+    double c1_2, c2_4;
+    stumpff_12(w118, &c1_2, &c2_4);
+    const double w120 = xe1_1 * c2_4;
+    const double w121 = xe1_1 * w120;
+    const double w122 = xe1_2 * c2_4 * xe1_2;
+    const double ge1_0 = 1.0 - (w121 + w122);
+    const double w123 = xe1_0 * c2_4;
+    const double w124 = xe1_1 * w123;
+    const double w126 = xe1_2 * c1_2;
+    const double ge1_1 = w124 - w126;
+    const double w127 = xe1_1 * c1_2;
+    const double w128 = xe1_2 * w123;
+    const double ge1_2 = w127 + w128;
+    const double ge1_3 = w124 + w126;
+    const double w129 = xe1_0 * w123;
+    const double ge1_4 = 1.0 - (w122 + w129);
+    const double w130 = xe1_2 * w120;
+    const double w131 = xe1_0 * c1_2;
+    const double ge1_5 = w130 - w131;
+    const double ge1_6 = w128 - w127;
+    const double ge1_7 = w130 + w131;
+    const double ge1_8 = 1.0 - (w121 + w129);
+    const double new_g00 = g00 * ge1_0 + g10 * ge1_1 + g20 * ge1_2;
+    const double new_g01 = g01 * ge1_0 + g11 * ge1_1 + g21 * ge1_2;
+    const double new_g02 = g02 * ge1_0 + g12 * ge1_1 + g22 * ge1_2;
+    const double new_g10 = g00 * ge1_3 + g10 * ge1_4 + g20 * ge1_5;
+    const double new_g11 = g01 * ge1_3 + g11 * ge1_4 + g21 * ge1_5;
+    const double new_g12 = g02 * ge1_3 + g12 * ge1_4 + g22 * ge1_5;
+    const double new_g20 = g00 * ge1_6 + g10 * ge1_7 + g20 * ge1_8;
+    const double new_g21 = g01 * ge1_6 + g11 * ge1_7 + g21 * ge1_8;
+    const double new_g22 = g02 * ge1_6 + g12 * ge1_7 + g22 * ge1_8;
+    const double new_mu0 = s_mu_0 * ge1_0 + s_mu_1 * ge1_1 + s_mu_2 * ge1_2;
+    const double new_mu1 = s_mu_0 * ge1_3 + s_mu_1 * ge1_4 + s_mu_2 * ge1_5;
+    const double new_mu2 = s_mu_0 * ge1_6 + s_mu_1 * ge1_7 + s_mu_2 * ge1_8;
+    if (!(isfinite(new_g00) && isfinite(new_g01) && isfinite(new_g02) && isfinite(new_g10)
+        && isfinite(new_g11) && isfinite(new_g12) && isfinite(new_g20) && isfinite(new_g21)
+        && isfinite(new_g22) && isfinite(new_mu0) && isfinite(new_mu1) && isfinite(new_mu2))) {
+        return DIPOLE_VCG_MIDPOINT_NOT_FINITE;
+    }
+    state[0] = new_g00;
+    state[1] = new_g01;
+    state[2] = new_g02;
+    state[3] = new_g10;
+    state[4] = new_g11;
+    state[5] = new_g12;
+    state[6] = new_g20;
+    state[7] = new_g21;
+    state[8] = new_g22;
+    state[9] = new_mu0;
+    state[10] = new_mu1;
+    state[11] = new_mu2;
+    return DIPOLE_VCG_MIDPOINT_OK;
+}
+
+int dipole_vcg_midpoint_step(double state[static 12], double h,
+    dipole_vcg_midpoint_statistics *statistics)
+{
+    return advance(state, h, statistics);
+}
+
+int dipole_vcg_midpoint_run(double state[static 12], double h, size_t steps,
+    double *trajectory, size_t stride, dipole_vcg_midpoint_statistics *statistics,
+    size_t *completed)
+{
+    int status = DIPOLE_VCG_MIDPOINT_OK;
+    size_t step = 0;
+    double *row = stride > 0 ? trajectory : NULL;
+    if (row != NULL) {
+        memcpy(row, state, 12 * sizeof *state);
+    }
+    while (step < steps) {
+        status = advance(state, h, statistics);
+        if (status != DIPOLE_VCG_MIDPOINT_OK) {
+            break;
+        }
+        step++;
+        if (row != NULL && step % stride == 0) {
+            row += 12;
+            memcpy(row, state, 12 * sizeof *state);
+        }
+    }
+    if (completed != NULL) {
+        *completed = step;
+    }
+    return status;
+}

@@ -1,0 +1,203 @@
+/*
+ * Free rigid body on the sphere (thesis section 2.8): one step by cf:cf4
+ *
+ * method:     family cf, tableau cf4
+ * source:     Celledoni, Marthinsen and Owren 2003, Section 4; thesis of Bogfjellmo, Section 2.2.1
+ * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
+ * scene:      Free rigid body on the sphere (thesis section 2.8), group SO(3)
+ * state:      [0..2] y: point that SO(3) acts on by rotation
+ * left out:   1 field (sharing)
+ *             5 act (fusion)
+ *             5 exp (dead code)
+ *             parameters, folded: alpha = 0
+ *             the time: the scene does not depend on it
+ *             equation solving: every stage is explicit here
+ * operations: 89 add, 145 mul, 5 stumpff_12 a step
+ * made by:    orderconds emit free_rigid_body --method cf4 --target c -o .
+ * version:    orderconds 0.1.0
+ *
+ * Build: cc -std=c11 -O2 -ffp-contract=off -c free_rigid_body_cf4.c
+ * Use:
+ *
+ *     #include "free_rigid_body_cf4.h"
+ *     #include <stdio.h>
+ *
+ *     int main(void)
+ *     {
+ *         double state[3] = {0.4535961214255773, 0.0, 0.8912073600614354};
+ *         size_t completed;
+ *         const int status = free_rigid_body_cf4_run(state, 0.02, 100, NULL, 0, &completed);
+ *         printf("status %d after %zu steps\n", status, completed);
+ *         for (int i = 0; i < 3; i++) {
+ *             printf("%.17g\n", state[i]);
+ *         }
+ *         return status;
+ *     }
+ */
+#include "free_rigid_body_cf4.h"
+
+#include <math.h>
+#include <string.h>
+
+/* c_2(z) = sum (-z)^j/(2j+2)! for small z */
+static inline double stumpff_series_2(double z)
+{
+    const double w = z * z;
+    const double w2 = w * w;
+    double even = -2.08767569878681e-09 + w * -4.779477332387385e-14;
+    even = -0.041666666666666664 + w * -2.48015873015873e-05 + w2 * even;
+    double odd = 1.1470745597729725e-11 + w * 1.5619206968586225e-16;
+    odd = 0.001388888888888889 + w * 2.755731922398589e-07 + w2 * odd;
+    return 0.5 + z * (even + z * odd);
+}
+
+/* c_1(z) = sum (-z)^j/(2j+1)! for small z */
+static inline double stumpff_series_1(double z)
+{
+    const double w = z * z;
+    const double w2 = w * w;
+    double even = -2.505210838544172e-08 + w * -7.647163731819816e-13;
+    even = -0.16666666666666666 + w * -0.0001984126984126984 + w2 * even;
+    double odd = 1.6059043836821613e-10 + w * 2.8114572543455206e-15;
+    odd = 0.008333333333333333 + w * 2.7557319223985893e-06 + w2 * odd;
+    return 1.0 + z * (even + z * odd);
+}
+
+/* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
+static inline void stumpff_12(double z, double *c1, double *c2)
+{
+    if (z <= 1.0) {
+        *c1 = stumpff_series_1(z);
+        *c2 = stumpff_series_2(z);
+        return;
+    }
+    const double half = 0.5 * sqrt(z);
+    const double sine = sin(half);
+    const double cosine = cos(half);
+    const double ratio = sine / half;
+    *c1 = ratio * cosine;
+    *c2 = 0.5 * (ratio * ratio);
+}
+
+static inline int advance(double state[static 3], double h)
+{
+    if (!isfinite(h)) {
+        return FREE_RIGID_BODY_CF4_BAD_STEP;
+    }
+    const double m0 = state[0];
+    const double m1 = state[1];
+    const double m2 = state[2];
+    const double k0_0 = -0.5 * m0;
+    const double w1 = 0.25 * h;
+    const double w2 = 0.5 * h;
+    const double x2_0 = k0_0 * w2;
+    const double w3 = m1 * w2;
+    const double k0_2 = -1.5 * m2;
+    const double x2_2 = w2 * k0_2;
+    const double w4 = x2_0 * x2_0 + w3 * w3 + x2_2 * x2_2;
+    double c1_1, c2_1;
+    stumpff_12(w4, &c1_1, &c2_1);
+    const double w6 = m2 * w3 + m1 * x2_2;
+    const double w8 = m1 * x2_0 + m0 * w3;
+    const double w9 = m0 * x2_2 - m2 * x2_0;
+    const double Y2_0 = m0 - w6 * c1_1 - (w3 * w8 + x2_2 * w9) * c2_1;
+    const double f2_0 = -0.5 * Y2_0;
+    const double x3_0 = w2 * f2_0;
+    const double w10 = (x2_2 * w6 + x2_0 * w8) * c2_1;
+    const double w11 = m1 + w9 * c1_1;
+    const double f2_1 = w10 - w11;
+    const double x3_1 = w2 * f2_1;
+    const double Y2_2 = m2 + w8 * c1_1 + (x2_0 * w9 - w3 * w6) * c2_1;
+    const double f2_2 = -1.5 * Y2_2;
+    const double x3_2 = w2 * f2_2;
+    const double w12 = x3_0 * x3_0 + x3_1 * x3_1 + x3_2 * x3_2;
+    double c1_2, c2_2;
+    stumpff_12(w12, &c1_2, &c2_2);
+    const double w14 = m2 * x3_1 - m1 * x3_2;
+    const double w16 = m1 * x3_0 - m0 * x3_1;
+    const double w17 = m0 * x3_2 - m2 * x3_0;
+    const double f3_0 = -0.5 * (m0 + w14 * c1_2 + (x3_1 * w16 - x3_2 * w17) * c2_2);
+    const double w18 = 0.16666666666666666 * h;
+    const double w19 = (f2_0 + f3_0) * w18;
+    const double w20 = -0.5 * h;
+    const double x4_0 = k0_0 * w20 + h * f3_0;
+    const double Y3_1 = m1 + w17 * c1_2 + (x3_2 * w14 - x3_0 * w16) * c2_2;
+    const double w21 = m1 * w20 + h * Y3_1;
+    const double f3_2 = -1.5 * (m2 + w16 * c1_2 + (x3_0 * w17 - x3_1 * w14) * c2_2);
+    const double x4_2 = k0_2 * w20 + h * f3_2;
+    const double w22 = x4_0 * x4_0 + w21 * w21 + x4_2 * x4_2;
+    double c1_3, c2_3;
+    stumpff_12(w22, &c1_3, &c2_3);
+    const double Y2_1 = w11 - w10;
+    const double w24 = Y2_2 * w21 + x4_2 * Y2_1;
+    const double w26 = Y2_0 * w21 + x4_0 * Y2_1;
+    const double w27 = Y2_0 * x4_2 - Y2_2 * x4_0;
+    const double f4_0 = -0.5 * (Y2_0 - w24 * c1_3 - (w21 * w26 + x4_2 * w27) * c2_3);
+    const double w28 = -0.08333333333333333 * h;
+    const double x_0 = k0_0 * w1 + w19 + f4_0 * w28;
+    const double w29 = w18 * (f2_1 - Y3_1);
+    const double f4_1 = (x4_2 * w24 + x4_0 * w26) * c2_3 - (Y2_1 + w27 * c1_3);
+    const double x_1 = w29 - m1 * w1 + w28 * f4_1;
+    const double w30 = w18 * (f2_2 + f3_2);
+    const double f4_2 = -1.5 * (Y2_2 + w26 * c1_3 + (x4_0 * w27 - w21 * w24) * c2_3);
+    const double x_2 = w30 + w1 * k0_2 + w28 * f4_2;
+    const double w31 = x_0 * x_0 + x_1 * x_1 + x_2 * x_2;
+    double c1_4, c2_4;
+    stumpff_12(w31, &c1_4, &c2_4);
+    const double w33 = m2 * x_1 - m1 * x_2;
+    const double w35 = m1 * x_0 - m0 * x_1;
+    const double w36 = m0 * x_2 - m2 * x_0;
+    const double Y_0 = m0 + w33 * c1_4 + (x_1 * w35 - x_2 * w36) * c2_4;
+    const double x_2_0 = w19 + k0_0 * w28 + w1 * f4_0;
+    const double x_2_1 = w29 - m1 * w28 + w1 * f4_1;
+    const double x_2_2 = w30 + k0_2 * w28 + w1 * f4_2;
+    const double w37 = x_2_0 * x_2_0 + x_2_1 * x_2_1 + x_2_2 * x_2_2;
+    double c1_5, c2_5;
+    stumpff_12(w37, &c1_5, &c2_5);
+    const double Y_2 = m2 + w35 * c1_4 + (x_0 * w36 - x_1 * w33) * c2_4;
+    const double Y_1 = m1 + w36 * c1_4 + (x_2 * w33 - x_0 * w35) * c2_4;
+    const double w39 = x_2_1 * Y_2 - x_2_2 * Y_1;
+    const double w41 = x_2_0 * Y_1 - Y_0 * x_2_1;
+    const double w42 = Y_0 * x_2_2 - x_2_0 * Y_2;
+    const double new_m0 = Y_0 + w39 * c1_5 + (x_2_1 * w41 - x_2_2 * w42) * c2_5;
+    const double new_m1 = Y_1 + w42 * c1_5 + (x_2_2 * w39 - x_2_0 * w41) * c2_5;
+    const double new_m2 = Y_2 + w41 * c1_5 + (x_2_0 * w42 - x_2_1 * w39) * c2_5;
+    if (!(isfinite(new_m0) && isfinite(new_m1) && isfinite(new_m2))) {
+        return FREE_RIGID_BODY_CF4_NOT_FINITE;
+    }
+    state[0] = new_m0;
+    state[1] = new_m1;
+    state[2] = new_m2;
+    return FREE_RIGID_BODY_CF4_OK;
+}
+
+int free_rigid_body_cf4_step(double state[static 3], double h)
+{
+    return advance(state, h);
+}
+
+int free_rigid_body_cf4_run(double state[static 3], double h, size_t steps,
+    double *trajectory, size_t stride, size_t *completed)
+{
+    int status = FREE_RIGID_BODY_CF4_OK;
+    size_t step = 0;
+    double *row = stride > 0 ? trajectory : NULL;
+    if (row != NULL) {
+        memcpy(row, state, 3 * sizeof *state);
+    }
+    while (step < steps) {
+        status = advance(state, h);
+        if (status != FREE_RIGID_BODY_CF4_OK) {
+            break;
+        }
+        step++;
+        if (row != NULL && step % stride == 0) {
+            row += 3;
+            memcpy(row, state, 3 * sizeof *state);
+        }
+    }
+    if (completed != NULL) {
+        *completed = step;
+    }
+    return status;
+}

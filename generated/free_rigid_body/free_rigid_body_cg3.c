@@ -1,0 +1,207 @@
+/*
+ * Free rigid body on the sphere (thesis section 2.8): one step by cg:cg3
+ *
+ * method:     family cg, tableau cg3
+ * source:     Crouch and Grossman 1993; Hairer, Lubich and Wanner, Table IV.8.1, left
+ * order:      3, certificate: exact (every order condition up to it is zero in exact arithmetic)
+ * scene:      Free rigid body on the sphere (thesis section 2.8), group SO(3)
+ * state:      [0..2] y: point that SO(3) acts on by rotation
+ * left out:   1 field (sharing)
+ *             6 act (fusion)
+ *             6 exp (dead code)
+ *             parameters, folded: alpha = 0
+ *             the time: the scene does not depend on it
+ *             equation solving: every stage is explicit here
+ * operations: 84 add, 156 mul, 6 stumpff_12 a step
+ * made by:    orderconds emit free_rigid_body --method cg:cg3 --target c -o .
+ * version:    orderconds 0.1.0
+ *
+ * Build: cc -std=c11 -O2 -ffp-contract=off -c free_rigid_body_cg3.c
+ * Use:
+ *
+ *     #include "free_rigid_body_cg3.h"
+ *     #include <stdio.h>
+ *
+ *     int main(void)
+ *     {
+ *         double state[3] = {0.4535961214255773, 0.0, 0.8912073600614354};
+ *         size_t completed;
+ *         const int status = free_rigid_body_cg3_run(state, 0.02, 100, NULL, 0, &completed);
+ *         printf("status %d after %zu steps\n", status, completed);
+ *         for (int i = 0; i < 3; i++) {
+ *             printf("%.17g\n", state[i]);
+ *         }
+ *         return status;
+ *     }
+ */
+#include "free_rigid_body_cg3.h"
+
+#include <math.h>
+#include <string.h>
+
+/* c_2(z) = sum (-z)^j/(2j+2)! for small z */
+static inline double stumpff_series_2(double z)
+{
+    const double w = z * z;
+    const double w2 = w * w;
+    double even = -2.08767569878681e-09 + w * -4.779477332387385e-14;
+    even = -0.041666666666666664 + w * -2.48015873015873e-05 + w2 * even;
+    double odd = 1.1470745597729725e-11 + w * 1.5619206968586225e-16;
+    odd = 0.001388888888888889 + w * 2.755731922398589e-07 + w2 * odd;
+    return 0.5 + z * (even + z * odd);
+}
+
+/* c_1(z) = sum (-z)^j/(2j+1)! for small z */
+static inline double stumpff_series_1(double z)
+{
+    const double w = z * z;
+    const double w2 = w * w;
+    double even = -2.505210838544172e-08 + w * -7.647163731819816e-13;
+    even = -0.16666666666666666 + w * -0.0001984126984126984 + w2 * even;
+    double odd = 1.6059043836821613e-10 + w * 2.8114572543455206e-15;
+    odd = 0.008333333333333333 + w * 2.7557319223985893e-06 + w2 * odd;
+    return 1.0 + z * (even + z * odd);
+}
+
+/* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
+static inline void stumpff_12(double z, double *c1, double *c2)
+{
+    if (z <= 1.0) {
+        *c1 = stumpff_series_1(z);
+        *c2 = stumpff_series_2(z);
+        return;
+    }
+    const double half = 0.5 * sqrt(z);
+    const double sine = sin(half);
+    const double cosine = cos(half);
+    const double ratio = sine / half;
+    *c1 = ratio * cosine;
+    *c2 = 0.5 * (ratio * ratio);
+}
+
+static inline int advance(double state[static 3], double h)
+{
+    if (!isfinite(h)) {
+        return FREE_RIGID_BODY_CG3_BAD_STEP;
+    }
+    const double m0 = state[0];
+    const double m1 = state[1];
+    const double m2 = state[2];
+    const double k0_0 = -0.5 * m0;
+    const double w1 = 0.2549019607843137 * h;
+    const double x_0 = k0_0 * w1;
+    const double w2 = m1 * w1;
+    const double k0_2 = -1.5 * m2;
+    const double x_2 = w1 * k0_2;
+    const double w3 = x_0 * x_0 + w2 * w2 + x_2 * x_2;
+    double c1_1, c2_1;
+    stumpff_12(w3, &c1_1, &c2_1);
+    const double w5 = m2 * w2 + m1 * x_2;
+    const double w7 = m1 * x_0 + m0 * w2;
+    const double w8 = m0 * x_2 - m2 * x_0;
+    const double Y_0 = m0 - w5 * c1_1 - (w2 * w7 + x_2 * w8) * c2_1;
+    const double w9 = 0.75 * h;
+    const double x2_0 = k0_0 * w9;
+    const double w10 = m1 * w9;
+    const double x2_2 = k0_2 * w9;
+    const double w11 = x2_0 * x2_0 + w10 * w10 + x2_2 * x2_2;
+    double c1_2, c2_2;
+    stumpff_12(w11, &c1_2, &c2_2);
+    const double w13 = m2 * w10 + m1 * x2_2;
+    const double w15 = m1 * x2_0 + m0 * w10;
+    const double w16 = m0 * x2_2 - m2 * x2_0;
+    const double f2_0 = -0.5 * (m0 - w13 * c1_2 - (w10 * w15 + x2_2 * w16) * c2_2);
+    const double w17 = -0.6666666666666666 * h;
+    const double x_2_0 = f2_0 * w17;
+    const double f2_1 = (x2_2 * w13 + x2_0 * w15) * c2_2 - (m1 + w16 * c1_2);
+    const double x_2_1 = w17 * f2_1;
+    const double f2_2 = -1.5 * (m2 + w15 * c1_2 + (x2_0 * w16 - w10 * w13) * c2_2);
+    const double x_2_2 = w17 * f2_2;
+    const double w18 = x_2_0 * x_2_0 + x_2_1 * x_2_1 + x_2_2 * x_2_2;
+    double c1_3, c2_3;
+    stumpff_12(w18, &c1_3, &c2_3);
+    const double Y_2 = m2 + w7 * c1_1 + (x_0 * w8 - w2 * w5) * c2_1;
+    const double Y_1 = m1 + w8 * c1_1 - (x_2 * w5 + x_0 * w7) * c2_1;
+    const double w20 = x_2_1 * Y_2 - x_2_2 * Y_1;
+    const double w22 = x_2_0 * Y_1 - Y_0 * x_2_1;
+    const double w23 = Y_0 * x_2_2 - x_2_0 * Y_2;
+    const double Y_2_0 = Y_0 + w20 * c1_3 + (x_2_1 * w22 - x_2_2 * w23) * c2_3;
+    const double w24 = 0.5509259259259259 * h;
+    const double x3_0 = k0_0 * w24;
+    const double w25 = m1 * w24;
+    const double x3_2 = k0_2 * w24;
+    const double w26 = x3_0 * x3_0 + w25 * w25 + x3_2 * x3_2;
+    double c1_4, c2_4;
+    stumpff_12(w26, &c1_4, &c2_4);
+    const double w28 = m2 * w25 + m1 * x3_2;
+    const double w30 = m1 * x3_0 + m0 * w25;
+    const double w31 = m0 * x3_2 - m2 * x3_0;
+    const double Y3_0 = m0 - w28 * c1_4 - (w25 * w30 + x3_2 * w31) * c2_4;
+    const double w32 = 0.1574074074074074 * h;
+    const double x3_2_0 = f2_0 * w32;
+    const double x3_2_1 = f2_1 * w32;
+    const double x3_2_2 = f2_2 * w32;
+    const double w33 = x3_2_0 * x3_2_0 + x3_2_1 * x3_2_1 + x3_2_2 * x3_2_2;
+    double c1_5, c2_5;
+    stumpff_12(w33, &c1_5, &c2_5);
+    const double Y3_2 = m2 + w30 * c1_4 + (x3_0 * w31 - w25 * w28) * c2_4;
+    const double Y3_1 = m1 + w31 * c1_4 - (x3_2 * w28 + x3_0 * w30) * c2_4;
+    const double w35 = x3_2_1 * Y3_2 - x3_2_2 * Y3_1;
+    const double w37 = x3_2_0 * Y3_1 - Y3_0 * x3_2_1;
+    const double w38 = Y3_0 * x3_2_2 - x3_2_0 * Y3_2;
+    const double w39 = 1.411764705882353 * h;
+    const double x_3_0 = -0.5 * (Y3_0 + w35 * c1_5 + (x3_2_1 * w37 - x3_2_2 * w38) * c2_5)
+        * w39;
+    const double w40 = w39 * (Y3_1 + w38 * c1_5 + (x3_2_2 * w35 - x3_2_0 * w37) * c2_5);
+    const double x_3_2 = -1.5 * (Y3_2 + w37 * c1_5 + (x3_2_0 * w38 - x3_2_1 * w35) * c2_5)
+        * w39;
+    const double w41 = x_3_0 * x_3_0 + w40 * w40 + x_3_2 * x_3_2;
+    double c1_6, c2_6;
+    stumpff_12(w41, &c1_6, &c2_6);
+    const double Y_2_2 = Y_2 + w22 * c1_3 + (x_2_0 * w23 - x_2_1 * w20) * c2_3;
+    const double Y_2_1 = Y_1 + w23 * c1_3 + (x_2_2 * w20 - x_2_0 * w22) * c2_3;
+    const double w43 = w40 * Y_2_2 + x_3_2 * Y_2_1;
+    const double w45 = Y_2_0 * w40 + x_3_0 * Y_2_1;
+    const double w46 = Y_2_0 * x_3_2 - x_3_0 * Y_2_2;
+    const double new_m0 = Y_2_0 - w43 * c1_6 - (w40 * w45 + x_3_2 * w46) * c2_6;
+    const double new_m1 = Y_2_1 + w46 * c1_6 - (x_3_2 * w43 + x_3_0 * w45) * c2_6;
+    const double new_m2 = Y_2_2 + w45 * c1_6 + (x_3_0 * w46 - w40 * w43) * c2_6;
+    if (!(isfinite(new_m0) && isfinite(new_m1) && isfinite(new_m2))) {
+        return FREE_RIGID_BODY_CG3_NOT_FINITE;
+    }
+    state[0] = new_m0;
+    state[1] = new_m1;
+    state[2] = new_m2;
+    return FREE_RIGID_BODY_CG3_OK;
+}
+
+int free_rigid_body_cg3_step(double state[static 3], double h)
+{
+    return advance(state, h);
+}
+
+int free_rigid_body_cg3_run(double state[static 3], double h, size_t steps,
+    double *trajectory, size_t stride, size_t *completed)
+{
+    int status = FREE_RIGID_BODY_CG3_OK;
+    size_t step = 0;
+    double *row = stride > 0 ? trajectory : NULL;
+    if (row != NULL) {
+        memcpy(row, state, 3 * sizeof *state);
+    }
+    while (step < steps) {
+        status = advance(state, h);
+        if (status != FREE_RIGID_BODY_CG3_OK) {
+            break;
+        }
+        step++;
+        if (row != NULL && step % stride == 0) {
+            row += 3;
+            memcpy(row, state, 3 * sizeof *state);
+        }
+    }
+    if (completed != NULL) {
+        *completed = step;
+    }
+    return status;
+}
