@@ -18,7 +18,7 @@ from codegen.emission import Emission, digest
 from codegen.ir.domain import FloatDomain
 from codegen.ir.kernel import Kernel, Loop
 from codegen.ir.program import Program
-from codegen.lower import LOWERINGS, ON_COTANGENT, lower, setting
+from codegen.lower import families_for, lower, setting
 from codegen.lower.kernel import to_kernel
 from codegen.method import Method, parse
 from codegen.passes import PassReport, optimise
@@ -45,13 +45,6 @@ class Compiled:
     program: Program
     trace: tuple[PassReport, ...]
     kernel: Kernel
-
-
-def families_for(scene: Setting) -> tuple[str, ...]:
-    """Return the families that serve a scene, those made for its kind first."""
-    first = tuple(f for f in LOWERINGS if f in ON_COTANGENT) if scene.is_hamiltonian else ()
-    rest = tuple(f for f in LOWERINGS if f not in ON_COTANGENT and (f != "rk" or scene.group.abelian))
-    return first + rest
 
 
 def compile_method(scene: Setting | str, method: Method | str, parameters: Sequence[str] = ()) -> Compiled:

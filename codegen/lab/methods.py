@@ -1,21 +1,10 @@
-"""Which families a scene can take, in the order of preference when a method names none."""
+"""Methods as the laboratory's commands are given them: a spelling, read for a scene."""
 
 from __future__ import annotations
 
-from codegen.lower import LOWERINGS, ON_COTANGENT
+from codegen.lower import families_for
 from codegen.method import Method, parse
 from codegen.scene import Setting
-
-
-def families_for(scene: Setting) -> tuple[str, ...]:
-    """Return the families that can be lowered onto a scene, in the order of :data:`LOWERINGS`.
-
-    ``rk`` needs R^n; the variational ones need a Hamiltonian.
-    """
-    abelian = scene.as_field().group.abelian
-    return tuple(
-        f for f in LOWERINGS if (f != "rk" or abelian) and (f not in ON_COTANGENT or scene.is_hamiltonian)
-    )
 
 
 def parse_for(scene: Setting, spelling: str) -> Method:

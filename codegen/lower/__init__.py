@@ -17,6 +17,16 @@ ON_COTANGENT = frozenset({"vcg"})
 """Families that need a Hamiltonian scene; all others see it as a field on the group T*G."""
 
 
+def families_for(scene: Setting) -> tuple[str, ...]:
+    """Return the families that can be lowered onto a scene, in the order of preference where none is named.
+
+    Variational families need a Hamiltonian and come first where there is one; ``rk`` needs R^n.
+    """
+    first = tuple(f for f in LOWERINGS if f in ON_COTANGENT and scene.is_hamiltonian)
+    abelian = scene.as_field().group.abelian
+    return first + tuple(f for f in LOWERINGS if f not in ON_COTANGENT and (f != "rk" or abelian))
+
+
 def setting(scene: Setting, method: Method) -> Setting:
     """Return the scene as the method's family sees it; :class:`MethodError` where it cannot serve."""
     family = method.family

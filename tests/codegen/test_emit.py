@@ -7,12 +7,12 @@ from functools import cache
 import numpy as np
 import pytest
 
-from codegen.emit import bare, compile_method, default_prefix, emit, emit_compiled, families_for, prefix_of
+from codegen.emit import bare, compile_method, default_prefix, emit, emit_compiled, prefix_of
 from codegen.errors import MethodError, SceneError
 from codegen.ir.domain import FloatDomain
 from codegen.ir.interpret import interpret
 from codegen.load import Statistics, load
-from codegen.lower import setting
+from codegen.lower import families_for, setting
 from codegen.regenerate import entries
 from codegen.scenes import load as load_scene
 from orderconds.errors import InputError, UnknownName, ZeroWeight
