@@ -93,7 +93,7 @@ class FamilyOrder:
         return "holds" if self.claimed in (None, self.order) else "fails"
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of one family."""
+        """Return the JSON object of one family; ``limit`` only where the search ended there."""
         record: dict[str, object] = {
             "claimed": self.claimed,
             "order": self.order,
@@ -125,8 +125,8 @@ class Report:
         return "undecided" if "undecided" in verdicts else "holds"
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of one tableau."""
-        return {
+        """Return the JSON object of one tableau; ``broken_claims`` only where there are any."""
+        record: dict[str, object] = {
             "name": self.name,
             "file": self.file,
             "format": self.format,
@@ -134,6 +134,7 @@ class Report:
             "orders": {family.family: family.as_json() for family in self.orders},
             "properties": self.properties,
         }
+        return {**record, "broken_claims": list(self.broken_claims)} if self.broken_claims else record
 
 
 def check(

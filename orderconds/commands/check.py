@@ -17,7 +17,10 @@ if TYPE_CHECKING:
     from orderconds.check import FamilyOrder, Report
 
 SHOWN = 5
-"""How many failing conditions the text names; JSON lists all."""
+"""How many failing conditions the text names where a verdict is not ``holds``; else one. JSON lists all."""
+
+WIDTH = 200
+"""Where the text cuts the formula of a condition; JSON has it whole."""
 
 
 @click.command(name="check", short_help="Find the exact order of tableaux and compare it with their claims.")
@@ -112,12 +115,15 @@ def _print_failing(family: FamilyOrder) -> None:
     count = len(family.failing)
     told = "1 condition" if count == 1 else f"{count} conditions"
     click.echo(f"  {family.family}: {told} of order {n} not met")
-    for failure in family.failing[:SHOWN]:
+    shown = 1 if family.verdict == "holds" else SHOWN
+    for failure in family.failing[:shown]:
         decimal = "" if failure.decimal == failure.residual else f" = {failure.decimal}"
-        click.echo(f"    {failure.condition.tree}: {failure.condition}")
+        formula = failure.condition.expression
+        formula = formula if len(formula) <= WIDTH else formula[:WIDTH] + " ..."
+        click.echo(f"    {failure.condition.tree}: {formula} = {failure.condition.rhs}")
         click.echo(f"      residual {failure.residual}{decimal}")
-    if count > SHOWN:
-        click.echo(f"    ... and {count - SHOWN} more (--json lists all)")
+    if count > shown:
+        click.echo(f"    ... and {count - shown} more (--json lists all)")
 
 
 def _print_summary(reports: Sequence[Report], unread: int) -> None:
