@@ -1,0 +1,89 @@
+"""Balls as a ring of coefficients: roots, spellings, and what they refuse."""
+
+from __future__ import annotations
+
+import operator
+from fractions import Fraction
+
+import pytest
+from flint import fmpq
+
+from orderconds.ring import Balls
+from orderconds.ring.decimals import endpoints, nearest_float
+from orderconds.ring.tower import Tower
+
+RING = Balls(128)
+
+
+def test_roots_of_balls_contain_the_roots_of_their_points() -> None:
+    for text, index in (("2", 2), ("2", 3), ("-2", 3), ("0", 2), ("0.3", 5)):
+        x = RING.constant(Fraction(text))
+        assert (RING.root(x, index) ** index - x).value.contains(0)
+        assert RING.root(x, index).value.rel_accuracy_bits() > 100
+
+
+@pytest.mark.parametrize(("text", "unit", "index"), [("-2", "0", 2), ("0.1", "1", 2), ("0.1", "1", 3)])
+def test_roots_of_balls_of_wrong_or_unknown_sign_are_refused(text: str, unit: str, index: int) -> None:
+    with pytest.raises(ValueError, match="root of a number"):
+        RING.root(RING.constant(Fraction(text), Fraction(unit)), index)
+
+
+def test_a_named_root_as_a_ball_is_the_one_near_its_decimal() -> None:
+    minpoly = [Fraction(c) for c in (1, -3, 0, 1)]
+    x = RING.named_root(minpoly, Fraction("0.35"), Fraction(1, 100), "x")
+    assert (x**3 - 3 * x + 1).value.contains(0)
+    assert float(x) == pytest.approx(0.347296355333860697, rel=1e-15)
+
+
+def test_balls_are_equal_only_as_enclosures() -> None:
+    third = RING.rational(1, 3)
+    assert third == RING.rational(1, 3)
+    assert hash(third) == hash(RING.rational(1, 3))
+    assert third != 1 - RING.rational(2, 3)
+    assert third != Fraction(1, 3)
+    assert Balls(128) == RING
+    assert Balls(64) != RING
+
+
+def test_a_ball_tells_its_midpoint_and_radius() -> None:
+    x = RING.constant(Fraction("0.25"), Fraction(1, 1000))
+    assert RING.approximate(x) == "0.25"
+    assert RING.radius(x) == "0.00100", "not exactly, since 1/1000 is no binary number"
+    assert RING.nearest_float(x) == float(x) == 0.25
+    assert RING.text(RING.constant(Fraction(12000), Fraction(30))) == "120~*10^2"
+
+
+def test_balls_do_not_combine_with_what_is_no_number() -> None:
+    x = RING.one
+    for operation in (operator.add, operator.sub, operator.mul, operator.truediv):
+        for other in ("1", 0.5):
+            with pytest.raises(TypeError):
+                operation(x, other)
+            with pytest.raises(TypeError):
+                operation(other, x)
+    assert (fmpq(1, 2) - x).value.contains(fmpq(-1, 2))
+
+
+def test_an_enclosure_is_refined_until_the_double_is_certain() -> None:
+    asked = []
+
+    def enclosure(bits: int) -> object:
+        asked.append(bits)
+        return (
+            Balls(bits)
+            .constant(1 + Fraction(1, 2**53) + Fraction(1, 2**200), Fraction(1, 2 ** (bits - 1)))
+            .value
+        )
+
+    assert nearest_float(enclosure) == 1 + 2.0**-52, "just above the tie between two doubles"
+    assert len(asked) > 1
+
+
+def test_a_radicand_too_large_to_factor_keeps_its_size_but_loses_small_factors() -> None:
+    tower = Tower()
+    prime = 2**521 - 1
+    x = tower.root(tower.rational(12 * prime), 2)
+    assert x == 2 * tower.root(tower.rational(3 * prime), 2)
+    assert tower.field.degree == 2
+    low, high = endpoints(tower.field.ball(x, 64))
+    assert low**2 <= 12 * prime <= high**2
