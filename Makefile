@@ -12,6 +12,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 INSTALLED := $(VENV)/.installed
 REPORT := report
+EMITTED := $(REPORT)/emitted
 PYTEST := $(BIN)/python -m pytest -n 2 -rs --doctest-modules --cov --cov-report=term orderconds codegen tests
 
 .PHONY: demo test test-all bench lint compiler clean
@@ -31,15 +32,22 @@ compiler:
 	@command -v cc >/dev/null || command -v gcc >/dev/null || command -v clang >/dev/null || { \
 	  echo "make: no C compiler (cc, gcc or clang) on PATH; on Debian or Ubuntu type: apt-get install gcc libc6-dev" >&2; exit 2; }
 
+# VCG2 is vcg:midpoint, VCG4 vcg:triple_jump, RKMK4 rkmk(2):rk4. converge compiles what it measures.
 demo: $(INSTALLED) compiler
 	$(BIN)/orderconds derive vcg --order 3
 	$(BIN)/orderconds check tableaux
-	$(BIN)/orderconds emit rigid_body --method cg:cg3 --method rkmk:rk4 --method cf:cf4 --target c --target python -o $(REPORT)/emitted
-	$(BIN)/orderconds emit dipole --method vcg:gauss1 --method vcg:triple_jump --target c --target python -o $(REPORT)/emitted
-	$(BIN)/orderconds converge rigid_body --method cg:cg3 --method rkmk:rk4 --method cf:cf4
-	$(BIN)/orderconds converge dipole --method vcg:gauss1 --method vcg:triple_jump
-	$(BIN)/orderconds report rigid_body dipole -o $(REPORT)
-	@echo "The report: $(CURDIR)/$(REPORT)/index.html"
+	$(BIN)/orderconds emit free_rigid_body --method cg:cg3 --target python --target c -o $(EMITTED)
+	$(BIN)/orderconds emit free_rigid_body --method 'rkmk(2):rk4' --target python --target c -o $(EMITTED)
+	$(BIN)/orderconds emit free_rigid_body --method cf:cf4 --target python --target c -o $(EMITTED)
+	$(BIN)/orderconds emit dipole --method vcg:midpoint --target python --target c -o $(EMITTED)
+	$(BIN)/orderconds emit dipole --method vcg:triple_jump --target python --target c -o $(EMITTED)
+	for target in c python; do \
+	  $(BIN)/orderconds converge free_rigid_body --target $$target \
+	    --method cg:cg3 --method 'rkmk(2):rk4' --method cf:cf4 && \
+	  $(BIN)/orderconds converge dipole --target $$target \
+	    --method vcg:midpoint --method vcg:triple_jump || exit; \
+	done
+	$(BIN)/orderconds report free_rigid_body dipole -o $(REPORT)
 
 test: $(INSTALLED)
 	$(PYTEST) -m 'not slow'

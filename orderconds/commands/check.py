@@ -43,7 +43,8 @@ def command(tableaux: Sequence[str], family: str | None, order: int | None, as_j
     unread = 0
     for path in _files(tableaux):
         try:
-            report = check(path, family=family, order=order)
+            with screen.working(f"checking {path}"):
+                report = check(path, family=family, order=order)
         except InputError as error:
             # The other files are still worth checking; the status tells that one was not.
             message = str(error)

@@ -26,11 +26,12 @@ def command(family: str, order: int, stages: int | None, form: str, every: bool,
     """Print the independent order conditions of FAMILY (rk, vcg, "rkmk(1)", ...) up to an order."""
     from orderconds.derive import derive
 
-    derivation = derive(family, order, every=every)
-    if stages is not None:
-        from orderconds.written_out import write_out
+    with screen.working(f"deriving {family} to order {order}"):
+        derivation = derive(family, order, every=every)
+        if stages is not None:
+            from orderconds.written_out import write_out
 
-        derivation = write_out(derivation, stages)
+            derivation = write_out(derivation, stages)
     match "json" if as_json else form:
         case "json":
             screen.print_json(derivation.as_json())

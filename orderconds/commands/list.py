@@ -1,7 +1,7 @@
 """``orderconds list``: families and tableaux, and what other packages list (``codegen``: groups and scenes).
 
 A listing of another package is an entry point in the group ``orderconds.listings``: a function without
-arguments that returns pairs (name, one line of description).
+arguments that returns records {"name", "about"}, about being one line.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from orderconds.errors import InputError, UnknownName
 LISTING_GROUP = "orderconds.listings"
 """The entry-point group in which other packages offer listings."""
 
-Pairs = Iterable[tuple[str, str]]
+Records = Iterable[dict[str, str]]
 
 
 @click.command(name="list", short_help="List families, tableaux, and what other packages offer.")
@@ -29,17 +29,12 @@ def command(kind: str | None, as_json: bool) -> int:
     kinds = [kind] if kind is not None else kinds_offered()
     listings = {name: list(listing(name)()) for name in kinds}
     if as_json:
-        screen.print_json(
-            {
-                name: [{"name": entry, "description": told} for entry, told in pairs]
-                for name, pairs in listings.items()
-            }
-        )
+        screen.print_json(listings)
         return 0
-    for number, (name, pairs) in enumerate(listings.items()):
+    for number, (name, records) in enumerate(listings.items()):
         if number:
             click.echo()
-        screen.print_table((name, ""), pairs)
+        screen.print_table((name, ""), [(record["name"], record["about"]) for record in records])
     return 0
 
 
@@ -49,14 +44,14 @@ def kinds_offered() -> list[str]:
     return [*BUILT_IN, *sorted(others - set(BUILT_IN))]
 
 
-def listing(kind: str) -> Callable[[], Pairs]:
+def listing(kind: str) -> Callable[[], Records]:
     """Return the function that lists one kind; entry points are scanned only when it is not built in."""
     if kind in BUILT_IN:
         return BUILT_IN[kind]
     for entry in metadata.entry_points(group=LISTING_GROUP):
         if entry.name == kind:
             try:
-                function: Callable[[], Pairs] = entry.load()
+                function: Callable[[], Records] = entry.load()
             except (ImportError, AttributeError) as error:
                 where = f"{kind} ({entry.value})"
                 raise InputError(f"cannot load the listing: {error}", where=where) from error
@@ -70,22 +65,23 @@ def listing(kind: str) -> Callable[[], Pairs]:
     )
 
 
-def _families() -> Pairs:
+def _families() -> Records:
     from importlib import import_module
     from inspect import getdoc
 
     from orderconds import families
 
     for name in families.names():
-        yield name, (getdoc(import_module(families.MODULES[name])) or "").partition("\n")[0]
+        told = getdoc(import_module(families.MODULES[name])) or ""
+        yield {"name": name, "about": told.partition("\n")[0]}
 
 
-def _tableaux() -> Pairs:
+def _tableaux() -> Records:
     from orderconds.tableau import Tableau, available, find
 
     for name in available():
-        yield name, Tableau.load(find(name)).source
+        yield {"name": name, "about": Tableau.load(find(name)).source}
 
 
-BUILT_IN: dict[str, Callable[[], Pairs]] = {"families": _families, "tableaux": _tableaux}
+BUILT_IN: dict[str, Callable[[], Records]] = {"families": _families, "tableaux": _tableaux}
 """What this package lists itself."""

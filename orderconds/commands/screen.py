@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 import click
@@ -13,6 +14,18 @@ import click
 def is_terminal() -> bool:
     """Say whether a person is reading stdout; colours, rules and progress are only for them."""
     return sys.stdout.isatty()
+
+
+@contextmanager
+def working(message: str) -> Iterator[None]:
+    """Show on a terminal what is being worked on, while it is; elsewhere show nothing."""
+    if not (is_terminal() and sys.stderr.isatty()):
+        yield
+        return
+    from rich.console import Console
+
+    with Console(stderr=True).status(message):
+        yield
 
 
 def print_json(value: Any) -> None:

@@ -22,6 +22,19 @@ def test_a_terminal_gets_the_same_cells(
     assert "x" in out
 
 
+def test_progress_is_for_terminals_only(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with screen.working("counting"):
+        pass
+    assert capsys.readouterr() == ("", "")
+    monkeypatch.setattr(screen, "is_terminal", lambda: True)
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    with screen.working("counting"):
+        pass
+    assert capsys.readouterr().out == ""
+
+
 def test_json_keeps_the_order_of_keys(capsys: pytest.CaptureFixture[str]) -> None:
     screen.print_json({"z": 1, "a": "å"})
     assert capsys.readouterr().out == '{\n  "z": 1,\n  "a": "\\u00e5"\n}\n'
