@@ -127,9 +127,9 @@ class Composition:
         return Composition(self.base, _converted(self.gamma, convert))
 
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
-        """Return the diagonally implicit tableau of composed midpoints (Bogfjellmo, Lemma 3.5.4).
+        """Return the diagonally implicit tableau of composed midpoints.
 
-        b_i = gamma_i, a_ii = gamma_i/2, a_ij = gamma_j for j < i.
+        b_i = gamma_i, a_ii = gamma_i/2, a_ij = gamma_j for j < i (Lemma 3.5.4 of Bogfjellmo and Marthinsen).
         """
         half = ring.rational(1, 2)
         A = tuple(
