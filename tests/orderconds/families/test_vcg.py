@@ -21,9 +21,6 @@ from orderconds.tableau.methods import RungeKutta
 VCG = get("vcg")
 
 
-VCG = get("vcg")
-
-
 def butcher(rows, weights):
     s = len(weights)
     full = [[*row, *["0"] * (s - len(row))] for row in rows]
