@@ -12,10 +12,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from codegen.groups import GL, SO3, Cotangent, MatrixGroup, Rn
+from sympy import Matrix, Rational, Symbol
+
+from codegen.groups import GL, SO3, Cotangent, LeftMultiplication, MatrixGroup, Rn, Rotation
 from codegen.groups.matrix import _invert
 from codegen.ir.domain import FloatDomain, PreciseDomain, SeriesDomain
+from codegen.scene import FieldScene, HamiltonianScene
 from orderconds.ring import QQ
+from orderconds.tableau import RungeKutta, Tableau, find
 
 ORDER = 5
 """Exact samples are series in h up to this power."""
@@ -114,3 +118,85 @@ def inverse(group: Any, d: Any, g: tuple[Any, ...]) -> tuple[Any, ...]:
     if isinstance(group, Rn):
         return tuple(-x for x in g)
     return _invert(d, g, round(group.size**0.5))
+
+
+def quadratic(rng: random.Random, symbols: Any, terms: int = 6) -> Any:
+    """Return a random polynomial of degree two with small integer coefficients."""
+    total = rng.randint(-2, 2) + sum(rng.randint(-2, 2) * s for s in symbols)
+    for _ in range(terms):
+        total += rng.choice((-2, -1, 1, 2)) * rng.choice(symbols) * rng.choice(symbols)
+    return total
+
+
+def rationals(rng: random.Random, n: int) -> list[Any]:
+    """Return n small rational numbers, none of them zero."""
+    return [Rational(rng.choice((-3, -2, -1, 1, 2, 3)), rng.randint(1, 4)) for _ in range(n)]
+
+
+def quarter_turn() -> Any:
+    """Return a rational rotation without symmetry: Cayley's of (1, 2, -1)/2."""
+    x = Matrix([[0, 1, 2], [-1, 0, -1], [-2, 1, 0]]) / 2
+    return (Matrix.eye(3) - x).inv() * (Matrix.eye(3) + x)
+
+
+def field_scene(name: str, seed: int = 0, time: bool = False) -> Any:
+    """Return a polynomial field: on ``R^3``, on ``S^2`` and its axis (SO(3) by rotation), on ``GL(2)``."""
+    rng = random.Random(f"{name} {seed}")
+    group, action, n = {
+        "R^3": (Rn(3), LeftMultiplication(), 3),
+        "S^2": (SO3(), Rotation(), 3),
+        "SO(3)": (SO3(), LeftMultiplication(), 9),
+        "GL(2)": (GL(2), LeftMultiplication(), 4),
+        "Heisenberg": (heisenberg(), Rotation(), 3),
+    }[name]
+    y = [Symbol(f"y{k}", real=True) for k in range(n)]
+    f = [quadratic(rng, y) + (Symbol("t") * rng.choice(y) if time else 0) for _ in range(group.dim)]
+    y0 = list(quarter_turn()) if n == 9 else rationals(rng, n)
+    return FieldScene(group=group, action=action, y=Matrix(y), f=Matrix(f), y0=y0, span=(0, 1), name=name)
+
+
+def hamiltonian_scene(name: str, seed: int = 0, time: bool = False) -> Any:
+    """Return a cubic Hamiltonian without symmetry on T*G, for G one of :data:`BASE_GROUPS`."""
+    rng = random.Random(f"{name} {seed}")
+    group = BASE_GROUPS[name]
+    q, mu = group.point("q"), group.dual("p")
+    H = quadratic(rng, list(mu)) + quadratic(rng, list(q))
+    for _ in range(5):
+        H += rng.choice((-1, 1)) * rng.choice(q) * rng.choice(mu) * rng.choice((*q, *mu))
+    if time:
+        H += Symbol("t") * (rng.choice(q) + rng.choice(mu) * rng.choice(mu))
+    start = {
+        "SO(3)": lambda: list(quarter_turn()),
+        "R^3": lambda: rationals(rng, 3),
+        "GL(2)": lambda: [1, Rational(1, 2), Rational(-1, 3), 1],
+        "Heisenberg": lambda: [1, Rational(1, 2), 2, 0, 1, Rational(-1, 3), 0, 0, 1],
+    }[name]()
+    mu0 = rationals(rng, group.dim)
+    return HamiltonianScene(group=group, q=q, mu=mu, H=H, q0=start, mu0=mu0, span=(0, 1), name=f"T*{name}")
+
+
+def butcher(name: str, A: Any, b: Any) -> Tableau:
+    """Return a tableau with rational coefficients given by spellings."""
+    rows = [*A, b]
+    exact = [tuple(QQ.rational(*Fraction(x).as_integer_ratio()) for x in row) for row in rows]
+    return Tableau(name, "rk", QQ, RungeKutta(tuple(exact[:-1]), exact[-1]))
+
+
+def full(s: int, seed: int = 0) -> Tableau:
+    """Return a random implicit tableau without zeros, of order 1: the weights add up to 1."""
+    rng = random.Random(f"full {s} {seed}")
+
+    def entry() -> Fraction:
+        return Fraction(rng.choice((-3, -2, -1, 1, 2, 3)), rng.randint(2, 5))
+
+    A = [[entry() for _ in range(s)] for _ in range(s)]
+    while True:
+        b = [entry() for _ in range(s - 1)]
+        b.append(1 - sum(b))
+        if b[-1]:
+            return butcher(f"full{s}", A, b)
+
+
+def shipped(name: str) -> Tableau:
+    """Return a tableau of the library."""
+    return Tableau.load(find(name))
