@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import lru_cache
 from itertools import combinations_with_replacement, pairwise, product
+from math import factorial, prod
 
 DirectedTree = bytes
 Branch = tuple[int, DirectedTree]
@@ -50,6 +51,17 @@ def density(tree: DirectedTree) -> int:
     for _, child in branches(tree):
         result *= density(child)
     return result
+
+
+def symmetry(tree: DirectedTree) -> int:
+    r"""Return sigma, the order of the group of symmetries, for a tree in canonical order.
+
+    >>> symmetry(b"\0\2\2"), symmetry(b"\0\3\2")
+    (2, 1)
+    """
+    below = branches(tree)
+    repeated = {branch: below.count(branch) for branch in below}
+    return prod(factorial(times) * symmetry(child) ** times for (_, child), times in repeated.items())
 
 
 def text(tree: DirectedTree) -> str:
