@@ -138,7 +138,6 @@ def test_the_triple_jump_has_order_four(group):
     agree(hamiltonian_scene(group), Method("vcg", shipped("triple_jump")), 4)
 
 
-@pytest.mark.slow
 def test_crouch_grossman_of_owren_and_marthinsen_has_order_four():
     agree(field_scene("S^2"), Method("cg", shipped("cg4")), 4)
 
