@@ -21,7 +21,10 @@ class OrderCondition:
 
     ``family`` is the label of the family (``rkmk(1)``), ``order`` the grade, ``tree`` the canonical text of
     the tree or word. ``source`` is the formula, or a function that builds it when somebody reads it. ``key``
-    is the family's own encoding, from which its engine evaluates the left-hand side.
+    is the family's own encoding, from which its engine evaluates the left-hand side. ``relation`` is None for
+    an independent condition; for a dependent one it says what its left-hand side equals, for every method of
+    the family: a polynomial in those of independent conditions, ``<tree>`` being that of a tree, as ``3
+    <o(|L(o o))> - <o> <o(o)>``.
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> quadrature = OrderCondition("rk", 1, "[]", index_sum(("i",), (), coefficient("b", "i")), Fraction(1))
@@ -35,6 +38,7 @@ class OrderCondition:
     source: Formula | Callable[[], Formula] = field(repr=False, compare=False)
     rhs: Fraction
     key: Any = field(default=None, repr=False, compare=False)
+    relation: str | None = None
 
     @cached_property
     def formula(self) -> Formula:
@@ -64,14 +68,15 @@ class OrderCondition:
         return sympy.Eq(self.formula.sympy(), rhs, evaluate=False)
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of ``orderconds derive --format json``."""
-        return {
+        """Return the JSON object of ``orderconds derive --format json``; a dependent one has its relation."""
+        record: dict[str, object] = {
             "order": self.order,
             "tree": self.tree,
             "expression": self.expression,
             "latex": self.latex,
             "rhs": str(self.rhs),
         }
+        return record if self.relation is None else {**record, "relation": self.relation}
 
     def __str__(self) -> str:
         return f"{self.expression} = {self.rhs}"

@@ -2,7 +2,8 @@
 
 Random members of a family take one step for random Hamiltonians, cubic in the entries of q and mu, on
 T*SO(3), T*GL(2) and T*U(5), the unitriangular matrices, nilpotent of class 4: exactly, as power series in h
-modulo a prime, by iterating the equations of the method. Three ranks, over the methods, are equal in each order n:
+modulo a prime, by iterating the equations of the method. Three ranks, over the methods, are equal in each
+order n:
 
 - of the residuals: monomials of degree n in the conditions' left-hand sides, minus their values for the flow;
 - of the errors: coefficients of h^n in (q1, mu1) minus the flow's, for all Hamiltonians;
