@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import types
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
@@ -72,6 +73,7 @@ class Integrator(ABC):
         **parameters: float,
     ) -> State:
         """Return the state after that many steps of size h from time t; a StepFailed if one fails."""
+        steps = self._checked_count(steps)
         final, _ = self._call(
             self._numbers(state), t, h, steps, self._values(parameters), 0, statistics, state
         )
@@ -91,8 +93,15 @@ class Integrator(ABC):
         if stride < 1:
             raise ValueError(f"expected a stride of at least 1, found {stride}")
         values = self._values(parameters)
+        steps = self._checked_count(steps)
         _, rows = self._call(self._numbers(state), t, h, steps, values, stride, statistics, state)
         return like(state, rows)
+
+    def _checked_count(self, steps: int) -> int:
+        count = operator.index(steps)
+        if count < 0:
+            raise ValueError(f"expected no negative number of steps, found {steps}")
+        return count
 
     def _numbers(self, state: State) -> list[float]:
         numbers = [float(x) for x in state]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from codegen.emission import MANIFEST, Emission, manifest_text, write_text
+from codegen.emission import MANIFEST, Emission, entries_of, manifest_text, write_text
 from codegen.emit import compile_method, emit_compiled
 from orderconds.errors import InputError
 
@@ -68,7 +68,11 @@ def contents(listed: list[Entry]) -> dict[str, str]:
 
 @dataclass(frozen=True)
 class Difference:
-    """A file that is not as it should be: ``missing``, ``different`` or ``stale`` (nothing makes it)."""
+    """A file that is not as it should be.
+
+    ``kind`` is ``missing``, ``different``, ``stale`` (emitted once, but by nothing on the list) or
+    ``unknown`` (never emitted, so that it is not ours to remove).
+    """
 
     path: str
     kind: str
@@ -77,7 +81,9 @@ class Difference:
 def compare(directory: Path, files: dict[str, str]) -> list[Difference]:
     """Return what differs between the folder and the files that belong in it, by path."""
     there = {p.relative_to(directory).as_posix() for p in directory.rglob("*") if p.is_file()}
-    found = [Difference(path, "stale") for path in sorted(there - files.keys()) if not ignored(path)]
+    ours = emitted(directory)
+    extra = [path for path in sorted(there - files.keys()) if not ignored(path)]
+    found = [Difference(path, "stale" if path in ours else "unknown") for path in extra]
     for path, text in files.items():
         if path not in there:
             found.append(Difference(path, "missing"))
@@ -86,22 +92,34 @@ def compare(directory: Path, files: dict[str, str]) -> list[Difference]:
     return sorted(found, key=lambda d: d.path)
 
 
+def emitted(directory: Path) -> set[str]:
+    """Return the paths that the folder's manifests say were emitted, theirs included."""
+    found: set[str] = set()
+    for manifest in directory.glob(f"*/{MANIFEST}"):
+        folder = manifest.parent.name
+        names = [name for entry in entries_of(manifest.parent) for name in entry["files"]]
+        found.update(f"{folder}/{name}" for name in (*names, MANIFEST))
+    return found
+
+
 def ignored(path: str) -> bool:
     """Whether a file is a by-product of running what stands beside it."""
     return "__pycache__" in path.split("/")
 
 
 def write(directory: Path, files: dict[str, str]) -> list[Difference]:
-    """Make the folder hold these files and no others; return what was changed."""
+    """Make the folder hold these files and no others that were emitted; return what differed before."""
     changed = compare(directory, files)
+    # Manifests go last: until then they tell which files are ours.
+    last = sorted(changed, key=lambda d: (d.path.endswith(MANIFEST), d.path))
     try:
-        for difference in changed:
+        for difference in last:
             path = directory / difference.path
             if difference.kind == "stale":
                 path.unlink()
-                continue
-            path.parent.mkdir(parents=True, exist_ok=True)
-            write_text(path, files[difference.path])
+            elif difference.kind != "unknown":
+                path.parent.mkdir(parents=True, exist_ok=True)
+                write_text(path, files[difference.path])
     except OSError as error:
         raise InputError(f"cannot write there: {error.strerror}", where=str(directory)) from None
     return changed

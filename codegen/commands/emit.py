@@ -69,6 +69,8 @@ def command(
 def explanation(compiled: Any) -> str:
     """Return the program as lowered and after each pass, with operation counts, and what was left out."""
     from codegen.emit import left_out
+    from codegen.printers.arrange import arrange
+    from codegen.printers.operations import operations, sentences
 
     parts = [f"# lowered: {counted(compiled.lowered.counts())}\n{compiled.lowered.text()}"]
     for report in compiled.trace:
@@ -77,6 +79,8 @@ def explanation(compiled: Any) -> str:
         added = f", put in {came}" if came else ""
         parts.append(f"# {report.name}: took out {gone}{added}; left {counted(report.after)}")
         parts.append(report.program.text())
+    costs = sentences(operations(arrange(compiled.kernel)))
+    parts.append("# kernel\n" + "".join(f"  {line}\n" for line in costs))
     parts.append("# left out\n" + "".join(f"  {line}\n" for line in left_out(compiled)))
     return "\n".join(parts)
 

@@ -17,7 +17,8 @@ from orderconds.commands import screen
 def command(check_only: bool, output: str | None, listing: str | None, as_json: bool) -> int:
     """Rewrite the emitted modules that regenerate.toml lists; with --check say which files differ.
 
-    Files that nothing on the list makes are stale: they are removed, or reported.
+    Files that were emitted once but by nothing on the list are stale: they are removed, or reported. Files
+    that were never emitted are unknown: they are reported and left alone.
     """
     from codegen.regenerate import LIST, compare, contents, entries, write
 
@@ -35,9 +36,12 @@ def command(check_only: bool, output: str | None, listing: str | None, as_json: 
     else:
         for difference in differences:
             click.echo(f"{directory / difference.path}: {difference.kind}")
-        count = f"{len(differences)} of {len(files)} files"
-        said = "differ; type: orderconds regenerate" if differences else "differ"
-        click.echo(f"{count} {said}" if check_only else f"{count} rewritten in {directory}")
+        if check_only:
+            hint = "; type: orderconds regenerate" if differences else ""
+            click.echo(f"{len(differences)} differences, {len(files)} files belong there{hint}")
+        else:
+            written = sum(d.path in files for d in differences)
+            click.echo(f"{written} of {len(files)} files rewritten in {directory}")
     return 1 if check_only and differences else 0
 
 

@@ -154,7 +154,7 @@ def emission(kernel: Kernel, target: str, prefix: str = "") -> Emission:
 def kernels() -> SimpleNamespace:
     """The kernels of this file by name, and how to emit and interpret them."""
     return SimpleNamespace(
-        **KERNELS, recipe=recipe, emission=emission, interpret=interpret, STATES=STATES, stumpff=stumpff
+        **KERNELS, recipe=recipe, emission=emission, interpret=interpret, STATES=STATES, SANITIZE=SANITIZE
     )
 
 

@@ -115,6 +115,47 @@ def test_a_block_that_leaves_the_numbers_is_named(kernels, target):
     assert failure.value.status == Status.NOT_FINITE
 
 
+FAILURES = """
+#include "pendulum.h"
+#include <math.h>
+#include <stdio.h>
+
+/* Everything that a caller may leave out or that may go wrong, with buffers of exactly the size asked for. */
+int main(void)
+{
+    double state[2] = {0.5, 0.25};
+    double rows[2 * 3];
+    pendulum_statistics statistics = {{0}, 0, 0};
+    size_t completed = 99;
+    if (pendulum_run(state, 0.0, 0.5, 5, 2.0, rows, 2, &statistics, &completed) != PENDULUM_OK) return 1;
+    if (completed != 5 || statistics.sweeps[0] < 5 || rows[4] == rows[0]) return 2;
+    if (pendulum_run(state, 0.0, 0.5, 5, 2.0, NULL, 0, NULL, NULL) != PENDULUM_OK) return 3;
+    if (pendulum_run(state, 0.0, 0.5, 5, 2.0, rows, 0, NULL, NULL) != PENDULUM_OK) return 4;
+    const double before = state[0];
+    if (pendulum_run(state, 0.0, NAN, 5, 2.0, rows, 1, NULL, &completed) != PENDULUM_BAD_STEP) return 5;
+    if (completed != 0 || state[0] != before) return 6;
+    if (pendulum_step(state, 0.0, 50.0, 2.0, &statistics) != PENDULUM_NOT_CONVERGED) return 7;
+    if (statistics.failed != 1 || statistics.most != 100 || state[0] != before) return 8;
+    if (pendulum_step(state, 0.0, 0.5, INFINITY, NULL) != PENDULUM_NOT_FINITE) return 9;
+    if (state[0] != before) return 10;
+    return 0;
+}
+"""
+
+
+def test_failures_and_absent_arguments_are_clean_under_the_sanitizers(kernels, compiler: Compiler, tmp_path):
+    files = {**kernels.emission(kernels.pendulum(), "c").files, "failures.c": FAILURES}
+    compile_files(files, tmp_path, tmp_path / "failures", kernels.SANITIZE, compiler)
+    answer = subprocess.run([tmp_path / "failures"], capture_output=True, text=True, check=False)
+    assert (answer.returncode, answer.stderr) == (0, "")
+
+
+def test_a_negative_number_of_steps_is_refused(kernels):
+    for target in ("c", "python"):
+        with pytest.raises(ValueError, match="no negative number of steps"):
+            load(kernels.emission(kernels.rigid(), target)).run([0.4, -0.3, 0.9], 0.1, -1)
+
+
 def test_statistics_of_c_and_python_are_equal_and_add_up(kernels):
     counts = []
     for target in ("c", "python"):

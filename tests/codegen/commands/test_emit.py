@@ -100,26 +100,38 @@ def made(tmp_path):
 
 def test_regenerate_twice_changes_nothing(made):
     _, arguments = made
-    assert run(regenerate, *arguments, "--check").startswith("0 of 4 files differ")
+    assert run(regenerate, *arguments, "--check").startswith("0 differences, 4 files belong there")
     assert run(regenerate, *arguments).startswith("0 of 4 files rewritten")
 
 
 @pytest.mark.parametrize("kind", ["different", "missing", "stale"])
 def test_regenerate_check_names_what_differs_and_regenerate_mends_it(made, kind):
     folder, arguments = made
-    path = folder / "free_rigid_body" / ("old_method.c" if kind == "stale" else "free_rigid_body_cf4.py")
+    path = folder / "free_rigid_body" / "free_rigid_body_cf4.py"
     if kind == "missing":
         path.unlink()
+    elif kind == "different":
+        path.write_text(path.read_text() + " ")
     else:
-        with path.open("a") as stream:
-            stream.write(" ")
+        path = folder / "dipole" / "dipole_vcg_midpoint.py"
+        run(emit, "dipole", "-m", "vcg:midpoint", "-t", "python", "-o", str(path.parent))
     told = run(regenerate, *arguments, "--check", status=1)
     assert f"{path}: {kind}" in told
-    assert "1 of 4 files differ; type: orderconds regenerate" in told
+    assert "files belong there; type: orderconds regenerate" in told
     record = json.loads(run(regenerate, *arguments, "--check", "--json", status=1))
-    assert record["differences"] == [{"file": path.relative_to(folder).as_posix(), "kind": kind}]
+    assert {"file": path.relative_to(folder).as_posix(), "kind": kind} in record["differences"]
     run(regenerate, *arguments)
-    assert run(regenerate, *arguments, "--check").startswith("0 of")
+    assert path.exists() == (kind != "stale")
+    assert run(regenerate, *arguments, "--check").startswith("0 differences")
+
+
+def test_regenerate_never_removes_what_was_not_emitted(made):
+    folder, arguments = made
+    letter = folder / "free_rigid_body" / "letter.txt"
+    letter.write_text("mine")
+    assert f"{letter}: unknown" in run(regenerate, *arguments)
+    assert letter.read_text() == "mine"
+    assert f"{letter}: unknown" in run(regenerate, *arguments, "--check", status=1)
 
 
 def test_a_list_that_cannot_be_read_is_bad_input(tmp_path):

@@ -1,0 +1,43 @@
+"""The graph of snippets: nothing is emitted that nothing calls."""
+
+from __future__ import annotations
+
+import re
+
+import networkx as nx
+import pytest
+
+from codegen.snippets.graph import LIBRARY, graph, needed, snippets
+from codegen.snippets.stumpff import SETS
+
+TARGETS = ("c", "python")
+
+
+def test_no_helper_calls_itself():
+    assert nx.is_directed_acyclic_graph(graph())
+
+
+@pytest.mark.parametrize("target", TARGETS)
+@pytest.mark.parametrize("snippet", [s for s in snippets() if s.name != "greater"], ids=lambda s: s.name)
+def test_the_edges_are_the_calls_in_the_text(target, snippet):
+    text = needed(target, [snippet.name]).texts[-1]
+    body = text.split("\n", 1)[1]
+    called = set(re.findall(r"([a-z]\w*)\(", re.sub(r'""".*?"""|/\*.*?\*/', "", body, flags=re.S)))
+    assert called - {snippet.name} == set(snippet.calls)
+
+
+def test_callees_come_first():
+    for target in TARGETS:
+        texts = needed(target, ["stumpff_123"]).texts
+        assert len(texts) == 4
+        assert "stumpff_123" in texts[-1]
+
+
+def test_library_functions_need_no_text():
+    assert needed("c", LIBRARY).texts == ()
+    assert needed("python", ["cos", "sin"]).library == ("cos", "sin")
+
+
+def test_every_set_of_orders_has_a_helper():
+    assert len(SETS) == 15
+    assert all("stumpff_" + "".join(map(str, orders)) in graph() for orders in SETS)
