@@ -2,8 +2,8 @@
  * Dipole on a stick, T*SO(3) (thesis section 3.6): one step by vcg:triple_jump
  *
  * method:     family vcg, tableau triple_jump
- * source:     Yoshida 1990, (2.11); Hairer, Lubich and Wanner, (II.4.4); Table 3.2b of Bogfjellmo
- *             and Marthinsen
+ * source:     Yoshida 1990; Hairer, Lubich and Wanner, (II.4.4); Table 3.2b of Bogfjellmo and
+ *             Marthinsen
  * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
  * state:      [0..8] q: element of SO(3), row by row

@@ -1,7 +1,7 @@
 """Dipole on a stick, T*SO(3) (thesis section 3.6): one step by vcg:triple_jump
 
 method:     family vcg, tableau triple_jump
-source:     Yoshida 1990, (2.11); Hairer, Lubich and Wanner, (II.4.4); Table 3.2b of
+source:     Yoshida 1990; Hairer, Lubich and Wanner, (II.4.4); Table 3.2b of
             Bogfjellmo and Marthinsen
 order:      4, certificate: exact (every order condition up to it is zero in exact
             arithmetic)

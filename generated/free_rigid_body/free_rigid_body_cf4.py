@@ -1,8 +1,8 @@
 """Free rigid body on the sphere (thesis section 2.8): one step by cf:cf4
 
 method:     family cf, tableau cf4
-source:     Celledoni, Marthinsen and Owren 2003, Section 4; thesis of Bogfjellmo,
-            Section 2.2.1
+source:     Celledoni, Marthinsen and Owren 2003; H. Marthinsen, thesis, Section
+            2.2.1
 order:      4, certificate: exact (every order condition up to it is zero in exact
             arithmetic)
 scene:      Free rigid body on the sphere (thesis section 2.8), group SO(3)

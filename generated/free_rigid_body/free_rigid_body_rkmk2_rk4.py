@@ -1,7 +1,8 @@
 """Free rigid body on the sphere (thesis section 2.8): one step by rkmk(2):rk4
 
 method:     family rkmk(2), tableau rk4
-source:     Kutta 1901, p. 443; Munthe-Kaas 1998, Section 4 as a Lie group method
+source:     Kutta 1901; Hairer, Norsett and Wanner, Solving Ordinary Differential
+            Equations I, Table II.1.2; with brackets: Munthe-Kaas 1998
 order:      4, certificate: exact (every order condition up to it is zero in exact
             arithmetic)
 scene:      Free rigid body on the sphere (thesis section 2.8), group SO(3)
