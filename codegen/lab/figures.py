@@ -1,0 +1,182 @@
+"""Pictures as inline SVG that takes its colours and fonts from the page, so that it suits light and dark.
+
+Matplotlib draws with stand-in colours, which are then replaced by the page's CSS variables. Text stays text.
+Identifiers are salted with the figure's name: the same data gives the same bytes, and two figures of a page
+do not share clip paths.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+INK, MUTED, RULE = "#010a01", "#010a02", "#010a03"
+SERIES = tuple(f"#010b{k:02x}" for k in range(1, 7))
+COLOURS = {INK: "var(--ink)", MUTED: "var(--muted)", RULE: "var(--rule)"} | {
+    colour: f"var(--series-{k})" for k, colour in enumerate(SERIES, start=1)
+}
+"""Stand-in colour to the page's variable."""
+
+MARKERS = ("o", "s", "^", "D", "v", "P")
+SIZE = (4.7, 3.7)
+"""Inches; on a phone the picture is about as wide as its view box, so that text keeps its size."""
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A labelled sequence of points (x, y), and the order whose slope it should have (None: no line)."""
+
+    label: str
+    points: tuple[tuple[float, float], ...]
+    order: int | None = None
+
+
+def convergence_figure(name: str, curves: Sequence[Curve], error_label: str) -> str:
+    """Return error against step size, log-log, with a dashed line for each stated order."""
+    figure, axes = _canvas()
+    for order in sorted({c.order for c in curves if c.order is not None}):
+        _reference_line(axes, order, next(c for c in curves if c.order == order))
+    _draw(axes, curves)
+    axes.set_xlabel("step size h")
+    axes.set_ylabel(error_label)
+    _ticks(axes.xaxis, lambda x: f"{x:g}")
+    axes.legend(loc="lower right", **LEGEND)
+    return _svg(figure, name)
+
+
+def efficiency_figure(name: str, curves: Sequence[Curve], error_label: str) -> str:
+    """Return error against CPU time of the whole run, log-log."""
+    figure, axes = _canvas()
+    _draw(axes, curves)
+    axes.set_xlabel("CPU time of the run")
+    axes.set_ylabel(error_label)
+    _ticks(axes.xaxis, seconds)
+    axes.legend(loc="upper right", **LEGEND)
+    return _svg(figure, name)
+
+
+LEGEND: dict[str, Any] = {"frameon": False, "labelcolor": INK, "handlelength": 1.6, "borderaxespad": 0.2}
+
+STYLE: dict[str, Any] = {
+    "svg.fonttype": "none",
+    "font.size": 9,
+    "legend.fontsize": 8.5,
+    "axes.edgecolor": MUTED,
+    "axes.labelcolor": INK,
+    "axes.linewidth": 0.6,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "xtick.color": MUTED,
+    "ytick.color": MUTED,
+    "xtick.labelcolor": INK,
+    "ytick.labelcolor": INK,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "xtick.minor.size": 0,
+    "ytick.minor.size": 0,
+    "lines.linewidth": 1.3,
+    "lines.markersize": 4.5,
+}
+
+
+def _canvas() -> tuple[Any, Any]:
+    import matplotlib
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+    from matplotlib.figure import Figure
+
+    with matplotlib.rc_context(STYLE):
+        figure = Figure(figsize=SIZE, layout="constrained")
+        FigureCanvasSVG(figure)
+        axes = figure.add_subplot()
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.grid(color=RULE, linewidth=0.5)
+    axes.set_axisbelow(True)
+    return figure, axes
+
+
+def _draw(axes: Any, curves: Sequence[Curve]) -> None:
+    for k, curve in enumerate(curves):
+        colour = SERIES[k % len(SERIES)]
+        x, y = zip(*curve.points, strict=True)
+        axes.plot(x, y, color=colour, marker=MARKERS[k % len(MARKERS)], label=curve.label, clip_on=False)
+    _ticks(axes.yaxis, power_of_ten)
+
+
+def _reference_line(axes: Any, order: int, curve: Curve) -> None:
+    """Draw C h^order a little below the curve's finest point, over the curve's range of h."""
+    x = sorted(p[0] for p in curve.points)
+    finest = min(curve.points)
+    y = [0.45 * finest[1] * (h / finest[0]) ** order for h in (x[0], x[-1])]
+    axes.plot([x[0], x[-1]], y, color=MUTED, linewidth=0.8, linestyle=(0, (4, 3)))
+    middle = math.sqrt(x[0] * x[-1])
+    level = 0.45 * finest[1] * (middle / finest[0]) ** order
+    axes.annotate(
+        f"h{superscript(order)}" if order > 1 else "h",
+        (middle, level),
+        xytext=(4, -9),
+        textcoords="offset points",
+        color=MUTED,
+        fontsize=8,
+    )
+
+
+def _ticks(axis: Any, text: Any) -> None:
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    axis.set_major_locator(LogLocator(base=10, numticks=9))
+    axis.set_major_formatter(FuncFormatter(lambda x, _: text(x)))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def superscript(n: int) -> str:
+    """Return an integer in superscript digits.
+
+    >>> superscript(-12)
+    '⁻¹²'
+    """
+    return str(n).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+
+
+def power_of_ten(x: float) -> str:
+    """Return a power of ten as people write it.
+
+    >>> power_of_ten(1e-08), power_of_ten(1.0)
+    ('10⁻⁸', '1')
+    """
+    exponent = round(math.log10(x))
+    return "1" if exponent == 0 else f"10{superscript(exponent)}"
+
+
+def seconds(x: float) -> str:
+    """Return a time with a unit.
+
+    >>> seconds(1e-5), seconds(0.1), seconds(1e-9)
+    ('10 µs', '100 ms', '1 ns')
+    """
+    for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
+        if x >= 0.999 * size:
+            return f"{x / size:g} {unit}"
+    return f"{x / 1e-9:.3g} ns"
+
+
+def _svg(figure: Any, name: str) -> str:
+    """Return the figure as an SVG element without size, date and fixed colours."""
+    import matplotlib
+
+    stream = io.StringIO()
+    with matplotlib.rc_context(STYLE | {"svg.hashsalt": name}):
+        figure.savefig(stream, format="svg", transparent=True, metadata={"Date": None})
+    text = stream.getvalue()
+    text = text[text.index("<svg") :]
+    text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
+    text = re.sub(r'\s+(width|height)="[\d.]+pt"', "", text, count=2)
+    text = re.sub(r'\s+id="(?:[a-z]+[_A-Za-z]*\d+|patch_\d+|[a-z_0-9A-Z.]*axes_\d+)"', "", text)
+    text = re.sub(r"""'DejaVu Sans'(?:, [^;"]*)?""", "var(--sans)", text)
+    for colour, variable in COLOURS.items():
+        text = text.replace(colour, variable)
+    return text.strip()
