@@ -3,18 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from codegen.errors import MethodError
 from codegen.method import Method
 
+if TYPE_CHECKING:
+    from orderconds.check import Failure
+
 
 @dataclass(frozen=True)
 class CertifiedOrder:
-    """An order with how it is known; ``bound`` says that the search ended before a condition failed."""
+    """An order with how it is known, and the conditions of the next order that fail.
+
+    ``bound`` says that the search ended before a condition failed.
+    """
 
     order: int
     certificate: str
     bound: bool = False
+    failing: tuple[Failure, ...] = ()
 
     def text(self) -> str:
         """Say it in words."""
@@ -37,4 +45,4 @@ def certified_order(method: Method) -> CertifiedOrder:
             f"the order of {method.label} is undecided beyond {found.order}",
             expected="coefficients with more digits",
         )
-    return CertifiedOrder(found.order, found.certificate, found.limit is not None)
+    return CertifiedOrder(found.order, found.certificate, found.limit is not None, found.failing)

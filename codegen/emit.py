@@ -13,7 +13,7 @@ from pathlib import PurePath
 from typing import Any
 
 from codegen import scenes
-from codegen.certify import certified_order
+from codegen.certify import CertifiedOrder, certified_order
 from codegen.emission import Emission, digest
 from codegen.ir.domain import FloatDomain
 from codegen.ir.kernel import Kernel, Loop
@@ -86,13 +86,21 @@ def emit(
 
 
 def emit_compiled(
-    compiled: Compiled, target: str, prefix: str = "", named: Mapping[str, str] | None = None
+    compiled: Compiled,
+    target: str,
+    prefix: str = "",
+    named: Mapping[str, str] | None = None,
+    order: CertifiedOrder | None = None,
 ) -> Emission:
-    """Return a compiled method as a module of a target; ``named`` spells scene and method for the command."""
+    """Return a compiled method as a module of a target.
+
+    ``named`` spells scene and method for the command; ``order`` is what :func:`certified_order` found, for a
+    caller that has asked already.
+    """
     scene, method = compiled.scene, compiled.method
     named = named or {"scene": scene.name, "method": method.label}
     chosen = prefix_of(prefix) if prefix else default_prefix(scene, method)
-    order = certified_order(method)
+    order = order or certified_order(method)
     options = [f"--prefix {chosen}"] if prefix else []
     options += [f"--parameter {p}" for p in scene.runtime]
     words = ["orderconds emit", named["scene"], "--method", quoted(named["method"]), "--target", target]

@@ -22,34 +22,26 @@ def command(
 
     The exit status is 0 when every observed order is the stated one, 1 when some is not or cannot be told.
     """
+    from codegen.certify import certified_order
     from codegen.lab.converge import Convergence, converge
-    from codegen.lab.methods import parse_for
     from codegen.lab.reference import reference
     from codegen.lab.runner import runner
-    from codegen.lab.stated import stated
+    from codegen.lower import families_for
+    from codegen.method import parse
     from codegen.scenes import load
 
     prescribed = read_steps(steps)
     setting = load(scene)
-    chosen = [parse_for(setting, spelling) for spelling in methods]
-    orders = [stated(method) for method in chosen]
-    runners = [runner(setting, method, target, digits) for method in chosen]
+    chosen = [parse(spelling, families_for(setting)) for spelling in methods]
+    orders = [certified_order(method) for method in chosen]
+    pairs = zip(chosen, orders, strict=True)
+    runners = [runner(setting, method, target, digits, order) for method, order in pairs]
     if is_terminal() and not as_json:
         click.echo(f"computing the reference of {setting.name} ...", err=True)
     exact = reference(setting)
     found: list[Convergence] = []
-    for method, order, run in zip(chosen, orders, runners, strict=True):
-        found.append(
-            converge(
-                setting,
-                run,
-                exact,
-                method=method.label,
-                stated=order.order,
-                certificate=order.certificate,
-                steps=prescribed,
-            )
-        )
+    for run, order in zip(runners, orders, strict=True):
+        found.append(converge(run, order, exact, steps=prescribed))
         if not as_json:
             show(found[-1], first=len(found) == 1)
     if as_json:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from codegen.certify import CertifiedOrder
 from codegen.lab.distance import distance
 from codegen.lab.ladder import CLEAR, Ladder, Rung, climb, rounding
 from codegen.lab.reference import Reference
@@ -31,8 +32,7 @@ class Convergence:
     scene: str
     method: str
     target: str
-    stated: int
-    certificate: str
+    stated: CertifiedOrder
     ladder: Ladder
 
     @property
@@ -43,7 +43,7 @@ class Convergence:
     @property
     def verdict(self) -> str:
         """``holds``, ``fails`` or ``undecided``."""
-        return self.ladder.verdict(self.stated)
+        return self.ladder.verdict(self.stated.order)
 
     def as_json(self) -> dict[str, Any]:
         """Return the JSON object of ``orderconds converge``; an error that is not finite is null."""
@@ -53,8 +53,8 @@ class Convergence:
             "scene": self.scene,
             "method": self.method,
             "target": self.target,
-            "stated_order": self.stated,
-            "certificate": self.certificate,
+            "stated_order": self.stated.order,
+            "certificate": self.stated.certificate,
             "steps": [r.steps for r in rungs],
             "h": [r.h for r in rungs],
             "error": [r.error if math.isfinite(r.error) else None for r in rungs],
@@ -69,7 +69,7 @@ class Convergence:
         if self.observed is None:
             reasons = sorted({r.excluded for r in self.ladder.rungs if r.excluded})
             return f"undecided: no two neighbouring runs count ({'; '.join(reasons) or 'too few steps'})"
-        about = f"observed order {self.observed:.2f}, stated {self.stated} ({self.certificate})"
+        about = f"observed order {self.observed:.2f}, stated {self.stated.order} ({self.stated.certificate})"
         if self.verdict == "undecided":
             return f"undecided: {about}, but {self._unsettled()}"
         return f"{self.verdict}: {about}"
@@ -84,27 +84,30 @@ class Convergence:
 
 
 def converge(
-    scene: Setting,
     runner: Runner,
+    stated: CertifiedOrder,
     exact: Reference,
     *,
-    method: str,
-    stated: int,
-    certificate: str,
     steps: Sequence[int] = (),
+    to_rounding: bool = False,
 ) -> Convergence:
-    """Climb the ladder of ``runner`` on ``scene`` and return what was seen.
+    """Climb the ladder of a runner and return what was seen.
 
     ``steps`` prescribes the rungs, in increasing numbers of steps; without it the ladder doubles from five
-    steps until its slopes settle, rounding is met, or the runner's patience ends.
+    steps until its slopes settle (``to_rounding``: until rounding is met), or the runner's patience ends.
     """
+    scene = runner.compiled.scene
     size = math.hypot(*(float(x) for x in exact.state))
 
     def rung(n: int) -> Rung:
         return _rung(scene, runner, exact, n, size)
 
-    ladder = Ladder(tuple(rung(n) for n in sorted(steps))) if steps else climb(rung, runner.most_steps)
-    return Convergence(scene.name, method, runner.target, stated, certificate, ladder)
+    ladder = (
+        Ladder(tuple(rung(n) for n in sorted(steps)))
+        if steps
+        else climb(rung, runner.most_steps, to_rounding)
+    )
+    return Convergence(scene.name, runner.compiled.method.label, runner.target, stated, ladder)
 
 
 def _rung(scene: Setting, runner: Runner, exact: Reference, steps: int, size: float) -> Rung:

@@ -87,14 +87,17 @@ def slopes(rungs: Sequence[Rung]) -> tuple[float, ...]:
     return tuple(round(math.log(a.error / b.error) / math.log(a.h / b.h), 12) for a, b in pairwise(rungs))
 
 
-def climb(run: Callable[[int], Rung], most: int) -> Ladder:
-    """Double the number of steps from :data:`FIRST` until slopes settle, rounding is met or ``most`` is."""
+def climb(run: Callable[[int], Rung], most: int, to_rounding: bool = False) -> Ladder:
+    """Double the number of steps from :data:`FIRST` until slopes settle, rounding is met or ``most`` is.
+
+    With ``to_rounding`` the climb does not end where the slopes have settled.
+    """
     rungs: list[Rung] = []
     steps = FIRST
     while steps <= most:
         rungs.append(run(steps))
         ladder = Ladder(tuple(rungs))
-        if ladder.settled or (ladder.clean and rungs[-1].excluded):
+        if (ladder.settled and not to_rounding) or (ladder.clean and rungs[-1].excluded):
             break
         steps *= 2
     return Ladder(tuple(rungs))

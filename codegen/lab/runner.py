@@ -1,7 +1,7 @@
 """Running a method over a scene's span: the interpreter, in double or any precision, or an emitted module.
 
-A :class:`Runner` hides which: it takes a number of steps and returns the final state. The same ladder of step
-sizes can so be climbed by every executor of a program.
+A :data:`Runner` hides which: it takes a number of steps and returns the final state, so that every
+executor of a program climbs the same ladder of step sizes.
 """
 
 from __future__ import annotations
@@ -9,20 +9,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any
 
+from codegen.certify import CertifiedOrder
 from codegen.emission import Emission
-from codegen.emit import emit_kernel
+from codegen.emit import Compiled, compile_method, emit_compiled
 from codegen.errors import MethodError
 from codegen.ir.domain import Domain, FloatDomain, NotConverged, PreciseDomain
 from codegen.ir.interpret import flatten, interpret
-from codegen.ir.program import Program
 from codegen.load import Integrator, StepFailed, load
-from codegen.lower import lower, setting
-from codegen.lower.kernel import to_kernel
+from codegen.lower import setting
 from codegen.method import Method
-from codegen.passes import optimise
-from codegen.printers.recipe import Recipe
 from codegen.scene import Setting
 
 TARGETS = ("c", "python", "interpreter")
@@ -34,29 +31,11 @@ class RunFailed(ArithmeticError):
     """A run that stopped: an iteration did not converge, or a number was not finite."""
 
 
-class Runner(Protocol):
-    """Executes one method on one scene."""
-
-    target: str
-
-    @property
-    def epsilon(self) -> float:
-        """Distance from 1 to the next number of the arithmetic."""
-
-    @property
-    def most_steps(self) -> int:
-        """How many steps a ladder may take without keeping people waiting."""
-
-    def final(self, steps: int) -> tuple[Any, ...]:
-        """Return the state at the end of the span after that many equal steps; :class:`RunFailed`."""
-
-
 @dataclass
 class Interpreted:
     """The interpreter on the optimised step program, in ``digits`` decimal digits (16: doubles)."""
 
-    scene: Setting
-    method: Method
+    compiled: Compiled
     digits: int = DOUBLE
     target: str = "interpreter"
 
@@ -71,21 +50,17 @@ class Interpreted:
         return 1280 if self.digits <= DOUBLE else 320
 
     @cached_property
-    def program(self) -> Program:
-        """The step after all passes."""
-        return optimise(lower(self.scene, self.method), self.view)[0]
-
-    @cached_property
     def view(self) -> Setting:
         """The scene as the family sees it."""
-        return setting(self.scene, self.method)
+        return setting(self.compiled.scene, self.compiled.method)
 
     def final(self, steps: int) -> tuple[Any, ...]:
         """Return the state at the end of the span."""
-        h = (self.scene.span[1] - self.scene.span[0]) / steps
+        start, end = self.view.span
+        h = (end - start) / steps if steps else end - start
         double = self.digits <= DOUBLE
         domain: Domain = FloatDomain(float(h)) if double else PreciseDomain(h, self.digits)
-        state, first = self.view.initial(domain), domain.rational(*self.scene.span[0].as_integer_ratio())
+        state, first = self.view.initial(domain), domain.rational(*start.as_integer_ratio())
         for k in range(steps):
             state = self._step(domain, state, first + k * domain.h)
         return state
@@ -97,9 +72,10 @@ class Interpreted:
             end = start + len(block.symbols)
             values[block.name] = tuple(state[start:end])
             start = end
-        inputs = {v.name: values[v.name] for v in self.program.inputs}
+        program = self.compiled.program
+        inputs = {v.name: values[v.name] for v in program.inputs}
         try:
-            found = interpret(self.program, self.view, domain, inputs)
+            found = interpret(program, self.view, domain, inputs)
         except (NotConverged, ZeroDivisionError, OverflowError, ValueError) as error:
             raise RunFailed(str(error)) from error
         return tuple(x for b in self.view.state for x in flatten(b.kind, found[b.name]))
@@ -109,46 +85,52 @@ class Interpreted:
 class Emitted:
     """An emitted module, compiled and loaded: the same text that ``orderconds emit`` writes."""
 
-    scene: Setting
-    method: Method
-    target: str = "c"
+    compiled: Compiled
+    target: str
+    order: CertifiedOrder | None = None
     epsilon = 2.0**-52
 
     @property
     def most_steps(self) -> int:
-        """A second's worth."""
+        """About a second's worth."""
         return 81920 if self.target == "c" else 10240
 
     @cached_property
     def emission(self) -> Emission:
         """The module's files and manifest."""
-        view = setting(self.scene, self.method)
-        program, _ = optimise(lower(self.scene, self.method), view)
-        recipe = Recipe(self.method.label, (), self.initial)
-        return emit_kernel(to_kernel(program, view), recipe, self.target, "measured_")
+        return emit_compiled(self.compiled, self.target, order=self.order)
 
     @cached_property
     def integrator(self) -> Integrator:
         """The loaded module."""
         return load(self.emission)
 
-    @property
-    def initial(self) -> tuple[float, ...]:
+    @cached_property
+    def initial(self) -> list[float]:
         """The scene's initial state in doubles."""
-        return self.scene.initial(FloatDomain(0.0))
+        return list(self.compiled.scene.initial(FloatDomain(0.0)))
 
     def final(self, steps: int) -> tuple[float, ...]:
         """Return the state at the end of the span."""
-        first, last = self.scene.span
-        h = float((last - first) / steps)
+        first, last = self.compiled.scene.span
+        h = float((last - first) / max(steps, 1))
         try:
-            return tuple(self.integrator.run(list(self.initial), h, steps, float(first)))
+            return tuple(self.integrator.run(self.initial, h, steps, float(first)))
         except StepFailed as error:
             raise RunFailed(str(error)) from error
 
 
-def runner(scene: Setting, method: Method, target: str, digits: int = DOUBLE) -> Runner:
-    """Return the runner of a target; ``digits`` above 16 are for the interpreter alone."""
+Runner = Interpreted | Emitted
+"""Executes one compiled method over its scene's span: ``target``, ``final``, ``epsilon``, ``most_steps``."""
+
+
+def runner(
+    scene: Setting, method: Method, target: str, digits: int = DOUBLE, order: CertifiedOrder | None = None
+) -> Runner:
+    """Return the runner of a target.
+
+    ``digits`` above 16 are for the interpreter alone; ``order`` is the method's, where it is known already.
+    """
     if target not in TARGETS:
         raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(TARGETS)}")
     if digits > DOUBLE and target != "interpreter":
@@ -157,4 +139,5 @@ def runner(scene: Setting, method: Method, target: str, digits: int = DOUBLE) ->
             expected="double precision",
             hint="add --target interpreter",
         )
-    return Interpreted(scene, method, digits) if target == "interpreter" else Emitted(scene, method, target)
+    compiled = compile_method(scene, method)
+    return Interpreted(compiled, digits) if target == "interpreter" else Emitted(compiled, target, order)

@@ -1,7 +1,7 @@
 """What a run costs: CPU time of repeated calls in one process, the least over several batches.
 
-The least time is the one that the machine disturbed least; a mean would measure the neighbours as well. What a
-call costs before its first step (crossing from Python, copying the state) is measured with runs of no step
+The least time is the one that the machine disturbed least; a mean would measure the neighbours as well. What
+a call costs before its first step (crossing from Python, copying the state) is measured with runs of no step
 and taken off, so that short runs compare with long ones.
 """
 

@@ -1,4 +1,4 @@
-"""The text form of an order condition as HTML: sums, indices and powers set as in a paper, no network needed."""
+"""The text form of an order condition as HTML: sums, indices and powers as in a paper."""
 
 from __future__ import annotations
 

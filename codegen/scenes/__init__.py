@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 import runpy
 import traceback
 from dataclasses import replace
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 
 from codegen.errors import SceneError
@@ -50,6 +52,16 @@ def _line(name: str, path: Path, error: BaseException) -> str:
     if isinstance(error, SyntaxError):
         lines.append(error.lineno)
     return f"{name}:{lines[-1]}" if lines else name
+
+
+def about(name: str) -> str:
+    """Return what the file of a scene says of it: its docstring.
+
+    ``name`` is one that :func:`load` takes; a file without a docstring gives ''.
+    """
+    spec = find_spec(f"codegen.scenes.{name}") if name in GALLERY else None
+    path = Path(spec.origin) if spec is not None and spec.origin else Path(name)
+    return ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
 
 
 def listing() -> list[dict[str, str]]:

@@ -7,11 +7,13 @@ from dataclasses import replace
 
 import pytest
 
+from codegen.certify import CertifiedOrder
 from codegen.lab.converge import Convergence, converge
-from codegen.lab.methods import parse_for
 from codegen.lab.reference import Reference
 from codegen.lab.runner import runner
-from codegen.method import Method
+from codegen.lower import families_for
+from codegen.method import Method, parse
+from codegen.scene import Setting
 from codegen.scenes import load
 from orderconds.ring import QQ
 from orderconds.tableau import CommutatorFree, RungeKutta, Stage
@@ -27,6 +29,10 @@ PUBLISHED = {
 }
 
 
+def parse_for(setting: Setting, spelling: str) -> Method:
+    return parse(spelling, families_for(setting))
+
+
 def measure(
     exact: Exact,
     scene: str,
@@ -38,9 +44,8 @@ def measure(
 ) -> Convergence:
     setting = load(scene)
     chosen = method if isinstance(method, Method) else parse_for(setting, method)
-    run = runner(setting, chosen, target, digits)
-    label = chosen.label
-    return converge(setting, run, exact(scene), method=label, stated=stated, certificate="exact", steps=steps)
+    order = CertifiedOrder(stated, "exact")
+    return converge(runner(setting, chosen, target, digits, order), order, exact(scene), steps=steps)
 
 
 @pytest.mark.parametrize("target", TARGETS)
@@ -73,7 +78,7 @@ def test_emitted_c_shows_its_order_and_no_other(scene: str, method: str, exact: 
     found = measure(exact, scene, method, order)
     assert found.verdict == "holds", found.sentence()
     for other in (order - 1, order + 1):
-        assert replace(found, stated=other).verdict == "fails"
+        assert replace(found, stated=CertifiedOrder(other, "exact")).verdict == "fails"
 
 
 @pytest.mark.parametrize(("method", "order"), [("rkmk(4):gauss3", 6), ("cf:cf4", 4)])
@@ -135,7 +140,7 @@ def test_a_fraud_is_reported_as_failing_with_the_order_it_has(name: str, exact: 
     assert measure(exact, "free_rigid_body", good, claimed).verdict == "holds"
     found = measure(exact, "free_rigid_body", spoil(good), claimed)
     assert found.verdict == "fails", found.sentence()
-    assert replace(found, stated=real).verdict == "holds", found.sentence()
+    assert replace(found, stated=CertifiedOrder(real, "exact")).verdict == "holds", found.sentence()
 
 
 def test_a_weight_off_by_5e_11_is_beyond_any_slope_and_left_to_check(exact: Exact) -> None:

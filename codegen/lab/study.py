@@ -1,0 +1,106 @@
+"""What the report shows of a scene: orders from conditions, ladders, times, and what emission left out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from codegen.certify import CertifiedOrder, certified_order
+from codegen.emission import Emission
+from codegen.emit import compile_method
+from codegen.lab.converge import Convergence, converge
+from codegen.lab.ladder import FIRST
+from codegen.lab.reference import Reference, reference
+from codegen.lab.runner import Emitted, Interpreted
+from codegen.lab.timing import Timing, timings
+from codegen.lower import families_for
+from codegen.method import Method, parse
+from codegen.scene import Setting
+
+FIELD_METHODS = ("rkmk(0):euler", "cg:cg3", "rkmk(2):rk4", "cf:cf4")
+HAMILTONIAN_METHODS = ("vcg:midpoint", "vcg:triple_jump", "cf:cf4", "vcg:triple_jump6")
+"""What is shown where nobody chose: one method an order, of several families."""
+
+COMPARED = 4 * FIRST
+"""Steps of the run in which the executors are compared."""
+
+MOST_TIMED = 2560
+"""Steps of the longest run that is timed."""
+
+Tell = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class MethodStudy:
+    """One method: its order, its ladders in emitted C and Python, times of the C, and the emission.
+
+    ``spread`` is the largest difference of any coordinate between emitted C, emitted Python and the
+    interpreter after :data:`COMPARED` steps.
+    """
+
+    method: Method
+    order: CertifiedOrder
+    compiled: Convergence
+    python: Convergence
+    times: tuple[Timing, ...]
+    spread: float
+    emission: Emission
+
+    @property
+    def verdict(self) -> str:
+        """The worse of the two ladders' verdicts."""
+        verdicts = (self.compiled.verdict, self.python.verdict)
+        return next((v for v in ("fails", "undecided") if v in verdicts), "holds")
+
+    def as_json(self) -> dict[str, Any]:
+        """Return the measurements as plain data."""
+        return {
+            "method": self.method.label,
+            "verdict": self.verdict,
+            "c": self.compiled.as_json(),
+            "python": self.python.as_json(),
+            "spread": self.spread,
+            "seconds": {str(t.steps): t.seconds for t in self.times},
+        }
+
+
+@dataclass(frozen=True)
+class Study:
+    """A scene, as ``spelled`` by the user, with its reference and what each method did on it."""
+
+    spelled: str
+    scene: Setting
+    exact: Reference
+    methods: tuple[MethodStudy, ...]
+
+
+def methods_for(scene: Setting, spellings: Sequence[str] = ()) -> tuple[Method, ...]:
+    """Return the methods of those spellings, or the usual ones of a scene of this kind."""
+    usual = HAMILTONIAN_METHODS if scene.is_hamiltonian else FIELD_METHODS
+    families = families_for(scene)
+    return tuple(parse(spelling, families) for spelling in (spellings or usual))
+
+
+def study(spelled: str, scene: Setting, methods: Sequence[Method], tell: Tell) -> Study:
+    """Measure methods on a scene; ``tell`` hears what is being done."""
+    tell(f"{scene.name}: reference solution")
+    exact = reference(scene)
+    return Study(spelled, scene, exact, tuple(_study(scene, m, exact, tell) for m in methods))
+
+
+def _study(scene: Setting, method: Method, exact: Reference, tell: Tell) -> MethodStudy:
+    name = f"{scene.name}, {method.label}"
+    tell(f"{name}: order conditions")
+    order = certified_order(method)
+    tell(f"{name}: compiling")
+    compiled = compile_method(scene, method)
+    c, python = Emitted(compiled, "c", order), Emitted(compiled, "python", order)
+    tell(f"{name}: convergence")
+    ladder = converge(c, order, exact, to_rounding=True)
+    observed = converge(python, order, exact)
+    ends = [runner.final(COMPARED) for runner in (c, python, Interpreted(compiled))]
+    spread = max(abs(x - y) for other in ends[1:] for x, y in zip(ends[0], other, strict=True))
+    tell(f"{name}: times")
+    steps = [r.steps for r in ladder.ladder.clean if r.steps <= MOST_TIMED]
+    return MethodStudy(method, order, ladder, observed, timings(c.final, steps), spread, c.emission)

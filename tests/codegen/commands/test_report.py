@@ -1,0 +1,92 @@
+"""``orderconds report``: where the page goes, and one message for bad input before anything is measured."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from codegen.lab import report
+from orderconds.cli import program
+
+
+def run(*words: str) -> Result:
+    return CliRunner().invoke(program, ["report", *words])
+
+
+def test_the_page_is_written_and_named_at_the_end(tmp_path: Path) -> None:
+    folder = tmp_path / "new" / "folder"
+    result = run("free_rigid_body", "-m", "cg:cg3", "-o", str(folder))
+    assert result.exit_code == 0, result.output
+    assert result.stdout.splitlines()[-1] == f"the report: {folder / 'index.html'}"
+    assert [p.name for p in folder.iterdir()] == ["index.html"]
+    assert (folder / "index.html").read_text(encoding="utf-8").endswith("</html>\n")
+
+
+def test_json_holds_the_measurements_and_stdout_nothing_else(tmp_path: Path) -> None:
+    found = json.loads(run("free_rigid_body", "-m", "rkmk(0):euler", "-o", str(tmp_path), "--json").stdout)
+    (scene,) = found["scenes"]
+    (method,) = scene["methods"]
+    assert (scene["scene"], method["method"]) == ("free_rigid_body", "rkmk(0):euler")
+    assert method["c"]["verdict"] == method["python"]["verdict"] == method["verdict"] == "holds"
+
+
+def test_a_user_scene_is_reported_by_its_own_words(tmp_path: Path) -> None:
+    scene = tmp_path / "spin.py"
+    scene.write_text(
+        '"""A spin in a turning field, as its author says it."""\n'
+        "from sympy import Matrix, cos, sin, symbols\n"
+        "from codegen.groups import SO3, Rotation\n"
+        "from codegen.scene import FieldScene\n"
+        "t = symbols('t', real=True)\n"
+        "m = SO3().dual('m')\n"
+        "scene = FieldScene(title='Spin', group=SO3(), action=Rotation(), y=m, span=(0, 1),\n"
+        "    f=Matrix([cos(t), sin(2*t), m[2]]) + m, y0=Matrix([1, 0, 0]))\n"
+    )
+    folder = tmp_path / "out"
+    result = run(str(scene), "-m", "rkmk(2):rk4", "-o", str(folder))
+    assert result.exit_code == 0, result.output
+    page = (folder / "index.html").read_text(encoding="utf-8")
+    assert "as its author says it" in page
+    assert str(tmp_path) not in page
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("nowhere",), "unknown scene"),
+        (("free_rigid_body", "-m", "vcg:gauss1"), "family vcg"),
+        (("free_rigid_body", "-m", "cg33"), "cg33"),
+    ],
+)
+def test_bad_input_is_one_message_before_anything_is_measured(
+    words: tuple[str, ...], said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(report, "study", None)
+    result = run(*words, "-o", str(tmp_path))
+    assert result.exit_code == 2
+    assert result.stdout == ""
+    assert said in result.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_cannot_be_written_to_is_found_out_first(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(report, "measure", None)
+    blocked = tmp_path / "file"
+    blocked.write_text("", encoding="utf-8")
+    result = run("free_rigid_body", "-o", str(blocked / "inside"))
+    assert result.exit_code == 2
+    assert "cannot write there" in result.stderr
+
+
+def test_a_page_that_cannot_be_finished_leaves_the_old_one(tmp_path: Path) -> None:
+    page = report.place(tmp_path / "index.html", "old\n")
+
+    with pytest.raises(UnicodeEncodeError):
+        report.place(page, "half a page, then \ud800")
+    assert page.read_text(encoding="utf-8") == "old\n"
+    assert [p.name for p in tmp_path.iterdir()] == ["index.html"]

@@ -1,0 +1,48 @@
+"""What timing does with the clock, shown with a clock of our own; no real time is asserted."""
+
+from __future__ import annotations
+
+import pytest
+
+from codegen.lab import timing
+
+
+class Clock:
+    """CPU time that passes only when a run says so; ``disturb`` makes the first calls take longer."""
+
+    def __init__(self) -> None:
+        self.now, self.disturb = 0.0, 0
+
+    def process_time(self) -> float:
+        return self.now
+
+    def run(self, steps: int) -> None:
+        self.now += 2e-6 + 50e-9 * steps + (40e-6 if self.disturb > 0 else 0.0)
+        self.disturb -= 1
+
+
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
+    made = Clock()
+    monkeypatch.setattr(timing, "time", made)
+    return made
+
+
+def test_what_a_call_costs_before_its_first_step_is_taken_off(clock: Clock) -> None:
+    for found in timing.timings(clock.run, (10, 1000), batch=1e-3):
+        assert found.ns_per_step == pytest.approx(50, rel=1e-6)
+
+
+def test_a_disturbed_batch_does_not_count(clock: Clock) -> None:
+    clock.disturb = 100
+    assert timing.cost(lambda: clock.run(0), batch=1e-3) == pytest.approx(2e-6, rel=1e-6)
+
+
+def test_a_batch_lasts_long_enough_for_the_clock(clock: Clock) -> None:
+    timing.cost(lambda: clock.run(0), batch=1e-2, batches=3)
+    assert clock.now >= 3e-2
+
+
+def test_no_time_is_negative(clock: Clock) -> None:
+    (found,) = timing.timings(lambda n: clock.run(0), (7,), batch=1e-4)
+    assert found.seconds >= 0
