@@ -133,8 +133,23 @@ def powers() -> Kernel:
     return Kernel("powers", (Field("x", ("x", "y"), "numbers"),), ("t", "h"), (), (big, small - x * h**3))
 
 
-STATES = {"rigid": (0.4, -0.3, 0.9), "pendulum": (0.5, 0.25), "powers": (1.25, 0.5)}
-KERNELS = {"rigid": rotation, "pendulum": pendulum, "powers": powers}
+def single() -> Kernel:
+    """One of everything: component, unknown, Stumpff function of an argument; odd names; a plain output."""
+    s = Space()
+    x, h, u, y = s.sym("for"), s.sym("h"), s.sym("u.1"), s.sym("2y")
+    loop = Loop(
+        'the "first" */ stage',
+        ("u.1",),
+        (x,),
+        (Let("c", s.call("stumpff1", u * u)),),
+        (x + h * s.sym("c"),),
+    )
+    more = Let("2y", x + h * s.call("stumpff3", u * u) + h * s.sym("c"))
+    return Kernel("single", (Field("x", ("for",), "a number"),), ("t", "h"), (loop, more), (y,))
+
+
+STATES = {"rigid": (0.4, -0.3, 0.9), "pendulum": (0.5, 0.25), "powers": (1.25, 0.5), "single": (0.5,)}
+KERNELS = {"single": single, "rigid": rotation, "pendulum": pendulum, "powers": powers}
 
 
 def recipe(kernel: Kernel) -> Recipe:

@@ -6,6 +6,7 @@ import pytest
 
 from codegen.build import CompileError, CompilerMissing, build, cache_directory, find_compiler
 from codegen.printers.c.module import FLAGS
+from orderconds.errors import InputError
 
 SOURCE = {"answer.c": "int answer(void);\nint answer(void)\n{\n    return 42;\n}\n"}
 
@@ -49,3 +50,10 @@ def test_a_refused_source_shows_the_compilers_words_and_leaves_nothing(monkeypat
 def test_a_warning_is_an_error():
     with pytest.raises(CompileError, match="unused"):
         build({"careless.c": "int f(void);\nint f(void)\n{\n    int unused = 1;\n    return 0;\n}\n"})
+
+
+def test_a_cache_that_cannot_be_written_is_bad_input(monkeypatch, tmp_path):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
+    with pytest.raises(InputError, match=r"cannot write there.*set XDG_CACHE_HOME"):
+        build(SOURCE)

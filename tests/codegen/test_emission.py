@@ -69,3 +69,16 @@ def test_a_folder_that_cannot_be_made_is_bad_input(kernels, tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(InputError, match="cannot write there"):
         kernels.emission(kernels.rigid(), "c").write(tmp_path / "file" / "folder")
+
+
+def test_an_interrupted_write_leaves_the_folder_as_it_was(kernels, tmp_path, monkeypatch):
+    kernels.emission(kernels.rigid(), "c").write(tmp_path)
+    before = {p.name: p.read_bytes() for p in tmp_path.iterdir()}
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("codegen.emission.os.replace", full)
+    with pytest.raises(InputError, match="cannot write there: No space left on device"):
+        kernels.emission(kernels.rigid(), "c", "other_").write(tmp_path)
+    assert {p.name: p.read_bytes() for p in tmp_path.iterdir()} == before

@@ -19,7 +19,7 @@ GOLDEN = Path(__file__).parents[1] / "golden"
 ROOT = Path(__file__).parents[2]
 
 
-@pytest.mark.parametrize("name", ["rigid", "pendulum", "powers"])
+@pytest.mark.parametrize("name", ["rigid", "pendulum", "powers", "single"])
 def test_emitted_code_agrees_with_the_interpreter(kernels, check_codegen, name):
     kernel = getattr(kernels, name)()
 
@@ -246,5 +246,5 @@ def test_emitted_bytes_do_not_depend_on_the_hash_seed(tmp_path):
         ).stdout
         for seed in ("0", "1", "2")
     ]
-    assert len(answers[0].splitlines()) == 6
+    assert len(answers[0].splitlines()) == 8
     assert answers[0] == answers[1] == answers[2]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from codegen.ir.kernel import Kernel
 from codegen.printers.arrange import arrange
-from codegen.printers.c.statements import RESERVED, Statements, fill
+from codegen.printers.c.statements import RESERVED, Statements, comment, fill
 from codegen.printers.interface import Interface
 from codegen.printers.layout import layout, register
 from codegen.printers.names import Names
@@ -67,7 +67,7 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
         "module": interface.module,
         "size": interface.size,
         "time": interface.time,
-        "blocks": interface.blocks,
+        "blocks": [comment(label) for label in interface.blocks],
         "step_header": signature(f"int {interface.prefix}step", f"double state[{interface.size}]", step, ";"),
         "run_header": signature(f"int {interface.prefix}run", f"double state[{interface.size}]", run, ";"),
         "advance_source": signature("static inline int advance", state, step, ""),
@@ -96,11 +96,6 @@ def prototypes(interface: Interface) -> str:
         f"int {prefix}run(double *state, {time}double h, size_t steps, {parameters}"
         f"double *trajectory, size_t stride, {statistics}size_t *completed);\n"
     )
-
-
-def comment(text: str) -> str:
-    """Return text that cannot end the C comment it stands in."""
-    return text.replace("*/", "* /").replace("/*", "/ *")
 
 
 def usage(interface: Interface, recipe: Recipe) -> list[str]:

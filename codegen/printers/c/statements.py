@@ -80,7 +80,7 @@ class Statements:
             for u, x, already in zip(loop.unknowns, statement.images, plain, strict=True)
         ]
         previous = self.names.fresh(f"previous_{number}")
-        yield f"/* {loop.label}: fixed point in {', '.join(now)} */"
+        yield f"/* {comment(loop.label)}: fixed point in {', '.join(now)} */"
         for name, start in zip(now, statement.starts, strict=True):
             yield from self._declare(name, start, "double ")
         if statement.kept:
@@ -132,6 +132,11 @@ def greatest(terms: list[str]) -> str:
         return terms[0]
     middle = len(terms) // 2
     return f"greater({greatest(terms[:middle])}, {greatest(terms[middle:])})"
+
+
+def comment(text: str) -> str:
+    """Return text that cannot end the C comment it stands in."""
+    return text.replace("*/", "* /").replace("/*", "/ *")
 
 
 def broken(text: str) -> tuple[str, ...]:

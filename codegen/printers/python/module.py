@@ -8,7 +8,7 @@ from codegen.printers.interface import Interface
 from codegen.printers.layout import layout, register
 from codegen.printers.names import Names
 from codegen.printers.operations import operations, sentences
-from codegen.printers.python.statements import RESERVED, WIDTH, Statements, listed
+from codegen.printers.python.statements import RESERVED, WIDTH, Statements, listed, quoted
 from codegen.printers.recipe import Recipe, header
 from codegen.snippets.graph import needed
 from codegen.templates import environment
@@ -43,7 +43,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             usage=usage(interface, recipe),
             imports=sorted([*imports, *(["inf"] if interface.blocks else [])]),
             snippets=found.texts,
-            blocks=interface.blocks,
+            blocks=[quoted(label) for label in interface.blocks],
             size=interface.size,
             time=interface.time,
             state=unpacking([names.spelled[s] for s in symbols]),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import keyword
 from collections.abc import Iterator, Sequence
 
@@ -70,7 +71,7 @@ class Statements:
         ]
         differences = [self.names.fresh(f"change_{u}") for u in loop.unknowns]
         previous = self.names.fresh(f"previous_{number}")
-        failure = f'"{loop.label}", {number - 1}, sweep, statistics)'
+        failure = f"{quoted(loop.label)}, {number - 1}, sweep, statistics)"
         yield from indented("# ", (f"{loop.label}: fixed point in {', '.join(now)}",), 1)
         for name, start in zip(now, statement.starts, strict=True):
             yield from self._assign(name, start, 1)
@@ -98,6 +99,11 @@ class Statements:
         yield f"        raise _failed(NOT_CONVERGED, {failure}"
         yield "    if statistics is not None:"
         yield f"        statistics.count({number - 1}, sweep)"
+
+
+def quoted(text: str) -> str:
+    """Spell a string with double quotes."""
+    return json.dumps(text, ensure_ascii=False)
 
 
 def call(start: str, terms: list[str], depth: int) -> list[str]:
