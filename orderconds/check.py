@@ -174,7 +174,10 @@ def family_order(
     tableau: Tableau, family: Family, claimed: int | None = None, required: int | None = None
 ) -> FamilyOrder:
     """Find the order of ``tableau`` in ``family``: evaluate orders 1, 2, ... until a condition fails."""
-    return _search(family, _method(tableau, family), tableau.ring, claimed, required)
+    method = _method(tableau, family)
+    if hasattr(family, "require"):
+        family.require(method, tableau.ring)
+    return _search(family, method, tableau.ring, claimed, required)
 
 
 def _search(

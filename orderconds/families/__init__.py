@@ -20,7 +20,11 @@ from orderconds.ring.protocol import Element, Ring
 
 MODULES = {
     "rk": "orderconds.families.rk",
+    "prk": "orderconds.families.prk",
+    "prk_same_weights": "orderconds.families.prk:create_same_weights",
+    "symplectic_rk": "orderconds.families.symplectic_rk",
     "sprk": "orderconds.families.sprk",
+    "sprk_separable": "orderconds.families.sprk_separable",
     "rkmk": "orderconds.families.rkmk",
     "cg": "orderconds.families.cg",
     "cf": "orderconds.families.cf",
@@ -28,14 +32,16 @@ MODULES = {
     "vcg": "orderconds.families.vcg",
     "vcf": "orderconds.families.vcf",
 }
-"""Family name to module, in the order in which ``orderconds list families`` shows them."""
+"""Family name to module, and ``:function`` where that is not ``create``; in the order in which ``orderconds
+list families`` shows them."""
 
 
 class Family(Protocol):
     """What every family offers.
 
-    Optional: ``search_limit``, the order up to which ``check`` searches where nothing is claimed, and
-    ``decisive_conditions(order)``, what it evaluates when an independent set costs more than all trees.
+    Optional: ``search_limit``, the order up to which ``check`` searches where nothing is claimed;
+    ``decisive_conditions(order)``, what it evaluates when an independent set costs more than all trees;
+    ``require(method, ring)``, which raises InputError for a method that is no member of the family.
     """
 
     name: str
@@ -80,7 +86,8 @@ def get(name: str, **options: Any) -> Family:
             expected=f"one of {', '.join(MODULES)}",
             hint=f"did you mean {close[0]!r}?" if close else "",
         )
-    create = import_module(MODULES[base]).create
+    module, _, maker = MODULES[base].partition(":")
+    create = getattr(import_module(module), maker or "create")
     accepted = tuple(inspect.signature(create).parameters)
     if argument is not None and not accepted:
         raise InputError(f"family {base} takes no argument, found {name!r}", expected=base)

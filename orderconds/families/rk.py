@@ -52,9 +52,18 @@ def create() -> RungeKuttaFamily:
 
 @lru_cache(maxsize=32)
 def _conditions(order: int) -> tuple[OrderCondition, ...]:
+    return tree_conditions(tuple(rooted_trees(order)))
+
+
+def tree_conditions(trees: Sequence[Tree]) -> tuple[OrderCondition, ...]:
+    r"""Return the conditions of some trees, weight = 1/gamma (HLW III.1, Theorem 1.5).
+
+    >>> print(*tree_conditions([b"\0\1\1"]))
+    sum_i b_i c_i^2 = 1/3
+    """
     return tuple(
-        OrderCondition("rk", order, text(tree), partial(_weight, tree), Fraction(1, density(tree)), tree)
-        for tree in rooted_trees(order)
+        OrderCondition("rk", len(tree), text(tree), partial(_weight, tree), Fraction(1, density(tree)), tree)
+        for tree in trees
     )
 
 

@@ -7,26 +7,19 @@ across an edge at the price of products of conditions of lower order (Abia and S
 from __future__ import annotations
 
 from collections.abc import Sequence
-from fractions import Fraction
-from functools import lru_cache, partial
 from typing import Any
 
 from orderconds.conditions import OrderCondition
 from orderconds.families import require_nonzero_weights
-from orderconds.formula import Formula, coefficient, fresh, index_sum, product
+from orderconds.families.elementary_weights import conjugate, kept_branches, weight_conditions
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.b_series import ElementaryWeights
 from orderconds.trees.directed import (
     DirectedTree,
-    branches,
-    density,
     directed_free_trees,
     directed_rooted_trees,
     text,
 )
-
-ROW_SUMS = ("c", "chat")
-MATRICES = ("a", "ahat")
 
 
 class SymplecticPartitionedFamily:
@@ -47,55 +40,20 @@ class SymplecticPartitionedFamily:
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the independent conditions of this order, one a free tree with directed edges."""
-        return _conditions(directed_free_trees(order))
+        return weight_conditions(self.name, directed_free_trees(order), text)
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of all rooted trees with directed edges."""
-        return _conditions(directed_rooted_trees(order))
+        return weight_conditions(self.name, directed_rooted_trees(order), text)
 
     def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
         """Return elementary weights; ``method`` has ``A`` and ``b`` over ``ring``, which can divide."""
         require_nonzero_weights(self.label(), ring, method.b)
         matrices = (method.A, conjugate(method.A, method.b))
-        weights = ElementaryWeights[DirectedTree](ring, matrices, method.b, _branches)
+        weights = ElementaryWeights[DirectedTree](ring, matrices, method.b, kept_branches)
         return tuple(weights(condition.key) for condition in conditions)
 
 
 def create() -> SymplecticPartitionedFamily:
     """Return the family."""
     return SymplecticPartitionedFamily()
-
-
-def conjugate(A: Sequence[Sequence[Element]], b: Sequence[Element]) -> list[list[Element]]:
-    """Return ahat_ij = b_j - b_j a_ji/b_i, the matrix that makes (A, ahat, b, b) symplectic."""
-    stages = range(len(b))
-    return [[b[j] - b[j] * A[j][i] / b[i] for j in stages] for i in stages]
-
-
-_branches = lru_cache(maxsize=1 << 16)(branches)
-
-
-def _conditions(trees: Sequence[DirectedTree]) -> tuple[OrderCondition, ...]:
-    return tuple(
-        OrderCondition(
-            "sprk", len(tree), text(tree), partial(_weight, tree), Fraction(1, density(tree)), tree
-        )
-        for tree in trees
-    )
-
-
-def _weight(tree: DirectedTree) -> Formula:
-    i = fresh()
-    return index_sum((i,), (), product(coefficient("b", i), _stage(tree, i)))
-
-
-def _stage(tree: DirectedTree, i: str) -> Formula:
-    # Leaves first, as people write: b_i c_i a_ij c_j.
-    return product(*(_branch(*branch, i) for branch in sorted(branches(tree), key=lambda x: len(x[1]) > 1)))
-
-
-def _branch(kind: int, child: DirectedTree, i: str) -> Formula:
-    if len(child) == 1:
-        return coefficient(ROW_SUMS[kind], i)
-    j = fresh()
-    return index_sum((j,), (), product(coefficient(MATRICES[kind], i, j), _stage(child, j)))

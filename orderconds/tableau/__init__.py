@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from orderconds.tableau.file import load, loads
     from orderconds.tableau.library import available, find
-    from orderconds.tableau.methods import CommutatorFree, Composition, Embedded, Method, RungeKutta, Stage
+    from orderconds.tableau.methods import (
+        CommutatorFree,
+        Composition,
+        Embedded,
+        Method,
+        PartitionedRungeKutta,
+        RungeKutta,
+        Stage,
+    )
     from orderconds.tableau.record import Claims, OrderClaim, Tableau
     from orderconds.tableau.write import dumps
 
@@ -19,6 +27,7 @@ _HOME = {
     "Embedded": "methods",
     "Method": "methods",
     "OrderClaim": "record",
+    "PartitionedRungeKutta": "methods",
     "RungeKutta": "methods",
     "Stage": "methods",
     "Tableau": "record",
@@ -36,6 +45,7 @@ __all__ = [
     "Embedded",
     "Method",
     "OrderClaim",
+    "PartitionedRungeKutta",
     "RungeKutta",
     "Stage",
     "Tableau",

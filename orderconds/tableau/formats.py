@@ -14,7 +14,16 @@ from msgspec import Meta, Struct, field
 
 from orderconds.errors import TableauError
 from orderconds.ring.protocol import Element, Ring
-from orderconds.tableau.methods import CommutatorFree, Composition, Embedded, Method, Row, RungeKutta, Stage
+from orderconds.tableau.methods import (
+    CommutatorFree,
+    Composition,
+    Embedded,
+    Method,
+    PartitionedRungeKutta,
+    Row,
+    RungeKutta,
+    Stage,
+)
 
 Coefficient = str | int
 Places = Iterator[tuple[str, Coefficient]]
@@ -107,6 +116,54 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
         if self.embedded:
             embedded = Embedded(_filled(values, "embedded.b", s, ring), self.embedded.order)
         return RungeKutta(A, _filled(values, "b", s, ring)), embedded
+
+
+class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
+    """``family = "prk"``: A, b for the first part of a system and A_hat, b_hat for the second."""
+
+    A: list[list[Coefficient]]
+    b: list[Coefficient]
+    A_hat: list[list[Coefficient]]
+    b_hat: list[Coefficient]
+
+    def _parts(self) -> Iterator[tuple[str, list[list[Coefficient]], str, list[Coefficient]]]:
+        yield "A", self.A, "b", self.b
+        yield "A_hat", self.A_hat, "b_hat", self.b_hat
+
+    def verify(self, where: str) -> None:
+        """Check that both parts have the same number of stages and that no row is longer."""
+        s = _stages(len(self.b), f"{where}: b")
+        if len(self.b_hat) != s:
+            raise TableauError(
+                f"{len(self.b_hat)} entries for {s} in b",
+                where=f"{where}: b_hat",
+                expected="b and b_hat of one length",
+            )
+        for name, rows, weights, _ in self._parts():
+            if len(rows) != s:
+                raise TableauError(
+                    f"{len(rows)} rows for {s} weights {weights}",
+                    where=f"{where}: {name}",
+                    expected=f"a square {name}: as many rows as {weights} has entries",
+                )
+            for i, row in enumerate(rows):
+                _short_enough(row, s, f"{where}: {name}[{i + 1}]")
+
+    def coefficients(self) -> Places:
+        """Yield A by rows, then b, then A_hat and b_hat alike."""
+        for name, rows, weights, b in self._parts():
+            for i, row in enumerate(rows):
+                yield from _row(row, f"{name}[{i + 1}]")
+            yield from _row(b, weights)
+
+    def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, Embedded | None]:
+        """Return the partitioned method."""
+        s = len(self.b)
+        A, A_hat = (
+            tuple(_filled(values, f"{name}[{i + 1}]", s, ring) for i in range(s)) for name in ("A", "A_hat")
+        )
+        b, b_hat = (_filled(values, name, s, ring) for name in ("b", "b_hat"))
+        return PartitionedRungeKutta(A, b, A_hat, b_hat), None
 
 
 class StageEntry(Struct, forbid_unknown_fields=True):
@@ -227,6 +284,7 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
 FORMATS: dict[str, type[Format]] = {
     "cf": CommutatorFreeFile,
     "composition": CompositionFile,
+    "prk": PartitionedFile,
     "rk": RungeKuttaFile,
 }
 

@@ -60,6 +60,34 @@ class RungeKutta:
 
 
 @dataclass(frozen=True)
+class PartitionedRungeKutta:
+    """Two tableaux: (A, b) for y' = f(y, z), (A_hat, b_hat) for z' = g(y, z) (HLW II.2.1)."""
+
+    A: tuple[Row, ...]
+    b: Row
+    A_hat: tuple[Row, ...]
+    b_hat: Row
+
+    @property
+    def s(self) -> int:
+        """The number of stages."""
+        return len(self.b)
+
+    def map(self, convert: Convert) -> PartitionedRungeKutta:
+        """Return the same method with every coefficient converted."""
+        return PartitionedRungeKutta(
+            tuple(_converted(row, convert) for row in self.A),
+            _converted(self.b, convert),
+            tuple(_converted(row, convert) for row in self.A_hat),
+            _converted(self.b_hat, convert),
+        )
+
+    def first(self) -> RungeKutta:
+        """Return the tableau of the first part, the method where there is no second."""
+        return RungeKutta(self.A, self.b)
+
+
+@dataclass(frozen=True)
 class Stage:
     """A product of exponentials acting on stage ``start`` (None: on y0).
 
@@ -139,7 +167,7 @@ class Composition:
         return RungeKutta(A, self.gamma)
 
 
-Method = RungeKutta | CommutatorFree | Composition
+Method = RungeKutta | PartitionedRungeKutta | CommutatorFree | Composition
 
 
 @dataclass(frozen=True)

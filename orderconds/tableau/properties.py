@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from orderconds.ring.protocol import Element, Ring
-from orderconds.tableau.methods import CommutatorFree, Composition, RungeKutta
+from orderconds.tableau.methods import CommutatorFree, Composition, PartitionedRungeKutta, RungeKutta
 from orderconds.tableau.record import Tableau
 
 Verdict = bool | None
@@ -29,6 +29,8 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
         return {"explicit": all(_commutator_free_explicit(method, ring))}
     if isinstance(method, Composition):
         return _of_composition(method, ring)
+    if isinstance(method, PartitionedRungeKutta):
+        return {"symplectic": symplectic_pair(method, ring)}
     return {name: holds(method, ring) for name, holds in PROPERTIES.items()}
 
 
@@ -64,6 +66,16 @@ def symplectic(method: RungeKutta, ring: Ring) -> Verdict:
     A, b, s = method.A, method.b, method.s
     return _all(
         ring.is_zero(b[i] * A[i][j] + b[j] * A[j][i] - b[i] * b[j]) for i in range(s) for j in range(i, s)
+    )
+
+
+def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
+    """b_i ahat_ij + bhat_j a_ji = b_i bhat_j, which suffices where H = T(p) + V(q) (HLW Theorem VI.4.6)."""
+    A, b, A_hat, b_hat, stages = method.A, method.b, method.A_hat, method.b_hat, range(method.s)
+    return _all(
+        ring.is_zero(b[i] * A_hat[i][j] + b_hat[j] * A[j][i] - b[i] * b_hat[j])
+        for i in stages
+        for j in stages
     )
 
 

@@ -7,7 +7,14 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from orderconds.ring.protocol import Element, Ring
-from orderconds.tableau.methods import CommutatorFree, Composition, Embedded, Method, RungeKutta
+from orderconds.tableau.methods import (
+    CommutatorFree,
+    Composition,
+    Embedded,
+    Method,
+    PartitionedRungeKutta,
+    RungeKutta,
+)
 
 
 @dataclass(frozen=True)
@@ -41,7 +48,7 @@ class Claims:
 
 @dataclass(frozen=True)
 class Tableau:
-    """A named method over ``ring``; ``family`` is its file's format: ``rk``, ``cf``, ``composition``."""
+    """A named method over ``ring``; ``family`` is its file's format: ``rk``, ``prk``, ``cf`` ...."""
 
     name: str
     family: str
@@ -97,7 +104,9 @@ class Tableau:
         return None
 
     def abelian(self) -> RungeKutta:
-        """Return the Runge-Kutta tableau this method is on an abelian group."""
+        """Return the Runge-Kutta tableau this method is on an abelian group; of a pair, the first part's."""
+        if isinstance(self.method, PartitionedRungeKutta):
+            return self.method.first()
         if isinstance(self.method, CommutatorFree | Composition):
             return self.method.as_runge_kutta(self.ring)
         return self.method

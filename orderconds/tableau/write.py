@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from orderconds.ring.protocol import Element
-from orderconds.tableau.methods import CommutatorFree, Composition, Row, Stage
+from orderconds.tableau.methods import CommutatorFree, Composition, PartitionedRungeKutta, Row, Stage
 from orderconds.tableau.record import Claims, Tableau
 
 
@@ -26,6 +26,9 @@ def dumps(tableau: Tableau) -> str:
     elif not isinstance(method, CommutatorFree):
         rows = ", ".join(_row(row, tableau) for row in method.A)
         lines += [f"A = [{rows}]", f"b = {_full(method.b, tableau)}"]
+    if isinstance(method, PartitionedRungeKutta):
+        rows = ", ".join(_row(row, tableau) for row in method.A_hat)
+        lines += [f"A_hat = [{rows}]", f"b_hat = {_full(method.b_hat, tableau)}"]
     if tableau.embedded:
         weights = _row(tableau.embedded.b, tableau)
         lines.append(f"embedded = {{ b = {weights}, order = {tableau.embedded.order} }}")

@@ -1,0 +1,111 @@
+"""Partitioned Runge-Kutta methods: one condition a rooted tree with vertices of two colours (HLW III.2.2).
+
+``prk`` is the general family, its trees rooted at either colour; ``prk_same_weights`` has b = bhat, and then
+the colour of the root does not matter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from orderconds.conditions import OrderCondition
+from orderconds.errors import InputError
+from orderconds.families.elementary_weights import WEIGHTS, kept_branches, weight, weight_conditions
+from orderconds.formula import Formula
+from orderconds.ring.protocol import Element, Ring
+from orderconds.series.b_series import ElementaryWeights
+from orderconds.trees import bicoloured, directed
+from orderconds.trees.bicoloured import BicolouredTree
+from orderconds.trees.directed import DirectedTree
+
+
+class PartitionedFamily:
+    """Partitioned Runge-Kutta methods (A, b), (A_hat, b_hat).
+
+    >>> [len(create().conditions(n)) for n in range(1, 6)]
+    [2, 4, 14, 52, 214]
+    >>> [str(condition) for condition in create().conditions(2)][1:3]
+    ['sum_i b_i chat_i = 1/2', 'sum_i bhat_i c_i = 1/2']
+    """
+
+    name = "prk"
+    formats: tuple[str, ...] = ("prk",)
+    search_limit = 7
+    needs_nonzero_weights = False
+
+    def label(self) -> str:
+        """Return the family's name."""
+        return self.name
+
+    def conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return the conditions of this order; all are independent (HLW III.2, Theorem 2.5)."""
+        trees = tuple(bicoloured.bicoloured_rooted_trees(order))
+        return weight_conditions(self.name, trees, bicoloured.text, rooted_weight)
+
+    def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return the same conditions."""
+        return self.conditions(order)
+
+    def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
+        """Return elementary weights; ``method`` has ``A``, ``b``, ``A_hat`` and ``b_hat`` over ``ring``."""
+        return rooted_weights(method, ring, conditions)
+
+
+class SameWeightsFamily(PartitionedFamily):
+    """Partitioned Runge-Kutta methods with b = bhat.
+
+    >>> [len(SameWeightsFamily().conditions(n)) for n in range(1, 6)]
+    [1, 2, 7, 26, 107]
+    """
+
+    name = "prk_same_weights"
+
+    def conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return the conditions of this order, one a rooted tree with edges of two kinds."""
+        return weight_conditions(self.name, directed.directed_rooted_trees(order), directed.text)
+
+    def require(self, method: Any, ring: Ring) -> None:
+        """Raise :class:`~orderconds.errors.InputError` unless b = bhat."""
+        for i, (x, y) in enumerate(zip(method.b, method.b_hat, strict=True), start=1):
+            if x is not y and ring.is_zero(x - y) is not True:
+                raise InputError(
+                    f"b_{i} = {ring.text(x)} and b_hat_{i} = {ring.text(y)}",
+                    where=f"family {self.name}",
+                    expected="the same weights in both parts",
+                    hint="choose family prk",
+                )
+
+    def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
+        """Return elementary weights; ``method`` has ``A``, ``A_hat`` and ``b`` over ``ring``."""
+        weights = ElementaryWeights[DirectedTree](ring, (method.A, method.A_hat), method.b, kept_branches)
+        return tuple(weights(condition.key) for condition in conditions)
+
+
+def create() -> PartitionedFamily:
+    """Return the family of general pairs."""
+    return PartitionedFamily()
+
+
+def create_same_weights() -> SameWeightsFamily:
+    """Return the family of pairs with b = bhat."""
+    return SameWeightsFamily()
+
+
+def rooted_weight(tree: BicolouredTree) -> Formula:
+    r"""Return a coloured tree's elementary weight as an index sum, the root's colour choosing b or bhat.
+
+    >>> from orderconds.formula import named
+    >>> named(rooted_weight(b"\1\2")).text()
+    'sum_i bhat_i c_i'
+    """
+    return weight(bicoloured.coloured(0, tree), WEIGHTS[tree[0]])
+
+
+def rooted_weights(method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
+    """Return the elementary weights of a pair of tableaux on the coloured trees of ``conditions``."""
+    pair = [
+        ElementaryWeights[DirectedTree](ring, (method.A, method.A_hat), b, kept_branches)
+        for b in (method.b, method.b_hat)
+    ]
+    return tuple(pair[c.key[0]](bicoloured.coloured(0, c.key)) for c in conditions)

@@ -1,0 +1,89 @@
+"""Symplectic partitioned Runge-Kutta methods for separable Hamiltonians H = T(p) + V(q).
+
+Only trees whose neighbours differ in colour occur, and b_i ahat_ij + bhat_j a_ji = b_i bhat_j lets the root
+move, so that conditions belong to free trees (Abia and Sanz-Serna 1993; HLW VI.7.2). The weights b and bhat
+may differ, as in methods written from splittings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from types import SimpleNamespace
+from typing import Any
+
+from orderconds.conditions import OrderCondition
+from orderconds.errors import InputError
+from orderconds.families import require_nonzero_weights
+from orderconds.families.elementary_weights import conjugate, weight_conditions
+from orderconds.families.prk import rooted_weight, rooted_weights
+from orderconds.ring.protocol import Element, Ring
+from orderconds.trees.bicoloured import alternating, alternating_free_trees, text
+from orderconds.trees.rooted import rooted_trees
+
+
+class SeparableFamily:
+    """Symplectic pairs (A, b), (A_hat, b_hat), or a tableau (A, b) with its conjugate and b_hat = b.
+
+    >>> [len(create().conditions(n)) for n in range(1, 9)]
+    [2, 1, 2, 3, 6, 10, 22, 42]
+    >>> [str(condition) for condition in create().conditions(3)]
+    ['sum_i b_i chat_i^2 = 1/3', 'sum_i bhat_i c_i^2 = 1/3']
+    """
+
+    name = "sprk_separable"
+    formats: tuple[str, ...] = ("rk", "prk")
+    search_limit = 10
+    needs_nonzero_weights = False
+
+    def label(self) -> str:
+        """Return the family's name."""
+        return self.name
+
+    def conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return the independent conditions of this order, one a free tree with alternating colours."""
+        return weight_conditions(self.name, alternating_free_trees(order), text, rooted_weight)
+
+    def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return the conditions of all rooted trees with alternating colours."""
+        trees = [alternating(colour, tree) for colour in (0, 1) for tree in rooted_trees(order)]
+        return weight_conditions(self.name, trees, text, rooted_weight)
+
+    def require(self, method: Any, ring: Ring) -> None:
+        """Raise :class:`~orderconds.errors.InputError` for a pair that is not symplectic."""
+        if hasattr(method, "A_hat"):
+            require_symplectic_pair(self.name, method, ring)
+
+    def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
+        """Return elementary weights; ``method`` has ``A``, ``b`` and perhaps ``A_hat``, ``b_hat``.
+
+        Raises :class:`~orderconds.errors.ZeroWeight` for a single tableau whose conjugate does not exist.
+        """
+        if hasattr(method, "A_hat"):
+            return rooted_weights(method, ring, conditions)
+        require_nonzero_weights(self.name, ring, method.b)
+        A_hat = conjugate(method.A, method.b)
+        pair = SimpleNamespace(A=method.A, b=method.b, A_hat=A_hat, b_hat=method.b)
+        return rooted_weights(pair, ring, conditions)
+
+
+def create() -> SeparableFamily:
+    """Return the family."""
+    return SeparableFamily()
+
+
+def require_symplectic_pair(label: str, method: Any, ring: Ring) -> None:
+    """Raise :class:`~orderconds.errors.InputError` unless b_i ahat_ij + bhat_j a_ji = b_i bhat_j.
+
+    Balls pass where they contain zero: the conditions are then checked to the digits given.
+    """
+    for i, row in enumerate(method.A_hat):
+        for j, x in enumerate(row):
+            defect = method.b[i] * x + method.b_hat[j] * method.A[j][i] - method.b[i] * method.b_hat[j]
+            if ring.is_zero(defect) is False:
+                raise InputError(
+                    f"b_{i + 1} ahat_{i + 1}{j + 1} + bhat_{j + 1} a_{j + 1}{i + 1} differs from "
+                    f"b_{i + 1} bhat_{j + 1} by {ring.approximate(defect, 6)}",
+                    where=f"family {label}",
+                    expected="a symplectic method",
+                    hint="choose family rk or prk",
+                )

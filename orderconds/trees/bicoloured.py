@@ -1,0 +1,109 @@
+"""Rooted trees with vertices of two colours: the trees of P-series (HLW III.2.1).
+
+Colour 0 (black) stands for the first part y of a partitioned system, colour 1 (white) for the second, z.
+Encoding: bytes in preorder, ``2 level + colour``, branches in falling order. Apart from the colour of
+the root this is that of :mod:`orderconds.trees.directed`: an edge that leads to a white vertex carries
+the second method's coefficient.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import factorial, prod
+
+from orderconds.trees.directed import branches, directed_rooted_trees, joined
+from orderconds.trees.free import free_trees
+from orderconds.trees.levels import Tree
+
+BicolouredTree = bytes
+
+
+def bicoloured_rooted_trees(vertices: int) -> Iterator[BicolouredTree]:
+    """Yield every rooted tree with vertices of two colours once, black roots first (HLW III.2.1, TP).
+
+    >>> [text(tree) for tree in bicoloured_rooted_trees(2)]
+    ['[.]', '[o]', '(.)', '(o)']
+    """
+    for colour in (0, 1):
+        for tree in directed_rooted_trees(vertices):
+            yield coloured(colour, tree)
+
+
+def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
+    """Return every free tree whose neighbours differ in colour once, rooted at a vertex of least height.
+
+    They are the trees of symplectic partitioned methods for separable Hamiltonians (Abia and Sanz-Serna 1993;
+    HLW VI.7.2). A free tree that a symmetry reverses is the same in both colourings.
+
+    >>> [text(tree) for n in (1, 2, 3) for tree in alternating_free_trees(n)]
+    ['.', 'o', '[o]', '[oo]', '(..)']
+    """
+    found: dict[BicolouredTree, BicolouredTree] = {}
+    for tree in free_trees(vertices):
+        for colour in (0, 1):
+            every = sorted(bicoloured_rootings(alternating(colour, tree)), key=lambda t: (max(t) >> 1, t))
+            found.setdefault(min(every), every[0])
+    return tuple(found.values())
+
+
+def alternating(colour: int, tree: Tree) -> BicolouredTree:
+    r"""Colour an uncoloured rooted tree, neighbours differently, the root as given.
+
+    >>> text(alternating(1, b"\0\1\2\1"))
+    '([o].)'
+    """
+    plain = bytes(2 * level + ((colour + level) & 1) for level in tree)
+    return canonical(plain)
+
+
+def canonical(tree: BicolouredTree) -> BicolouredTree:
+    """Return the encoding whose branches stand in falling order at every vertex."""
+    below = [(kind, canonical(child)) for kind, child in branches(tree)]
+    return coloured(tree[0], joined(below))
+
+
+def coloured(colour: int, tree: bytes) -> BicolouredTree:
+    """Give the root a colour."""
+    return bytes((colour,)) + tree[1:]
+
+
+def children(tree: BicolouredTree) -> tuple[BicolouredTree, ...]:
+    """Return the subtrees that hang from the root."""
+    return tuple(coloured(colour, child) for colour, child in branches(tree))
+
+
+def rooted(colour: int, below: list[BicolouredTree]) -> BicolouredTree:
+    """Join trees to a new root of a colour, in canonical order."""
+    return coloured(colour, joined([(child[0], coloured(0, child)) for child in below]))
+
+
+def bicoloured_rootings(tree: BicolouredTree) -> Iterator[BicolouredTree]:
+    """Yield the tree rooted at each of its vertices in turn, colours kept."""
+    yield from _rootings(tree[0], list(children(tree)), [])
+
+
+def _rootings(
+    colour: int, below: list[BicolouredTree], above: list[BicolouredTree]
+) -> Iterator[BicolouredTree]:
+    yield rooted(colour, below + above)
+    for place, child in enumerate(below):
+        rest = rooted(colour, below[:place] + below[place + 1 :] + above)
+        yield from _rootings(child[0], list(children(child)), [rest])
+
+
+def symmetry(tree: BicolouredTree) -> int:
+    """Return sigma, the order of the group of symmetries that keep colours (HLW III.2, (2.4)).
+
+    >>> [symmetry(tree) for tree in bicoloured_rooted_trees(3)][4:7]
+    [2, 1, 2]
+    """
+    below = children(tree)
+    return prod(factorial(below.count(child)) * symmetry(child) ** below.count(child) for child in set(below))
+
+
+def text(tree: BicolouredTree) -> str:
+    """Write a tree: ``.`` and ``[..]`` with a black root, ``o`` and ``(..)`` with a white one."""
+    below = "".join(map(text, children(tree)))
+    if not below:
+        return ".o"[tree[0]]
+    return f"({below})" if tree[0] else f"[{below}]"

@@ -1,0 +1,83 @@
+"""Free (unrooted) trees and what becomes of a rooted tree when its root moves.
+
+The conditions of symplectic Runge-Kutta methods belong to free trees, for b_i a_ij + b_j a_ji = b_i b_j gives
+phi(u o v) + phi(v o u) = phi(u) phi(v), o being Butcher's product (Sanz-Serna and Abia 1991; HLW VI.7.1). A
+tree with u o u among its rootings then has phi = phi(u)^2/2 and is superfluous.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+
+from orderconds.trees.levels import Tree, children, rooted_at_new_vertex
+from orderconds.trees.rooted import rooted_trees
+
+Move = tuple[Tree, Tree]
+"""The trees u and v of a root that moved along one edge, from u o v to v o u."""
+
+
+@lru_cache(maxsize=32)
+def free_trees(vertices: int) -> tuple[Tree, ...]:
+    """Return every free tree once, rooted at a vertex of least height.
+
+    >>> from orderconds.trees.levels import text
+    >>> [text(tree) for tree in free_trees(5)]
+    ['[[..].]', '[[.][.]]', '[....]']
+    """
+    return tuple(tree for tree in rooted_trees(vertices) if representative(tree) == tree)
+
+
+def essential_free_trees(vertices: int) -> tuple[Tree, ...]:
+    """Return the free trees that are not superfluous (HLW VI.7.1: 1, 0, 1, 1, 3, 4, 11, ...).
+
+    >>> [len(essential_free_trees(n)) for n in range(1, 8)]
+    [1, 0, 1, 1, 3, 4, 11]
+    """
+    return tuple(tree for tree in free_trees(vertices) if not superfluous(tree))
+
+
+def superfluous(tree: Tree) -> bool:
+    r"""Tell whether some edge parts a tree in two equal rooted trees.
+
+    >>> superfluous(b"\0\1"), superfluous(b"\0\1\1")
+    (True, False)
+    """
+    return any(u == v for u, v in _edges(tree))
+
+
+def representative(tree: Tree) -> Tree:
+    r"""Return the rooting of least height, of these the greatest level sequence.
+
+    >>> representative(b"\0\1\2")
+    b'\x00\x01\x01'
+    """
+    return min((rooting for rooting, _ in rootings(tree)), key=lambda t: (max(t), bytes(255 - x for x in t)))
+
+
+def rootings(tree: Tree) -> Iterator[tuple[Tree, tuple[Move, ...]]]:
+    r"""Yield a canonical tree rooted at each of its vertices, with the moves of the root that lead there.
+
+    >>> list(rootings(b"\0\1"))
+    [(b'\x00\x01', ()), (b'\x00\x01', ((b'\x00', b'\x00'),))]
+    """
+    yield from _rootings(children(tree), None, ())
+
+
+def _rootings(
+    below: tuple[Tree, ...], above: Tree | None, moves: tuple[Move, ...]
+) -> Iterator[tuple[Tree, tuple[Move, ...]]]:
+    everything = below if above is None else (*below, above)
+    yield _joined(everything), moves
+    for place, child in enumerate(below):
+        rest = _joined((*everything[:place], *everything[place + 1 :]))
+        yield from _rootings(children(child), rest, (*moves, (rest, child)))
+
+
+def _edges(tree: Tree) -> Iterator[Move]:
+    for _, moves in rootings(tree):
+        yield from moves[-1:]
+
+
+def _joined(below: tuple[Tree, ...]) -> Tree:
+    return rooted_at_new_vertex(b"".join(sorted(below, reverse=True)))

@@ -1,0 +1,90 @@
+"""Products of trees: Butcher's product, and grafting, which differentiates elementary differentials.
+
+Unordered trees form the free pre-Lie algebra under grafting (Chapoton and Livernet 2001): F(u > v) is the
+derivative of F(v) in the direction F(u). Ordered trees graft to the left of what hangs there, since the
+newest frozen field acts first (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from functools import lru_cache
+
+from orderconds.trees.levels import (
+    Forest,
+    Tree,
+    branches,
+    canonical,
+    children,
+    rooted_at_new_vertex,
+    trees_of,
+)
+
+
+def butcher_product(u: Tree, v: Tree) -> Tree:
+    r"""Return u o v: v hung from the root of u (HLW VI.7.1); canonical if both are.
+
+    >>> butcher_product(b"\0\1", b"\0\1\1")
+    b'\x00\x01\x02\x02\x01'
+    """
+    below = sorted((*children(u), v), reverse=True)
+    return rooted_at_new_vertex(b"".join(below))
+
+
+def graft(u: Tree, v: Tree) -> Counter[Tree]:
+    r"""Return the sum of all trees that arise when u is hung from one vertex of v, both unordered.
+
+    >>> sorted(graft(b"\0", b"\0\1\1").items())
+    [(b'\x00\x01\x01\x01', 1), (b'\x00\x01\x02\x01', 2)]
+    """
+    result = Counter([butcher_product(v, u)])
+    below = children(v)
+    for place, child in enumerate(below):
+        others = (*below[:place], *below[place + 1 :])
+        for grown, times in graft(u, child).items():
+            result[canonical(rooted_at_new_vertex(b"".join((grown, *others))))] += times
+    return result
+
+
+@lru_cache(maxsize=1 << 14)
+def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
+    r"""Return, with repetitions, all forests that arise when every tree of ``word`` is hung from ``onto``.
+
+    Each tree goes to any vertex; what goes to one vertex keeps its order and stands left of what hung there.
+
+    >>> left_graft(b"\0", b"\0\1")
+    (b'\x00\x01\x02', b'\x00\x01\x01')
+    """
+    if not word:
+        return (onto,)
+    if not onto:
+        return ()
+    first, rest = trees_of(onto)[0], onto[len(trees_of(onto)[0]) :]
+    found = []
+    for here, there in deshuffles(word):
+        for front in _left_graft_tree(here, first):
+            found += [front + behind for behind in left_graft(there, rest)]
+    return tuple(found)
+
+
+def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
+    """Hang a word from one tree: part of it from the root, in front, the rest from what is above."""
+    found = []
+    for root, above in deshuffles(word):
+        found += [rooted_at_new_vertex(root + grown) for grown in left_graft(above, branches(tree))]
+    return found
+
+
+def deshuffles(word: Forest) -> tuple[tuple[Forest, Forest], ...]:
+    r"""Return the 2^k ways of parting a word of k trees in two subwords.
+
+    >>> deshuffles(b"\0")
+    ((b'', b'\x00'), (b'\x00', b''))
+    """
+    letters = trees_of(word)
+    parted = []
+    for chosen in range(1 << len(letters)):
+        inside = b"".join(tree for n, tree in enumerate(letters) if chosen >> n & 1)
+        outside = b"".join(tree for n, tree in enumerate(letters) if not chosen >> n & 1)
+        parted.append((inside, outside))
+    return tuple(parted)
