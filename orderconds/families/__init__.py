@@ -21,7 +21,7 @@ from orderconds.ring.protocol import Element, Ring
 MODULES = {
     "rk": "orderconds.families.rk",
     "prk": "orderconds.families.prk",
-    "prk_same_weights": "orderconds.families.prk:create_same_weights",
+    "prk_same_weights": "orderconds.families.prk_same_weights",
     "symplectic_rk": "orderconds.families.symplectic_rk",
     "sprk": "orderconds.families.sprk",
     "sprk_separable": "orderconds.families.sprk_separable",
@@ -32,8 +32,7 @@ MODULES = {
     "vcg": "orderconds.families.vcg",
     "vcf": "orderconds.families.vcf",
 }
-"""Family name to module, and ``:function`` where that is not ``create``; in the order in which ``orderconds
-list families`` shows them."""
+"""Family name to module, in the order in which ``orderconds list families`` shows them."""
 
 
 class Family(Protocol):
@@ -86,8 +85,7 @@ def get(name: str, **options: Any) -> Family:
             expected=f"one of {', '.join(MODULES)}",
             hint=f"did you mean {close[0]!r}?" if close else "",
         )
-    module, _, maker = MODULES[base].partition(":")
-    create = getattr(import_module(module), maker or "create")
+    create = import_module(MODULES[base]).create
     accepted = tuple(inspect.signature(create).parameters)
     if argument is not None and not accepted:
         raise InputError(f"family {base} takes no argument, found {name!r}", expected=base)

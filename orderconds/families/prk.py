@@ -1,7 +1,6 @@
 """Partitioned Runge-Kutta methods: one condition a rooted tree with vertices of two colours (HLW III.2.2).
 
-``prk`` is the general family, its trees rooted at either colour; ``prk_same_weights`` has b = bhat, and then
-the colour of the root does not matter.
+A single tableau is read as the pair of it with itself.
 """
 
 from __future__ import annotations
@@ -10,12 +9,11 @@ from collections.abc import Sequence
 from typing import Any
 
 from orderconds.conditions import OrderCondition
-from orderconds.errors import InputError
 from orderconds.families.elementary_weights import WEIGHTS, kept_branches, weight, weight_conditions
 from orderconds.formula import Formula
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.b_series import ElementaryWeights
-from orderconds.trees import bicoloured, directed
+from orderconds.trees import bicoloured
 from orderconds.trees.bicoloured import BicolouredTree
 from orderconds.trees.directed import DirectedTree
 
@@ -30,7 +28,7 @@ class PartitionedFamily:
     """
 
     name = "prk"
-    formats: tuple[str, ...] = ("prk",)
+    formats: tuple[str, ...] = ("prk", "rk")
     search_limit = 7
     needs_nonzero_weights = False
 
@@ -48,48 +46,13 @@ class PartitionedFamily:
         return self.conditions(order)
 
     def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
-        """Return elementary weights; ``method`` has ``A``, ``b``, ``A_hat`` and ``b_hat`` over ``ring``."""
+        """Return elementary weights; ``method`` has ``A``, ``b`` and perhaps ``A_hat``, ``b_hat``."""
         return rooted_weights(method, ring, conditions)
-
-
-class SameWeightsFamily(PartitionedFamily):
-    """Partitioned Runge-Kutta methods with b = bhat.
-
-    >>> [len(SameWeightsFamily().conditions(n)) for n in range(1, 6)]
-    [1, 2, 7, 26, 107]
-    """
-
-    name = "prk_same_weights"
-
-    def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of this order, one a rooted tree with edges of two kinds."""
-        return weight_conditions(self.name, directed.directed_rooted_trees(order), directed.text)
-
-    def require(self, method: Any, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` unless b = bhat."""
-        for i, (x, y) in enumerate(zip(method.b, method.b_hat, strict=True), start=1):
-            if x is not y and ring.is_zero(x - y) is not True:
-                raise InputError(
-                    f"b_{i} = {ring.text(x)} and b_hat_{i} = {ring.text(y)}",
-                    where=f"family {self.name}",
-                    expected="the same weights in both parts",
-                    hint="choose family prk",
-                )
-
-    def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
-        """Return elementary weights; ``method`` has ``A``, ``A_hat`` and ``b`` over ``ring``."""
-        weights = ElementaryWeights[DirectedTree](ring, (method.A, method.A_hat), method.b, kept_branches)
-        return tuple(weights(condition.key) for condition in conditions)
 
 
 def create() -> PartitionedFamily:
     """Return the family of general pairs."""
     return PartitionedFamily()
-
-
-def create_same_weights() -> SameWeightsFamily:
-    """Return the family of pairs with b = bhat."""
-    return SameWeightsFamily()
 
 
 def rooted_weight(tree: BicolouredTree) -> Formula:
@@ -104,8 +67,9 @@ def rooted_weight(tree: BicolouredTree) -> Formula:
 
 def rooted_weights(method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
     """Return the elementary weights of a pair of tableaux on the coloured trees of ``conditions``."""
+    matrices = (method.A, getattr(method, "A_hat", method.A))
     pair = [
-        ElementaryWeights[DirectedTree](ring, (method.A, method.A_hat), b, kept_branches)
-        for b in (method.b, method.b_hat)
+        ElementaryWeights[DirectedTree](ring, matrices, b, kept_branches)
+        for b in (method.b, getattr(method, "b_hat", method.b))
     ]
     return tuple(pair[c.key[0]](bicoloured.coloured(0, c.key)) for c in conditions)

@@ -141,9 +141,11 @@ def test_a_format_the_family_cannot_read_is_an_input_error() -> None:
         check(cf3, family="vcg")
 
 
-def test_every_family_finds_order_1_of_the_euler_method() -> None:
+def test_every_family_that_takes_it_finds_order_1_of_the_euler_method() -> None:
     euler = rk("[[]]", '["1"]')
     for name in families.names():
+        if name == "symplectic_rk":
+            continue
         assert order(euler, name) == 1, name
 
 
