@@ -10,6 +10,7 @@ from fractions import Fraction
 from functools import lru_cache, partial
 
 from orderconds.conditions import OrderCondition
+from orderconds.families.relations import RootSwitching, with_relations
 from orderconds.formula import Formula, coefficient, fresh, index_sum, product
 from orderconds.ring.protocol import Element
 from orderconds.trees.directed import DirectedTree, branches, density
@@ -44,14 +45,16 @@ def weight_conditions(
     trees: Sequence[DirectedTree],
     text: Callable[[DirectedTree], str],
     formula: Callable[[DirectedTree], Formula] = weight,
+    switching: RootSwitching | None = None,
 ) -> tuple[OrderCondition, ...]:
-    """Return the condition ``weight = 1/gamma`` of each tree."""
-    return tuple(
+    """Return the condition ``weight = 1/gamma`` of each tree, with its relation where the root may move."""
+    found = [
         OrderCondition(
             family, len(tree), text(tree), partial(formula, tree), Fraction(1, density(tree)), tree
         )
         for tree in trees
-    )
+    ]
+    return tuple(found) if switching is None else with_relations(found, switching, text)
 
 
 def _stage(tree: DirectedTree, i: str) -> Formula:

@@ -16,6 +16,7 @@ from math import factorial, prod
 from typing import Any
 
 from orderconds.conditions import OrderCondition
+from orderconds.families.relations import in_lyndon_words, with_relations
 from orderconds.formula import Formula
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.lie_butcher import ForestSeries, exact_value
@@ -48,8 +49,10 @@ class OrderedForestFamily(ABC):
         return self._of(lyndon_forests(order))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of this order, one an ordered forest."""
-        return self._of(tuple(ordered_forests(order)))
+        """Return the conditions of this order, one an ordered forest, dependent ones with their relations."""
+        return with_relations(
+            self._of(tuple(ordered_forests(order))), lambda forest: in_lyndon_words(forest, scale), text
+        )
 
     def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
         """Return the step's values on the words of ``conditions``, each times its scale."""

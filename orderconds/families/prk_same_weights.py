@@ -1,4 +1,4 @@
-"""Partitioned Runge-Kutta methods with b = bhat: the colour of a tree's root does not matter (HLW III.2.2)."""
+"""Partitioned Runge-Kutta methods with b = bhat: the colour of the root does not matter (HLW III.2.2)."""
 
 from __future__ import annotations
 

@@ -7,19 +7,25 @@ across an edge at the price of products of conditions of lower order (Abia and S
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import Any
 
 from orderconds.conditions import OrderCondition
 from orderconds.families import require_nonzero_weights
 from orderconds.families.elementary_weights import conjugate, kept_branches, weight_conditions
+from orderconds.families.relations import RootSwitching
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.b_series import ElementaryWeights
 from orderconds.trees.directed import (
     DirectedTree,
     directed_free_trees,
     directed_rooted_trees,
+    moves,
     text,
 )
+
+SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(directed_free_trees))
+"""Every rooted tree's weight by those of free trees."""
 
 
 class SymplecticPartitionedFamily:
@@ -43,8 +49,8 @@ class SymplecticPartitionedFamily:
         return weight_conditions(self.name, directed_free_trees(order), text)
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all rooted trees with directed edges."""
-        return weight_conditions(self.name, directed_rooted_trees(order), text)
+        """Return the conditions of all rooted trees with directed edges, with their relations."""
+        return weight_conditions(self.name, directed_rooted_trees(order), text, switching=SWITCHING)
 
     def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
         """Return elementary weights; ``method`` has ``A`` and ``b`` over ``ring``, which can divide."""

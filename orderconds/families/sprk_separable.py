@@ -8,6 +8,7 @@ may differ, as in methods written from splittings.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from types import SimpleNamespace
 from typing import Any
 
@@ -16,9 +17,13 @@ from orderconds.errors import InputError
 from orderconds.families import require_nonzero_weights
 from orderconds.families.elementary_weights import conjugate, weight_conditions
 from orderconds.families.prk import rooted_weight, rooted_weights
+from orderconds.families.relations import RootSwitching
 from orderconds.ring.protocol import Element, Ring
-from orderconds.trees.bicoloured import alternating, alternating_free_trees, text
+from orderconds.trees.bicoloured import alternating, alternating_free_trees, moves, text
 from orderconds.trees.rooted import rooted_trees
+
+SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(alternating_free_trees))
+"""Every rooted tree's weight by those of free trees."""
 
 
 class SeparableFamily:
@@ -44,9 +49,9 @@ class SeparableFamily:
         return weight_conditions(self.name, alternating_free_trees(order), text, rooted_weight)
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all rooted trees with alternating colours."""
+        """Return the conditions of all rooted trees with alternating colours, with relations."""
         trees = [alternating(colour, tree) for colour in (0, 1) for tree in rooted_trees(order)]
-        return weight_conditions(self.name, trees, text, rooted_weight)
+        return weight_conditions(self.name, trees, text, rooted_weight, SWITCHING)
 
     def require(self, method: Any, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` for a pair that is not symplectic."""

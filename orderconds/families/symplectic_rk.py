@@ -8,16 +8,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 from types import SimpleNamespace
 from typing import Any
 
 from orderconds.conditions import OrderCondition
 from orderconds.families import rk
+from orderconds.families.relations import RootSwitching, with_relations
 from orderconds.families.sprk_separable import require_symplectic_pair
 from orderconds.ring.protocol import Element, Ring
-from orderconds.trees.free import essential_free_trees
-from orderconds.trees.levels import Tree
+from orderconds.trees.free import essential_free_trees, moves
+from orderconds.trees.levels import Tree, text
 from orderconds.trees.rooted import rooted_trees
+
+SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(essential_free_trees))
+"""Every rooted tree's weight by those of essential free trees."""
 
 
 class SymplecticFamily:
@@ -41,8 +46,8 @@ class SymplecticFamily:
         return _conditions(essential_free_trees(order))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all rooted trees."""
-        return _conditions(tuple(rooted_trees(order)))
+        """Return the conditions of all rooted trees, dependent ones with their relations."""
+        return with_relations(_conditions(tuple(rooted_trees(order))), SWITCHING, text)
 
     def require(self, method: Any, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` unless b_i a_ij + b_j a_ji = b_i b_j."""

@@ -82,6 +82,18 @@ def bicoloured_rootings(tree: BicolouredTree) -> Iterator[BicolouredTree]:
     yield from _rootings(tree[0], list(children(tree)), [])
 
 
+def moves(tree: BicolouredTree) -> Iterator[tuple[BicolouredTree, BicolouredTree, BicolouredTree]]:
+    r"""Yield u, v and the tree rooted in v for each edge at the root, which parts the tree in u and v.
+
+    >>> list(moves(b"\0\3"))
+    [(b'\x00', b'\x01', b'\x01\x02')]
+    """
+    below = list(children(tree))
+    for place, child in enumerate(below):
+        rest = rooted(tree[0], below[:place] + below[place + 1 :])
+        yield rest, child, rooted(child[0], [*children(child), rest])
+
+
 def _rootings(
     colour: int, below: list[BicolouredTree], above: list[BicolouredTree]
 ) -> Iterator[BicolouredTree]:

@@ -124,6 +124,18 @@ def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
         yield from _rootings_beyond(joined([*branches(child), (1 - kind, rest)]), (1 - kind, rest))
 
 
+def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, DirectedTree]]:
+    r"""Yield u, v and the tree rooted in v for each edge at the root, which parts the tree in u and v.
+
+    >>> list(moves(b"\0\2"))
+    [(b'\x00', b'\x00', b'\x00\x03')]
+    """
+    below = branches(tree)
+    for place, (kind, child) in enumerate(below):
+        rest = joined([*below[:place], *below[place + 1 :]])
+        yield rest, child, joined([*branches(child), (1 - kind, rest)])
+
+
 def _rootings_beyond(tree: DirectedTree, behind: Branch) -> Iterator[DirectedTree]:
     yield tree
     below = list(branches(tree))

@@ -55,6 +55,18 @@ def representative(tree: Tree) -> Tree:
     return min((rooting for rooting, _ in rootings(tree)), key=lambda t: (max(t), bytes(255 - x for x in t)))
 
 
+def moves(tree: Tree) -> Iterator[tuple[Tree, Tree, Tree]]:
+    r"""Yield u, v and v o u for each edge at the root of a canonical tree u o v.
+
+    >>> list(moves(b"\0\1\1"))[0]
+    (b'\x00\x01', b'\x00', b'\x00\x01\x02')
+    """
+    below = children(tree)
+    for place, child in enumerate(below):
+        rest = _joined((*below[:place], *below[place + 1 :]))
+        yield rest, child, _joined((*children(child), rest))
+
+
 def rootings(tree: Tree) -> Iterator[tuple[Tree, tuple[Move, ...]]]:
     r"""Yield a canonical tree rooted at each of its vertices, with the moves of the root that lead there.
 

@@ -1,0 +1,149 @@
+"""What the left-hand sides of dependent conditions equal: polynomials in those of independent ones.
+
+Two laws make conditions dependent. The root of a tree of a symplectic method moves across an edge by
+phi(u o v) = phi(u) phi(v) - phi(v o u) (HLW VI.7.1). Values on words of a group-like series multiply by
+shuffles, a(u) a(v) = a(u sh v), so that Lyndon words give them all (Reutenauer, Free Lie Algebras, Thm 6.1).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable
+from dataclasses import replace
+from fractions import Fraction
+from functools import lru_cache, reduce
+from math import factorial, prod
+
+from orderconds.conditions import OrderCondition
+from orderconds.trees.levels import Forest, Tree, trees_of
+from orderconds.words.lyndon import lyndon_factors
+from orderconds.words.shuffle import shuffle
+
+Polynomial = dict[tuple[bytes, ...], Fraction]
+"""Monomials in conditions, each the sorted encodings of its factors, with their coefficients."""
+
+Moves = Callable[[bytes], Iterable[tuple[bytes, bytes, bytes]]]
+"""For each edge at the root of a tree u o v: u, v and v o u."""
+
+
+def spell(polynomial: Polynomial, text: Callable[[bytes], str]) -> str:
+    r"""Write a polynomial, ``<tree>`` standing for a condition's left-hand side, products last.
+
+    >>> spell({(b"\0", b"\0"): Fraction(1, 2), (b"\0\1",): Fraction(-1)}, str)
+    "-<b'\\x00\\x01'> + 1/2 <b'\\x00'> <b'\\x00'>"
+    """
+    terms = []
+    for factors, scale in sorted(polynomial.items(), key=lambda term: (len(term[0]), term[0])):
+        size = "" if abs(scale) == 1 else f"{abs(scale)} "
+        terms.append(("-" if scale < 0 else "+", size + " ".join(f"<{text(factor)}>" for factor in factors)))
+    if not terms:
+        return "0"
+    (sign, first), *rest = terms
+    return ("-" if sign == "-" else "") + first + "".join(f" {s} {term}" for s, term in rest)
+
+
+def add(x: Polynomial, y: Polynomial, scale: Fraction | int = 1) -> Polynomial:
+    """Return x + scale y."""
+    result = dict(x)
+    for factors, value in y.items():
+        result[factors] = result.get(factors, Fraction(0)) + scale * value
+    return {factors: value for factors, value in result.items() if value}
+
+
+def multiply(x: Polynomial, y: Polynomial) -> Polynomial:
+    """Return x y."""
+    result: Polynomial = {}
+    for left, a in x.items():
+        for right, b in y.items():
+            factors = tuple(sorted(left + right))
+            result[factors] = result.get(factors, Fraction(0)) + a * b
+    return result
+
+
+class RootSwitching:
+    """Writes the weight of any rooted tree of a symplectic method by those of ``independent(n)``.
+
+    >>> from orderconds.families.symplectic_rk import SWITCHING
+    >>> from orderconds.trees.levels import parse, text
+    >>> spell(SWITCHING(parse("[[.]]")), text)
+    '-<[..]> + 1/2 <.> <.> <.>'
+    """
+
+    def __init__(self, moves: Moves, independent: Callable[[int], Collection[bytes]]) -> None:
+        self._moves, self._independent = moves, independent
+        self._known: dict[bytes, Polynomial] = {}
+
+    def __call__(self, tree: bytes) -> Polynomial:
+        """Return the polynomial that equals phi(tree)."""
+        if tree not in self._known:
+            self._known[tree] = self._reduced(tree)
+        return self._known[tree]
+
+    def _reduced(self, tree: bytes) -> Polynomial:
+        goals = frozenset(self._independent(len(tree)))
+        waiting: list[tuple[bytes, int, Polynomial]] = [(tree, 1, {})]
+        seen = {tree}
+        for root, sign, so_far in waiting:  # the list grows as the root moves on
+            if root in goals:
+                return add(so_far, {(root,): Fraction(1)}, sign)
+            for u, v, moved in self._moves(root):
+                both = multiply(self(u), self(v))
+                if moved == root and u == v:
+                    return add(so_far, both, Fraction(sign, 2))
+                if moved not in seen:
+                    seen.add(moved)
+                    waiting.append((moved, -sign, add(so_far, both, sign)))
+        raise ValueError("no rooting of the tree is among the independent ones, and none is superfluous")
+
+
+def with_relations(
+    conditions: Iterable[OrderCondition],
+    polynomial: Callable[[bytes], Polynomial],
+    text: Callable[[bytes], str],
+) -> tuple[OrderCondition, ...]:
+    """Give each condition that its ``polynomial`` does not name itself the relation it obeys."""
+    found = []
+    for condition in conditions:
+        equal = polynomial(condition.key)
+        alone = equal == {(condition.key,): 1}
+        found.append(condition if alone else replace(condition, relation=spell(equal, text)))
+    return tuple(found)
+
+
+def letter_key(tree: Tree) -> tuple[int, bytes]:
+    """Return the key by which trees are ordered as letters: falling size, then as enumerated."""
+    return -len(tree), bytes(255 - level for level in tree)
+
+
+@lru_cache(maxsize=1 << 14)
+def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], Fraction], ...]:
+    factors = lyndon_factors(word, letter_key)
+    if len(factors) <= 1:
+        return ((tuple(b"".join(factor) for factor in factors), Fraction(1)),)
+    # The shuffle of the factors is their concatenation, so many times, and smaller words.
+    repeated = prod(factorial(factors.count(factor)) for factor in dict.fromkeys(factors))
+    words = reduce(_shuffled, factors[1:], {factors[0]: 1})
+    result: Polynomial = {tuple(sorted(b"".join(factor) for factor in factors)): Fraction(1)}
+    for other, times in words.items():
+        if other != word:
+            result = add(result, dict(_in_lyndon_words(other)), -times)
+    return tuple((monomial, value / repeated) for monomial, value in result.items())
+
+
+def _shuffled(words: dict[tuple[Tree, ...], int], factor: tuple[Tree, ...]) -> dict[tuple[Tree, ...], int]:
+    found: dict[tuple[Tree, ...], int] = {}
+    for word, times in words.items():
+        for shuffled, more in shuffle(word, factor).items():
+            found[shuffled] = found.get(shuffled, 0) + times * more
+    return found
+
+
+def in_lyndon_words(forest: Forest, scale: Callable[[Forest], int]) -> Polynomial:
+    r"""Write a group-like value on a word of trees by those on Lyndon words, each times its ``scale``.
+
+    >>> in_lyndon_words(b"\0\0", lambda forest: 1)
+    {(b'\x00', b'\x00'): Fraction(1, 2)}
+    """
+    return {
+        monomial: value * scale(forest) / prod(map(scale, monomial))
+        for monomial, value in _in_lyndon_words(trees_of(forest))
+    }
