@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cache, partial
+from math import prod
 from typing import TYPE_CHECKING, Any
 
 from orderconds.conditions import OrderCondition
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
 
     from orderconds.ring.residues import Residues
     from orderconds.series.action import ActionSeries
+    from orderconds.series.action_relations import Polynomial
 
 
 class ActionFamily(ABC):
@@ -57,8 +60,26 @@ class ActionFamily(ABC):
         return tuple(map(self._condition, _independent(self, order)[-1]))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return every tree's condition of exactly this order, simplest first."""
-        return tuple(map(self._condition, velocities(order)))
+        """Return every tree's condition of exactly this order, simplest first, dependent ones related."""
+        related = _relations(self, order)
+        return tuple(replace(self._condition(tree), relation=related.get(tree)) for tree in velocities(order))
+
+    def relations(self, order: int) -> dict[Velocity, Polynomial]:
+        """Return what each dependent tree's left-hand side, as printed, equals in those of independent trees.
+
+        >>> from orderconds.families import get
+        >>> {str(t): [(str(q), trees) for q, trees in p] for t, p in get("vcg").relations(2).items()}
+        {'o(|f(*))': [('1', (o(o),))], 'o(|L(o))': [('1/2', (o, o))]}
+        """
+        from orderconds.series.action_relations import relations
+
+        found = relations(partial(self.random_series, order=order), _independent(self, order))
+        return {
+            tree: tuple(
+                (q * multiplier(tree) / prod(map(multiplier, trees)), trees) for q, trees in polynomial
+            )
+            for tree, polynomial in found.items()
+        }
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return conditions that imply all of this order: the simplest of each root-switching class."""
@@ -82,6 +103,21 @@ class ActionFamily(ABC):
             rhs=action_exact.condition(tree) * multiplier(tree),
             key=tree,
         )
+
+
+@cache
+def _relations(family: ActionFamily, order: int) -> dict[Velocity, str]:
+    return {tree: _spelled(polynomial) for tree, polynomial in family.relations(order).items()}
+
+
+def _spelled(polynomial: Polynomial) -> str:
+    """Spell a polynomial, short terms first: ``3 <o(|L(o o))> - <o> <o(o)>``."""
+    text = ""
+    for q, trees in sorted(polynomial, key=lambda term: len(term[1])):
+        sign = ("-" if q < 0 else "") if not text else (" - " if q < 0 else " + ")
+        scale = f"{abs(q)} " if abs(q) != 1 else ""
+        text += sign + scale + " ".join(f"<{tree}>" for tree in trees)
+    return text or "0"
 
 
 @cache

@@ -1,4 +1,4 @@
-"""Which columns are independent of those before them: greedy pivots of a matrix modulo a prime."""
+"""Which columns are combinations of those before them: the echelon form of a matrix modulo a prime."""
 
 from __future__ import annotations
 
@@ -22,8 +22,30 @@ def pivot_columns(columns: Sequence[Residue]) -> tuple[int, ...]:
     >>> pivot_columns([R.one, R.one * 2, x, x + 5, x * x])
     (0, 2, 4)
     """
+    return _echelon(columns)[1] if columns else ()
+
+
+def combinations(columns: Sequence[Residue]) -> dict[int, dict[int, int]]:
+    """Return every other column as a combination of the pivot columns: column to {pivot column: residue}.
+
+    >>> from orderconds.ring import Residues
+    >>> R = Residues(101, 3)
+    >>> x = R.element(np.array([1, 2, 3]))
+    >>> combinations([R.one, R.one * 2, x, x + 5])
+    {1: {0: 2}, 3: {0: 5, 2: 1}}
+    """
     if not columns:
-        return ()
+        return {}
+    reduced, pivots = _echelon(columns)
+    return {
+        column: {pivot: value for row, pivot in enumerate(pivots) if (value := int(reduced[row, column]))}
+        for column in range(len(columns))
+        if column not in set(pivots)
+    }
+
+
+def _echelon(columns: Sequence[Residue]) -> tuple[nmod_mat, tuple[int, ...]]:
+    """Return the reduced echelon form of the matrix with these columns, and its pivots."""
     matrix = np.stack([column.values for column in columns], axis=1)
     samples, width = matrix.shape
     reduced, rank = nmod_mat(samples, width, matrix.ravel().tolist(), columns[0].ring.prime).rref()
@@ -31,4 +53,4 @@ def pivot_columns(columns: Sequence[Residue]) -> tuple[int, ...]:
     for column in range(width):
         if len(pivots) < rank and int(reduced[len(pivots), column]):
             pivots.append(column)
-    return tuple(pivots)
+    return reduced, tuple(pivots)

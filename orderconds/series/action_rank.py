@@ -36,8 +36,10 @@ BLOCK = 256
 def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity, ...], ...]:
     """Return, for each order 1..order, the trees whose conditions are independent of simpler and lower ones.
 
-    Computed modulo two primes, which must agree on the ranks; the rank found modulo a prime can only be too
-    small, so the larger set is kept.
+    Computed modulo two primes. A rank modulo a prime is never larger than over Q: that the trees found are
+    independent, with all products of lower ones, is proved, and the larger set is kept. That no tree is
+    missing holds up to chance, and is proved where there are as many as
+    :func:`~orderconds.series.action_counts.tree_counts` allows (VCF).
     """
     found = [_independent(family, order, prime) for prime in PRIMES]
     return max(found, key=lambda trees: [len(of_order) for of_order in trees])
@@ -46,7 +48,7 @@ def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity,
 def _independent(family: RandomSeries, order: int, prime: int) -> tuple[tuple[Velocity, ...], ...]:
     chosen: list[tuple[Velocity, ...]] = []
     generators: list[tuple[int, Residue]] = []
-    values = _sample(family, order, prime)
+    values = sample(family, order, [t for n in range(1, order + 1) for t in representatives(n)], prime)
     for n in range(1, order + 1):
         decomposable = list(products(generators, n))
         trees = representatives(n)
@@ -57,9 +59,13 @@ def _independent(family: RandomSeries, order: int, prime: int) -> tuple[tuple[Ve
     return tuple(chosen)
 
 
-def _sample(family: RandomSeries, order: int, prime: int) -> dict[Velocity, Residue]:
-    """Return every condition at as many random methods as the rank may need, and at the flow."""
-    trees = [t for n in range(1, order + 1) for t in representatives(n)]
+def sample(
+    family: RandomSeries, order: int, trees: Sequence[Velocity], prime: int
+) -> dict[Velocity, Residue]:
+    """Return the values of trees at the flow and at as many random methods as the rank may need.
+
+    The methods are the same for every list of trees.
+    """
     count = _largest_rank(order) + SPARE_SAMPLES
     blocks: list[list[NDArray[np.int64]]] = []
     generator = np.random.default_rng(prime)

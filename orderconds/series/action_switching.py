@@ -29,22 +29,31 @@ def switched(tree: Velocity) -> Iterator[Velocity]:
 
 
 @cache
+def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
+    """Return the classes of trees that root switching connects, each with its simplest tree first.
+
+    >>> classes(2)
+    ((o(o), o(|f(*))), (o(|L(o)),))
+    """
+    seen: set[Velocity] = set()
+    found = []
+    for tree in velocities(vertices):
+        if tree not in seen:
+            members = [tree]
+            seen.add(tree)
+            for member in members:  # grows while it is walked
+                for other in switched(member):
+                    if other not in seen:
+                        seen.add(other)
+                        members.append(other)
+            found.append(tuple(members))
+    return tuple(found)
+
+
 def representatives(vertices: int) -> tuple[Velocity, ...]:
-    """Return the simplest tree of each class of trees that root switching connects.
+    """Return the simplest tree of each class.
 
     >>> [len(representatives(n)) for n in range(1, 6)]
     [1, 2, 10, 58, 398]
     """
-    seen: set[Velocity] = set()
-    simplest = []
-    for tree in velocities(vertices):
-        if tree not in seen:
-            simplest.append(tree)
-            seen.add(tree)
-            waiting = [tree]
-            while waiting:
-                for other in switched(waiting.pop()):
-                    if other not in seen:
-                        seen.add(other)
-                        waiting.append(other)
-    return tuple(simplest)
+    return tuple(of_class[0] for of_class in classes(vertices))

@@ -1,0 +1,81 @@
+"""Why the other action conditions are dependent: each is a polynomial in the independent ones.
+
+The value of a tree, for every method of the family and for the flow, is a combination of monomials of its
+degree in the values of independent trees. Trees that are one unrooted tree have one value; the coefficients
+of the rest solve linear equations at random methods, modulo two primes, from which the fractions are
+recovered. Three relations of order 4 that VCG has and VCF has not follow from ``psi_{L(H|L)} = 3 psi_{L(HH)}
+- psi_{L(H)}^2``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from itertools import chain
+
+from orderconds.ring.rank import combinations
+from orderconds.ring.reconstruct import rational_number
+from orderconds.ring.residues import PRIMES
+from orderconds.series.action_rank import RandomSeries, sample
+from orderconds.series.action_switching import classes
+from orderconds.series.action_trees import Velocity
+
+Polynomial = tuple[tuple[Fraction, tuple[Velocity, ...]], ...]
+"""Coefficients and the trees whose values are multiplied."""
+
+
+def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
+    """Return what the value of each dependent tree of the last order equals.
+
+    ``independent`` are the independent trees of each order 1, 2, ..., by
+    :func:`orderconds.series.action_rank.independent_trees`. Exact unless chance, about one in 10^8, hides a
+    difference at every sample; the tests verify relations over Q at methods of their own.
+    """
+    order = len(independent)
+    representatives = [of_class[0] for of_class in classes(order)]
+    monomials = tuple(_monomials(tuple(chain.from_iterable(independent)), order))
+    others = tuple(tree for tree in representatives if (tree,) not in set(monomials))
+    modular = [_coefficients(family, order, monomials, others, prime) for prime in PRIMES]
+    found: dict[Velocity, Polynomial] = {tree: ((Fraction(1), (tree,)),) for tree in independent[-1]}
+    for place, tree in enumerate(others):
+        both = [values[place] for values in modular]
+        found[tree] = tuple(
+            (rational_number([values.get(k, 0) for values in both], PRIMES), monomial)
+            for k, monomial in enumerate(monomials)
+            if any(k in values for values in both)
+        )
+    return {
+        tree: found[of_class[0]]
+        for of_class in classes(order)
+        for tree in of_class
+        if tree not in independent[-1]
+    }
+
+
+def _coefficients(
+    family: RandomSeries,
+    order: int,
+    monomials: Sequence[tuple[Velocity, ...]],
+    trees: Sequence[Velocity],
+    prime: int,
+) -> list[dict[int, int]]:
+    """Return each tree's coefficients modulo a prime, by the place of the monomial."""
+    values = sample(family, order, [*dict.fromkeys(chain.from_iterable(monomials)), *trees], prime)
+    columns = []
+    for first, *rest in monomials:
+        column = values[first]
+        for tree in rest:
+            column = column * values[tree]
+        columns.append(column)
+    found = combinations([*columns, *(values[tree] for tree in trees)])
+    return [found[len(monomials) + place] for place in range(len(trees))]
+
+
+def _monomials(trees: Sequence[Velocity], vertices: int, start: int = 0) -> Iterator[tuple[Velocity, ...]]:
+    """Yield the multisets of trees with that many vertices in all, the fewest factors last."""
+    if vertices == 0:
+        yield ()
+    for place in range(start, len(trees)):
+        if trees[place].vertices <= vertices:
+            for rest in _monomials(trees, vertices - trees[place].vertices, place):
+                yield (trees[place], *rest)
