@@ -1,33 +1,46 @@
-"""Free Lie elements: the Lyndon basis, and the Baker-Campbell-Hausdorff series in it.
+"""Free Lie elements and their coordinates in the Lyndon basis.
 
 The standard bracketing of a Lyndon word w is w plus greater words of the same letters, so that coordinates
 follow from the coefficients of Lyndon words by forward substitution (Reutenauer, Free Lie Algebras, Thm
-5.1).
+5.1). Here a product xy is the word xy; words in the order of action are products read backwards
+(:func:`backwards`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
-from typing import Any
+from typing import Any, TypeVar
 
 from orderconds.words.lyndon import is_lyndon
-from orderconds.words.shuffle import Series, Word, add, concatenate, exponential, logarithm
+from orderconds.words.shuffle import Series, Word, add, concatenate
 
 Bracket = Any
 """A letter, or a pair of brackets."""
 
+S = TypeVar("S", bound=Sequence[Any])
+
+
+def standard_factors(word: S, key: Callable[[Any], Any] | None = None) -> tuple[S, S]:
+    """Cut a Lyndon word of two letters or more before its longest proper Lyndon suffix.
+
+    >>> standard_factors("AABB")
+    ('A', 'ABB')
+    """
+    cut = next(place for place in range(1, len(word)) if is_lyndon(word[place:], key))
+    return word[:cut], word[cut:]  # type: ignore[return-value]  # slices keep the type
+
 
 def standard_bracketing(word: Sequence[Any], key: Callable[[Any], Any] | None = None) -> Bracket:
-    """Bracket a Lyndon word at its longest proper Lyndon suffix.
+    """Bracket a Lyndon word at its longest proper Lyndon suffix (Reutenauer, Section 5.1).
 
     >>> standard_bracketing("AABB")
     ('A', (('A', 'B'), 'B'))
     """
     if len(word) == 1:
         return word[0]
-    cut = next(place for place in range(1, len(word)) if is_lyndon(word[place:], key))
-    return standard_bracketing(word[:cut], key), standard_bracketing(word[cut:], key)
+    left, right = standard_factors(word, key)
+    return standard_bracketing(left, key), standard_bracketing(right, key)
 
 
 def expand(bracket: Bracket) -> Series:
@@ -39,16 +52,30 @@ def expand(bracket: Bracket) -> Series:
     if not isinstance(bracket, tuple):
         return {(bracket,): Fraction(1)}
     x, y = expand(bracket[0]), expand(bracket[1])
-    length = max(map(len, x)) + max(map(len, y))
+    length = max(map(len, x), default=0) + max(map(len, y), default=0)
     return add((1, concatenate(x, y, length)), (-1, concatenate(y, x, length)))
+
+
+def backwards(series: Mapping[Word, Fraction]) -> Series:
+    """Read every word from its end: words in the order of action become products, and back.
+
+    >>> backwards({("A", "B"): Fraction(1)})
+    {('B', 'A'): Fraction(1, 1)}
+    """
+    return {word[::-1]: value for word, value in series.items()}
 
 
 def lyndon_coordinates(
     element: Mapping[Word, Fraction], key: Callable[[Any], Any] | None = None
 ) -> dict[Word, Fraction]:
-    """Return the coordinates of a Lie element in the basis of bracketed Lyndon words.
+    """Return the coordinates of a Lie element in the basis of bracketed Lyndon words (Reutenauer, Thm 5.1).
 
-    Raises :class:`ValueError` for a series that is no Lie element.
+    ``key`` orders the letters where they do not order themselves. Raises :class:`ValueError` for a series
+    that is no Lie element.
+
+    >>> element = expand((("A", "B"), "A"))
+    >>> {"".join(word): int(value) for word, value in lyndon_coordinates(element).items()}
+    {'AAB': -1}
     """
     rest, found = dict(element), {}
     spell: Callable[[Word], Any] = lambda word: tuple(map(key, word)) if key else word  # noqa: E731
@@ -59,14 +86,3 @@ def lyndon_coordinates(
         found[word] = rest[word]
         rest = add((1, rest), (-rest[word], expand(standard_bracketing(word, key))))
     return found
-
-
-def bch(length: int) -> dict[Word, Fraction]:
-    """Return log(exp A exp B) in the Lyndon basis, to brackets of this length.
-
-    >>> {"".join(word): str(value) for word, value in bch(3).items()}
-    {'A': '1', 'B': '1', 'AB': '1/2', 'AAB': '1/12', 'ABB': '1/12'}
-    """
-    one = Fraction(1)
-    both = concatenate(exponential({("A",): one}, length), exponential({("B",): one}, length), length)
-    return lyndon_coordinates(logarithm(both, length))

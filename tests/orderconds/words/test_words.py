@@ -4,7 +4,7 @@ from itertools import pairwise, product
 import pytest
 
 from orderconds.words.compositions import compositions
-from orderconds.words.lie import bch, expand, lyndon_coordinates, standard_bracketing
+from orderconds.words.lie import backwards, expand, lyndon_coordinates, standard_bracketing
 from orderconds.words.lyndon import is_lyndon, lyndon_factors, lyndon_words
 from orderconds.words.shuffle import add, concatenate, exponential, logarithm, shuffle
 
@@ -88,17 +88,14 @@ def test_what_is_no_lie_element_has_no_coordinates():
         lyndon_coordinates({("A", "A"): Fraction(1)})
 
 
-def test_bch_has_dynkins_coefficients():
-    # 1/24 [X, [[X, Y], Y]] at degree four; at degree five -1/720 [X,[X,[X,[X,Y]]]] and so on (HLW III.4.11).
-    found = {"".join(word): value for word, value in bch(5).items()}
-    assert found["AABB"] == Fraction(1, 24)
-    assert "AAAB" not in found
-    assert found["AAAAB"] == found["ABBBB"] == Fraction(-1, 720)
-    assert found["AAABB"] == Fraction(1, 180)
-
-
 def test_compositions_number_powers_of_two():
     for n in range(1, 8):
         found = list(compositions(n))
         assert len(set(found)) == len(found) == 2 ** (n - 1)
         assert all(sum(parts) == n for parts in found)
+
+
+def test_reading_backwards_changes_the_sign_of_brackets_of_even_length():
+    for word in [*lyndon_words("AB", 4), *lyndon_words("AB", 5)]:
+        bracket = expand(standard_bracketing(word))
+        assert backwards(bracket) == add(((-1) ** (len(word) + 1), bracket))

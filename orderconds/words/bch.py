@@ -1,0 +1,104 @@
+"""The Baker-Campbell-Hausdorff series log(exp A exp B), from Goldberg's coefficients of words.
+
+A Lie element is known from its coefficients at Lyndon words: bracketed Lyndon words are the word itself plus
+greater ones, so that coordinates follow by forward substitution within each multidegree (Reutenauer, Free
+Lie Algebras, Thm 5.1). The coefficients have a closed form (Goldberg, Duke Math. J. 23 (1956) 13), so nothing
+is multiplied out.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import lru_cache
+from itertools import groupby
+from typing import Any
+
+from flint import fmpq_poly
+
+from orderconds.words.lie import standard_factors
+from orderconds.words.lyndon import lyndon_words
+from orderconds.words.shuffle import Word
+
+Expansion = dict[str, int]
+
+
+def bch(length: int) -> dict[Word, Fraction]:
+    """Return log(exp A exp B) in the basis of bracketed Lyndon words, to brackets of this length.
+
+    A product xy is the word xy. Zeros are left out; shorter words come first.
+
+    >>> {"".join(word): str(value) for word, value in bch(3).items()}
+    {'A': '1', 'B': '1', 'AB': '1/2', 'AAB': '1/12', 'ABB': '1/12'}
+    """
+    expansions: dict[str, Expansion] = {"A": {"A": 1}, "B": {"B": 1}}
+    result: dict[Word, Fraction] = {("A",): Fraction(1), ("B",): Fraction(1)} if length > 0 else {}
+    for n in range(2, length + 1):
+        words = ["".join(word) for word in lyndon_words("AB", n)]
+        of_degree = _coordinates(words, expansions)
+        result |= {tuple(word): value for word, value in of_degree.items() if value}
+        if n < length:
+            expansions |= {word: _commutator(*standard_factors(word), expansions) for word in words}
+    return result
+
+
+def goldberg(word: str) -> Fraction:
+    """Return the coefficient of a word over A and B, not empty, in log(exp A exp B).
+
+    With run lengths s_1, ..., s_m of a word that begins with A it is the integral over [0, 1] of
+    t^[m/2] (t - 1)^[(m-1)/2] prod G_{s_i}(t), where G_1 = 1 and s G_s = (t (t - 1) G_{s-1})'. Exchanging A
+    and B gives the sign (-1)^(n-1) (Goldberg 1956, Thm 1 and Cor. 2).
+
+    >>> str(goldberg("AB")), str(goldberg("BAA")), goldberg("AA") == 0
+    ('1/2', '1/12', True)
+    """
+    runs = tuple(sorted(len(list(run)) for _, run in groupby(word)))
+    value = _integral(runs)
+    return -value if word[0] == "B" and len(word) % 2 == 0 else value
+
+
+@lru_cache(maxsize=1 << 14)
+def _integral(runs: tuple[int, ...]) -> Fraction:
+    t, m = fmpq_poly([0, 1]), len(runs)
+    integrand = t ** (m // 2) * (t - 1) ** ((m - 1) // 2)
+    for run in runs:
+        integrand = integrand * _run_polynomial(run)
+    value = integrand.integral()(1)
+    return Fraction(int(value.p), int(value.q))
+
+
+@lru_cache(maxsize=64)
+def _run_polynomial(s: int) -> Any:
+    if s == 1:
+        return fmpq_poly([1])
+    return (fmpq_poly([0, -1, 1]) * _run_polynomial(s - 1)).derivative() / s
+
+
+def _coordinates(words: list[str], expansions: dict[str, Expansion]) -> dict[str, Fraction]:
+    """Return the coordinates of the degree of ``words``, its Lyndon words in rising order."""
+    found: dict[str, Fraction] = {}
+    of_multidegree: dict[int, list[str]] = {}
+    for word in words:
+        lower = of_multidegree.setdefault(word.count("A"), [])
+        value = goldberg(word)
+        for smaller in lower:
+            if found[smaller]:
+                value -= found[smaller] * _coefficient(smaller, word, expansions)
+        found[word] = value
+        lower.append(word)
+    return found
+
+
+def _coefficient(bracketed: str, word: str, expansions: dict[str, Expansion]) -> int:
+    """Return the coefficient of ``word`` in a bracketed Lyndon word whose factors are expanded."""
+    left, right = standard_factors(bracketed)
+    x, y, i, j = expansions[left], expansions[right], len(left), len(right)
+    return x.get(word[:i], 0) * y.get(word[i:], 0) - y.get(word[:j], 0) * x.get(word[j:], 0)
+
+
+def _commutator(left: str, right: str, expansions: dict[str, Expansion]) -> Expansion:
+    result: Expansion = {}
+    for u, a in expansions[left].items():
+        for v, b in expansions[right].items():
+            result[u + v] = result.get(u + v, 0) + a * b
+            result[v + u] = result.get(v + u, 0) - a * b
+    return {word: value for word, value in result.items() if value}

@@ -1,0 +1,83 @@
+"""Functions on words, which are series: their product and their power series, at one word at a time.
+
+A product cuts the word in two, the first factor's part acting first. Values lie in any ring; a factor without
+value at the empty word makes every power series finite, so that nothing is truncated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from math import factorial
+from typing import Any
+
+from orderconds.words.shuffle import Word
+
+Element = Any
+Function = Callable[[Word], Element]
+
+
+def convolution(f: Function, g: Function, word: Word, zero: Element = Fraction(0)) -> Element:
+    """Return (f * g)(word) = sum of f(u) g(v) over the cuts word = uv.
+
+    >>> convolution(len, len, ("A", "B", "C"), 0)
+    4
+    """
+    result = zero
+    for cut in range(len(word) + 1):
+        result = result + f(word[:cut]) * g(word[cut:])
+    return result
+
+
+def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Element = Fraction(0)) -> Element:
+    """Return the value at ``word``, not empty, of sum_{m>=1} scales[m - 1] f^m.
+
+    f vanishes at the empty word and is not asked for it; scales beyond the length of the word do not matter.
+    """
+    n = len(word)
+    # powers[end] is the value of f^m at the first ``end`` letters.
+    first = powers = [zero, *(f(word[:end]) for end in range(1, n + 1))]
+    result = powers[n] * scales[0]
+    tails = {(start, end): f(word[start:end]) for start in range(1, n) for end in range(start + 1, n + 1)}
+    for m in range(2, n + 1):
+        powers = [
+            sum((powers[cut] * tails[cut, end] for cut in range(m - 1, end)), zero) for end in range(n + 1)
+        ]
+        result = result + powers[n] * scales[m - 1]
+    return result if n > 1 else first[1] * scales[0]
+
+
+def exponential_scales(n: int) -> tuple[Fraction, ...]:
+    """Return 1/m! for m = 1, ..., n: exp(x) - 1.
+
+    >>> [str(q) for q in exponential_scales(3)]
+    ['1', '1/2', '1/6']
+    """
+    return tuple(Fraction(1, factorial(m)) for m in range(1, n + 1))
+
+
+def logarithm_scales(n: int) -> tuple[Fraction, ...]:
+    """Return (-1)^(m+1)/m for m = 1, ..., n: log(1 + z).
+
+    >>> [str(q) for q in logarithm_scales(3)]
+    ['1', '-1/2', '1/3']
+    """
+    return tuple(Fraction((-1) ** (m + 1), m) for m in range(1, n + 1))
+
+
+def cayley_scales(n: int) -> tuple[Fraction, ...]:
+    """Return 1/2^(m-1) for m = 1, ..., n: cay(x) - 1 for cay(x) = (1 + x/2) / (1 - x/2).
+
+    >>> [str(q) for q in cayley_scales(3)]
+    ['1', '1/2', '1/4']
+    """
+    return tuple(Fraction(1, 2 ** (m - 1)) for m in range(1, n + 1))
+
+
+def inverse_cayley_scales(n: int) -> tuple[Fraction, ...]:
+    """Return (-1)^(m+1)/2^(m-1) for m = 1, ..., n: 2 z / (2 + z), which takes cay(x) - 1 to x.
+
+    >>> [str(q) for q in inverse_cayley_scales(3)]
+    ['1', '-1/2', '1/4']
+    """
+    return tuple(Fraction((-1) ** (m + 1), 2 ** (m - 1)) for m in range(1, n + 1))

@@ -1,0 +1,179 @@
+"""The flow of Y' = A(t) Y, A(t) = X_1 + t X_2 + t^2 X_3 + ..., in words: Magnus, Fer, Cayley expansions.
+
+Letter k stands for X_k and weighs k; values are those at t = 1, since a word of weight n carries t^n. Words
+are written in the order of action: the word k_1 ... k_n is the product X_{k_n} ... X_{k_1}
+(:func:`orderconds.words.lie.backwards` turns one into the other). Iserles, Munthe-Kaas, Noersett and Zanna,
+Acta Numerica 9 (2000) 215, Sections 4 to 6; Blanes, Casas, Oteo and Ros, Physics Reports 470 (2009) 151.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from functools import lru_cache
+from itertools import accumulate
+from math import factorial, prod
+
+from orderconds.words.compositions import compositions
+from orderconds.words.convolution import (
+    exponential_scales,
+    inverse_cayley_scales,
+    logarithm_scales,
+    power_series,
+)
+from orderconds.words.shuffle import Series, Word
+
+
+def iterated_integral(word: Word) -> Fraction:
+    """Return the value of the flow on a word: the integral of s_1^(k_1-1) ... over 0 < s_1 < ... < s_n < 1.
+
+    It is the product of 1/(k_1 + ... + k_j) over j = 1, ..., n.
+
+    >>> str(iterated_integral((1, 2)))
+    '1/3'
+    """
+    return Fraction(1, prod(accumulate(word)))
+
+
+@lru_cache(maxsize=1 << 14)
+def magnus(word: Word) -> Fraction:
+    """Return the coefficient of a word in the Magnus expansion, the Lie element Omega with Y = exp(Omega).
+
+    At weight three Omega holds -[X_1, X_2]/12, and [X_1, X_2] is the word 2 1 less the word 1 2.
+
+    >>> str(magnus((1, 2))), str(magnus((2, 1)))
+    ('1/12', '-1/12')
+    """
+    return Fraction(power_series(iterated_integral, word, logarithm_scales(len(word))))
+
+
+@lru_cache(maxsize=1 << 14)
+def cayley(word: Word) -> Fraction:
+    """Return the coefficient of a word in Omega with Y = cay(Omega), cay(x) = (1 - x/2)^-1 (1 + x/2).
+
+    Omega' = A - [Omega, A]/2 - Omega A Omega/4 (Iserles 2001, Found. Comput. Math. 1, 129).
+
+    >>> str(cayley((1, 1))), str(cayley((1, 1, 1)))
+    ('0', '-1/12')
+    """
+    return Fraction(power_series(iterated_integral, word, inverse_cayley_scales(len(word))))
+
+
+@lru_cache(maxsize=1 << 14)
+def fer(n: int, word: Word) -> Fraction:
+    """Return the coefficient of a word in F_n, where Y = exp(F_1) exp(F_2) exp(F_3) ... : F_1 acts last.
+
+    F_n is the integral of A_n; A_1 = A and A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n. The lightest
+    words of F_n weigh 2^n - 1.
+
+    >>> str(fer(1, (3,))), str(fer(2, (1, 2)))
+    ('1/3', '1/12')
+    """
+    return _fer_field(n, word) / sum(word)
+
+
+@lru_cache(maxsize=1 << 14)
+def fer_remainder(word: Word) -> Fraction:
+    """Return the coefficient of a word in log(exp(-F_1) Y): F_2, and from weight ten on brackets with F_3.
+
+    >>> fer_remainder((1, 2)) == fer(2, (1, 2))
+    True
+    """
+    return Fraction(power_series(_after_first, word, logarithm_scales(len(word))))
+
+
+def dexp(length: int) -> Series:
+    """Return dexp_U(X) = sum_k ad_U^k X/(k+1)! in words over U and X of at most this length, as products.
+
+    >>> {"".join(word): str(value) for word, value in dexp(2).items()}
+    {'X': '1', 'UX': '1/2', 'XU': '-1/2'}
+    """
+    return _adjoint_series(length, lambda k: Fraction(1, factorial(k + 1)))
+
+
+def dexp_inverse(length: int) -> Series:
+    """Return dexp_U^{-1}(X) = sum_k B_k/k! ad_U^k X in words over U and X, as products; B_1 = -1/2.
+
+    >>> {"".join(word): str(value) for word, value in dexp_inverse(2).items()}
+    {'X': '1', 'UX': '-1/2', 'XU': '1/2'}
+    """
+    numbers = [Fraction(1)]
+    for n in range(1, length):
+        # sum_{k<=n} 1/(n + 1 - k)! B_k/k! = 0, since x/(e^x - 1) times (e^x - 1)/x is one.
+        numbers.append(-sum((q / factorial(n + 1 - k) for k, q in enumerate(numbers)), Fraction(0)))
+    return _adjoint_series(length, numbers.__getitem__)
+
+
+def dcay_inverse() -> Series:
+    """Return dcay_U^{-1}(X) = X - [U, X]/2 - U X U/4 in words over U and X, as products; it is finite.
+
+    >>> {"".join(word): str(value) for word, value in dcay_inverse().items()}
+    {'X': '1', 'UX': '-1/2', 'XU': '1/2', 'UXU': '-1/4'}
+    """
+    half = Fraction(1, 2)
+    return {("X",): Fraction(1), ("U", "X"): -half, ("X", "U"): half, ("U", "X", "U"): -half * half}
+
+
+def words_of_weight(weight: int) -> Iterator[Word]:
+    """Yield all words over the letters 1, 2, ... of this weight, the shortest first.
+
+    >>> list(words_of_weight(3))
+    [(3,), (1, 2), (2, 1), (1, 1, 1)]
+    """
+    return compositions(weight)
+
+
+def expansion(coefficient: Callable[[Word], Fraction], weight: int) -> Series:
+    """Return a series to this weight, zeros left out; ``coefficient`` is :func:`magnus`, say.
+
+    >>> {word: str(value) for word, value in expansion(magnus, 3).items()}
+    {(1,): '1', (2,): '1/2', (3,): '1/3', (1, 2): '1/12', (2, 1): '-1/12'}
+    """
+    words = (word for n in range(1, weight + 1) for word in words_of_weight(n))
+    return {word: value for word in words if (value := coefficient(word))}
+
+
+@lru_cache(maxsize=1 << 14)
+def _fer_field(n: int, word: Word) -> Fraction:
+    """Return the coefficient of t^(weight - 1) times a word in A_n."""
+    if n == 1:
+        return Fraction(len(word) == 1)
+    result = Fraction(0)
+    for k in range(1, sum(word) // (2 ** (n - 1) - 1)):
+        if value := _fer_bracket(n - 1, k, word):
+            result += Fraction((-1) ** k * k, factorial(k + 1)) * value
+    return result
+
+
+@lru_cache(maxsize=1 << 14)
+def _fer_bracket(n: int, k: int, word: Word) -> Fraction:
+    """Return the coefficient of a word in ad_{F_n}^k A_n."""
+    if k == 0:
+        return _fer_field(n, word)
+    result = Fraction(0)
+    for cut in range(1, len(word)):
+        # The product F x has x act first.
+        head, tail = word[:cut], word[cut:]
+        result += _fer_bracket(n, k - 1, head) * fer(n, tail) - fer(n, head) * _fer_bracket(n, k - 1, tail)
+    return result
+
+
+def _after_first(word: Word) -> Fraction:
+    """Return the coefficient of a word in exp(-F_1) Y, where Y acts first."""
+    result = iterated_integral(word)
+    for cut in range(len(word)):
+        scale = exponential_scales(len(word) - cut)[-1]
+        lasts = prod((Fraction(-1, letter) for letter in word[cut:]), start=Fraction(1))
+        result += scale * lasts * (iterated_integral(word[:cut]) if cut else 1)
+    return result
+
+
+def _adjoint_series(length: int, scale: Callable[[int], Fraction]) -> Series:
+    result: Series = {}
+    for k in range(length):
+        if factor := scale(k):
+            for m in range(k + 1):
+                # ad_U^k X = sum_m (-1)^m binomial(k, m) U^(k-m) X U^m
+                binomial = factorial(k) // factorial(m) // factorial(k - m)
+                result[("U",) * (k - m) + ("X",) + ("U",) * m] = (-1) ** m * binomial * factor
+    return result

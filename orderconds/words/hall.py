@@ -1,0 +1,114 @@
+"""Hall bases of free Lie algebras with any grading, and the rewriting of brackets in them.
+
+Brackets are ordered by weight, then as they are found. A bracket [x, y] of basis elements belongs to the
+basis iff x < y, and y is a letter or y = [y', y''] with y' <= x (M. Hall, Proc. AMS 1 (1950) 575; Bourbaki,
+Lie Groups and Lie Algebras, II.2.11). Other brackets are rewritten by antisymmetry and Jacobi's identity.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from orderconds.words.lie import Bracket, lyndon_coordinates, standard_bracketing
+from orderconds.words.shuffle import Word
+
+Coordinates = dict[Bracket, Fraction]
+
+
+class HallBasis:
+    """The Hall basis of the free Lie algebra on ``letters``, to a weight.
+
+    ``letters`` stand in rising order; ``weigh`` gives each its weight, a positive integer.
+
+    >>> HallBasis("AB", 4).of_weight(4)
+    (('A', ('A', ('A', 'B'))), ('B', ('A', ('A', 'B'))), ('B', ('B', ('A', 'B'))))
+    >>> [len(HallBasis((1, 2, 3), 5, weigh=int).of_weight(n)) for n in (1, 2, 3, 4, 5)]
+    [1, 1, 2, 2, 4]
+    """
+
+    def __init__(
+        self, letters: Sequence[Hashable], weight: int, weigh: Callable[[Any], int] = lambda letter: 1
+    ) -> None:
+        if any(weigh(letter) < 1 for letter in letters):
+            raise ValueError("letters need positive weights")
+        self.letters, self.weight, self._weigh = tuple(letters), weight, weigh
+        self._place: dict[Bracket, int] = {}
+        self._of_weight: list[tuple[Bracket, ...]] = [()]
+        for n in range(1, weight + 1):
+            found = [letter for letter in letters if weigh(letter) == n]
+            for m in range(1, n // 2 + 1):
+                pairs = ((x, y) for x in self._of_weight[m] for y in self._of_weight[n - m])
+                found += [pair for pair in pairs if self._place[pair[0]] < self._place[pair[1]]]
+            kept = tuple(x for x in found if self._belongs(x))
+            self._place |= {x: len(self._place) + k for k, x in enumerate(kept)}
+            self._of_weight.append(kept)
+        self._known: dict[tuple[Bracket, Bracket], Coordinates] = {}
+
+    def of_weight(self, n: int) -> tuple[Bracket, ...]:
+        """Return the basis elements of exactly this weight, in rising order; pairs are brackets."""
+        return self._of_weight[n]
+
+    def rewrite(self, bracket: Bracket) -> Coordinates:
+        """Return the coordinates of any bracket of letters; ValueError for one too heavy.
+
+        >>> HallBasis("AB", 3).rewrite((("A", "B"), "A"))
+        {('A', ('A', 'B')): Fraction(-1, 1)}
+        """
+        if self._weight(bracket) > self.weight:
+            raise ValueError(f"a bracket heavier than {self.weight}")
+        if bracket in self._place:
+            return {bracket: Fraction(1)}
+        return self._bracket(self.rewrite(bracket[0]), self.rewrite(bracket[1]))
+
+    def coordinates(self, element: Mapping[Word, Fraction]) -> Coordinates:
+        """Return the coordinates of a Lie element given by words, in which a product xy is the word xy.
+
+        Raises :class:`ValueError` for a series that is no Lie element.
+
+        >>> HallBasis("AB", 2).coordinates({("A", "B"): Fraction(1, 2), ("B", "A"): Fraction(-1, 2)})
+        {('A', 'B'): Fraction(1, 2)}
+        """
+        order = {letter: place for place, letter in enumerate(self.letters)}
+        result: Coordinates = {}
+        for word, value in lyndon_coordinates(element, order.__getitem__).items():
+            _add(result, value, self.rewrite(standard_bracketing(word, order.__getitem__)))
+        return {x: result[x] for x in sorted(result, key=self._place.__getitem__) if result[x]}
+
+    def _weight(self, x: Bracket) -> int:
+        return sum(map(self._weight, x)) if isinstance(x, tuple) else self._weigh(x)
+
+    def _belongs(self, x: Bracket) -> bool:
+        if not isinstance(x, tuple):
+            return True
+        low, high = x
+        return not isinstance(high, tuple) or self._place[high[0]] <= self._place[low]
+
+    def _bracket(self, x: Coordinates, y: Coordinates) -> Coordinates:
+        result: Coordinates = {}
+        for u, a in x.items():
+            for v, b in y.items():
+                _add(result, a * b, self._pair(u, v))
+        return {z: value for z, value in result.items() if value}
+
+    def _pair(self, x: Bracket, y: Bracket) -> Coordinates:
+        """Return [x, y] for two basis elements."""
+        if x == y:
+            return {}
+        if self._place[x] > self._place[y]:
+            return {z: -value for z, value in self._pair(y, x).items()}
+        if (x, y) in self._place:
+            return {(x, y): Fraction(1)}
+        if (x, y) not in self._known:
+            # [x, [u, v]] = [[x, u], v] + [u, [x, v]]; both are nearer to the basis, since x < u < v.
+            u, v = y
+            result = self._bracket(self._pair(x, u), {v: Fraction(1)})
+            _add(result, Fraction(1), self._bracket({u: Fraction(1)}, self._pair(x, v)))
+            self._known[x, y] = {z: value for z, value in result.items() if value}
+        return self._known[x, y]
+
+
+def _add(result: Coordinates, scale: Fraction, x: Coordinates) -> None:
+    for z, value in x.items():
+        result[z] = result.get(z, Fraction(0)) + scale * value

@@ -1,0 +1,51 @@
+"""Every word as a polynomial in Lyndon words under the shuffle product (Radford 1979).
+
+A word with Lyndon factors l_1^{i_1} ... l_k^{i_k}, l_1 > ... > l_k, is the shuffle product of the factors
+divided by i_1! ... i_k!, minus smaller words (Reutenauer, Free Lie Algebras, Thm 6.1). Values of a product of
+exponentials multiply over shuffles, so these polynomials are the relations between its values.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from fractions import Fraction
+from functools import lru_cache
+from math import factorial, prod
+
+from orderconds.words.lyndon import lyndon_factors
+from orderconds.words.shuffle import Word, shuffle
+
+Monomial = tuple[Word, ...]
+"""A shuffle product of Lyndon words, in falling order."""
+
+
+@lru_cache(maxsize=1 << 14)
+def in_lyndon_words(word: Word) -> dict[Monomial, Fraction]:
+    """Return a word as a polynomial in Lyndon words; letters compare as they are (Reutenauer, Thm 6.1).
+
+    >>> for monomial, value in in_lyndon_words(("B", "A")).items():
+    ...     print(value, *("".join(word) for word in monomial))
+    1 B A
+    -1 AB
+    """
+    factors = tuple(lyndon_factors(word))
+    if len(factors) <= 1:
+        return {factors: Fraction(1)}
+    shuffled: Counter[Word] = Counter({(): 1})
+    for factor in factors:
+        shuffled = _shuffled(shuffled, factor)
+    repeats = prod(map(factorial, Counter(factors).values()))
+    result: dict[Monomial, Fraction] = {factors: Fraction(1, repeats)}
+    for other, times in shuffled.items():
+        if other != word:
+            for monomial, value in in_lyndon_words(other).items():
+                result[monomial] = result.get(monomial, Fraction(0)) - Fraction(times, repeats) * value
+    return {monomial: value for monomial, value in result.items() if value}
+
+
+def _shuffled(words: Counter[Word], factor: Word) -> Counter[Word]:
+    result: Counter[Word] = Counter()
+    for word, times in words.items():
+        for shuffled, again in shuffle(word, factor).items():
+            result[shuffled] += times * again
+    return result
