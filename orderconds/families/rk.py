@@ -10,7 +10,7 @@ from typing import Any
 from orderconds.conditions import OrderCondition
 from orderconds.formula import Formula, coefficient, fresh, index_sum, product
 from orderconds.ring.protocol import Element, Ring
-from orderconds.series.b_series import ElementaryWeights
+from orderconds.series.b_series import runge_kutta_series
 from orderconds.trees.levels import Tree, children, density, text
 from orderconds.trees.rooted import rooted_trees
 
@@ -41,7 +41,7 @@ class RungeKuttaFamily:
 
     def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
         """Return elementary weights; ``method`` has ``A`` and ``b`` over ``ring``."""
-        weights = ElementaryWeights[Tree](ring, (method.A,), method.b, _branches)
+        weights = runge_kutta_series(ring, method.A, method.b)
         return tuple(weights(condition.key) for condition in conditions)
 
 
@@ -65,11 +65,6 @@ def tree_conditions(trees: Sequence[Tree]) -> tuple[OrderCondition, ...]:
         OrderCondition("rk", len(tree), text(tree), partial(_weight, tree), Fraction(1, density(tree)), tree)
         for tree in trees
     )
-
-
-@lru_cache(maxsize=1 << 16)
-def _branches(tree: Tree) -> tuple[tuple[int, Tree], ...]:
-    return tuple((0, child) for child in children(tree))
 
 
 def _weight(tree: Tree) -> Formula:

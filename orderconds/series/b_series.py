@@ -7,9 +7,11 @@ Each subtree has one vector over the stages, computed once: the product over its
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Sequence
+from functools import lru_cache
 from typing import Generic, TypeVar
 
 from orderconds.ring.protocol import Element, Ring
+from orderconds.trees.levels import Tree, children
 
 TreeT = TypeVar("TreeT", bound=Hashable)
 
@@ -57,6 +59,24 @@ class ElementaryWeights(Generic[TreeT]):
 
     def _dot(self, row: Sequence[tuple[int, Element]], vector: Sequence[Element]) -> Element:
         return sum((weight * vector[j] for j, weight in row), self._ring.zero)
+
+
+def runge_kutta_series(
+    ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element]
+) -> ElementaryWeights[Tree]:
+    r"""Return the elementary weights of a tableau on canonical rooted trees (HLW III.1, (1.18)).
+
+    >>> from orderconds.ring import QQ
+    >>> half = QQ.rational(1, 2)
+    >>> str(runge_kutta_series(QQ, [[half]], [QQ.one])(b"\0\1\1"))
+    '1/4'
+    """
+    return ElementaryWeights[Tree](ring, (A,), b, _uncoloured_branches)
+
+
+@lru_cache(maxsize=1 << 16)
+def _uncoloured_branches(tree: Tree) -> tuple[tuple[int, Tree], ...]:
+    return tuple((0, child) for child in children(tree))
 
 
 def sparse(ring: Ring, row: Sequence[Element]) -> tuple[tuple[int, Element], ...]:

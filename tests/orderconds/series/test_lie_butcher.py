@@ -6,8 +6,11 @@ import pytest
 
 from orderconds import families
 from orderconds.ring import QQ, PowerSeries
+from orderconds.ring.polynomials import Polynomials
+from orderconds.series.characters import ORDERED, Character
 from orderconds.series.dexpinv import DexpinvSeries, bernoulli
 from orderconds.series.lie_butcher import exact_value, forest_residuals, forest_values
+from orderconds.series.modified import modified_field
 from orderconds.tableau import RungeKutta
 from orderconds.trees.levels import parse, text, trees_of
 from orderconds.trees.ordered import ordered_forests, ordered_trees
@@ -220,8 +223,8 @@ class Plane:
 class Elementary:
     """Elementary differentials F(t) in gl(2) of the plane problem, by nilpotent increments."""
 
-    def __init__(self):
-        self.plane = Plane(QQ, 0)
+    def __init__(self, plane=None):
+        self.plane = plane or Plane(QQ, 0)
 
     def of_tree(self, tree):
         below = [self.of_tree(child) for child in trees_of(tree[1:].translate(bytes([0, *range(255)])))]
@@ -233,8 +236,10 @@ class Elementary:
             moved[chosen] = y
         everything, nothing = (1,) * len(below), (0,) * len(below)
         m, y = self.plane.matrices, moved[everything]
-        crossed = sum((moved[part][0] * moved[tuple(1 - x for x in part)][1] for part in moved), QQ.zero)
-        constant = QQ.one if everything == nothing else QQ.zero
+        crossed = sum(
+            (moved[part][0] * moved[tuple(1 - x for x in part)][1] for part in moved), self.plane.ring.zero
+        )
+        constant = self.plane.ring.one if everything == nothing else self.plane.ring.zero
         return self.plane.add((constant, m["M0"]), (y[0], m["M1"]), (y[1], m["M2"]), (crossed, m["N"]))
 
     def of_forest(self, forest):
@@ -246,7 +251,7 @@ class Elementary:
     def predicted(self, values):
         """sum_w a(w) F(t_k) ... F(t_1) y0."""
         return tuple(
-            sum((value * self.of_forest(forest)[k] for forest, value in values.items()), QQ.zero)
+            sum((value * self.of_forest(forest)[k] for forest, value in values.items()), self.plane.ring.zero)
             for k in (0, 1)
         )
 
@@ -291,3 +296,23 @@ def test_residuals_predict_the_local_error_of_cf4(commutator_free):
     error = tuple(a - b for a, b in zip(taylor(step, 5), taylor(flow, 5), strict=True))
     assert any(error)
     assert Elementary().predicted(forest_residuals(series, QQ, 5)) == error
+
+
+@pytest.mark.parametrize("name", ["cf3", "cf4 with its factors swapped"])
+def test_the_flow_of_the_modified_equation_is_the_step_on_a_concrete_problem(commutator_free, name):
+    # Time on the unit interval is the variable x of the coefficients, Q[x][[h]]; four Picard sweeps.
+    order, time = 4, Polynomials(("x",))
+    step = Plane(PowerSeries(QQ, order), order).commutator_free(commutator_free[name])
+    series = families.get("cf").series(commutator_free[name], QQ)
+    field, plane = modified_field(Character(QQ, ORDERED, series)), Plane(PowerSeries(time, order), order)
+    start, powers = plane.y0, [plane.ring.one]
+    for _ in range(order):
+        powers.append(powers[-1] * plane.ring.h)
+    words = [(n, word) for n in range(1, order + 1) for word in ordered_forests(n)]
+    terms = {word: powers[n] * plane.ring.constant(time.one * field(word)) for n, word in words}
+    for _ in range(order):
+        slope = Elementary(plane).predicted(terms)
+        moved = [plane.ring.from_coefficients(tuple(c.integral(0) for c in x.coefficients)) for x in slope]
+        plane.y0 = tuple(a + b for a, b in zip(start, moved, strict=True))
+    final = [[c.compose(time.one) if c.degrees() else c for c in x.coefficients] for x in plane.y0]
+    assert final == [list(x.coefficients) for x in step]

@@ -1,0 +1,123 @@
+"""The group of steps: composition, inverse and adjoint of B-series and of Lie-Butcher series.
+
+A step is a character: its value on several pieces is the product of its values on each, and on the empty one
+it is 1. It is a function of canonical rooted trees (B-series, a(t) = sum_i b_i tau_t(i), so that y1 = y0 +
+sum h^|t| a(t)/sigma(t) F(t)) or of ordered forests (Lie-Butcher, see :mod:`orderconds.series.lie_butcher`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+
+from orderconds.ring.protocol import Element, Ring
+from orderconds.series.cuts import Cuts, left_cuts, tree_cuts
+from orderconds.series.lie_butcher import exact_value
+from orderconds.trees.levels import density
+
+Value = Callable[[bytes], Element]
+
+
+@dataclass(frozen=True)
+class TreeAlgebra:
+    """What trees are cut into, and the exact flow's value on them."""
+
+    cuts: Cuts
+    exact: Callable[[bytes], Fraction]
+
+
+ROOTED = TreeAlgebra(tree_cuts, lambda tree: Fraction(1, density(tree)))
+"""B-series: canonical unordered rooted trees; the exact flow is 1/gamma (HLW III.1, Theorem 1.5)."""
+
+ORDERED = TreeAlgebra(left_cuts, exact_value)
+"""Lie-Butcher series: ordered forests, the first tree acting first."""
+
+
+class Character:
+    """A step of size h, by its value on each tree or forest, elements of ``ring``.
+
+    >>> from orderconds.ring import QQ
+    >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
+    >>> twice = euler.then(euler)
+    >>> [str(twice(tree)) for tree in (b"\\0", b"\\0\\1", b"\\0\\1\\1", b"\\0\\1\\2")]
+    ['2', '1', '1', '0']
+    """
+
+    def __init__(self, ring: Ring, algebra: TreeAlgebra, value: Value) -> None:
+        self.ring, self.algebra, self._value = ring, algebra, value
+        self._known: dict[bytes, Element] = {b"": ring.one}
+
+    def __call__(self, forest: bytes) -> Element:
+        """Return the value on a tree or forest."""
+        if forest not in self._known:
+            self._known[forest] = self._value(forest)
+        return self._known[forest]
+
+    def then(self, other: Character) -> Character:
+        """Return this step followed by ``other``, both of size h (HLW III.1.4, Theorem 1.10).
+
+        On ordered forests the same with left admissible cuts (Munthe-Kaas and Wright 2008, Theorem 5).
+        """
+
+        def value(forest: bytes) -> Element:
+            return self._sum(forest, other, whole=True)
+
+        return Character(self.ring, self.algebra, value)
+
+    def inverse(self) -> Character:
+        """Return the step that undoes this one: ``a.then(a.inverse())`` is the identity.
+
+        >>> from orderconds.ring import QQ
+        >>> flow = exact_flow(QQ, ROOTED)
+        >>> str(flow.inverse()(b"\\0\\1\\2"))
+        '-1/6'
+        """
+        undone = Character(self.ring, self.algebra, lambda forest: self.ring.zero)
+        undone._value = lambda forest: self.ring.zero - self._sum(forest, undone, whole=False)
+        return undone
+
+    def adjoint(self) -> Character:
+        """Return the inverse of the step with -h (HLW II.3, Definition 3.1); symmetric methods are their own.
+
+        >>> from orderconds.ring import QQ
+        >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
+        >>> [str(euler.adjoint()(tree)) for tree in (b"\\0", b"\\0\\1", b"\\0\\1\\1")]
+        ['1', '1', '1']
+        """
+        return self.inverse().scaled(self.ring.rational(-1))
+
+    def scaled(self, factor: Element) -> Character:
+        """Return the step of size ``factor`` h."""
+
+        def value(forest: bytes) -> Element:
+            power = self.ring.one
+            for _ in forest:
+                power = power * factor
+            return self(forest) * power
+
+        return Character(self.ring, self.algebra, value)
+
+    def _sum(self, forest: bytes, other: Character, whole: bool) -> Element:
+        """Sum over cuts this step's values on the pieces times ``other``'s on the rest.
+
+        Without ``whole`` the cut that cuts nothing off is left out.
+        """
+        result = self.ring.zero
+        for pieces, rest in self.algebra.cuts(forest):
+            if pieces or whole:
+                term = other(rest)
+                for piece in pieces:
+                    term = term * self(piece)
+                result = result + term
+        return result
+
+
+def exact_flow(ring: Ring, algebra: TreeAlgebra) -> Character:
+    """Return the exact flow over a time h."""
+
+    def value(forest: bytes) -> Element:
+        exact = algebra.exact(forest)
+        return ring.rational(exact.numerator, exact.denominator)
+
+    return Character(ring, algebra, value)

@@ -1,0 +1,55 @@
+"""Admissible cuts: how a step that follows another meets the trees that the first one grew.
+
+A cut of a tree or forest leaves a rest, which holds the roots, and pieces above it. Unordered trees may be
+cut at any edges of which no two lie on one path (Connes and Kreimer 1998; HLW III.1.4, ordered subtrees).
+Ordered forests are cut so that at every vertex, and among the roots, the branches cut off stand leftmost and
+form one piece (left admissible cuts: Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+from itertools import product
+
+from orderconds.trees.levels import Forest, Tree, branches, children, rooted_at_new_vertex, trees_of
+
+Cut = tuple[tuple[bytes, ...], bytes]
+"""The pieces and the rest, which is empty when everything is cut off."""
+
+Cuts = Callable[[bytes], tuple[Cut, ...]]
+
+
+@lru_cache(maxsize=1 << 14)
+def tree_cuts(tree: Tree) -> tuple[Cut, ...]:
+    r"""Return every cut of a canonical rooted tree, with repetitions; the last one leaves nothing.
+
+    >>> tree_cuts(b"\0\1")
+    (((), b'\x00\x01'), ((b'\x00',), b'\x00'), ((b'\x00\x01',), b''))
+    """
+    if not tree:
+        return (((), b""),)
+    found = []
+    for choice in product(*map(tree_cuts, children(tree))):
+        pieces = tuple(piece for cut, _ in choice for piece in cut)
+        found.append(
+            (pieces, rooted_at_new_vertex(b"".join(sorted((rest for _, rest in choice), reverse=True))))
+        )
+    return (*found, ((tree,), b""))
+
+
+@lru_cache(maxsize=1 << 14)
+def left_cuts(forest: Forest) -> tuple[Cut, ...]:
+    r"""Return every left admissible cut of an ordered forest; the last one leaves nothing.
+
+    >>> left_cuts(b"\0\0")
+    (((), b'\x00\x00'), ((b'\x00',), b'\x00'), ((b'\x00\x00',), b''))
+    """
+    trees = trees_of(forest)
+    found = []
+    for cut in range(len(trees) + 1):
+        off = (b"".join(trees[:cut]),) if cut else ()
+        for choice in product(*(left_cuts(branches(tree)) for tree in trees[cut:])):
+            pieces = tuple(piece for above, _ in choice for piece in above)
+            found.append((off + pieces, b"".join(rooted_at_new_vertex(rest) for _, rest in choice)))
+    return tuple(found)

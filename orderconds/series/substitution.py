@@ -1,0 +1,139 @@
+"""Substitution: the series of a step when the field f is replaced by another one that is a series itself.
+
+For B-series a tree is parted in connected pieces, which the field values, and the tree that remains when each
+piece shrinks to a vertex, which the step values (Chartier, Hairer and Vilmart, Found. Comput. Math. 10 (2010)
+407, Theorem 3.2). For Lie-Butcher series f -> f~ extends to forests by concatenation and left grafting
+(Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+from itertools import product
+
+from orderconds.ring.protocol import Element
+from orderconds.series.characters import ROOTED, Character
+from orderconds.series.modified import VectorField
+from orderconds.trees.grafting import left_graft
+from orderconds.trees.levels import Forest, Tree, branches, children, rooted_at_new_vertex, trees_of
+from orderconds.trees.ordered import ordered_forests
+
+Combination = dict[Forest, Element]
+
+
+def substituted(field: VectorField, step: Character) -> Character:
+    """Return the series of ``step`` applied to ``field`` in place of f; both over one ring.
+
+    The flow of f, with the modified field of a method in place of f, is that method.
+
+    >>> from orderconds.ring import QQ
+    >>> from orderconds.series.characters import exact_flow
+    >>> from orderconds.series.modified import modified_field
+    >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
+    >>> again = substituted(modified_field(euler), exact_flow(QQ, ROOTED))
+    >>> [str(again(tree)) for tree in (b"\\0", b"\\0\\1", b"\\0\\1\\1", b"\\0\\1\\2")]
+    ['1', '0', '0', '0']
+    """
+    if field.algebra is ROOTED:
+        return Character(step.ring, ROOTED, lambda tree: _by_partitions(field, step, tree))
+    images = _Images(field)
+
+    def value(forest: Forest) -> Element:
+        result = step.ring.zero
+        for size in range(1, len(forest) + 1):
+            for word in ordered_forests(size):
+                share = images(word, len(forest)).get(forest)
+                if share is not None:
+                    result = result + step(word) * share
+        return result
+
+    return Character(step.ring, step.algebra, value)
+
+
+def _by_partitions(field: VectorField, step: Character, tree: Tree) -> Element:
+    result = field.ring.zero
+    for pieces, skeleton in partitions(tree):
+        term = step(skeleton)
+        for piece in pieces:
+            term = term * field(piece)
+        result = result + term
+    return result
+
+
+@lru_cache(maxsize=1 << 12)
+def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
+    r"""Return the pieces and the skeleton of a canonical tree for each set of edges that may be taken away.
+
+    >>> partitions(b"\0\1")
+    (((b'\x00\x01',), b'\x00'), ((b'\x00', b'\x00'), b'\x00\x01'))
+    """
+    found = []
+    for choice in product((False, True), repeat=len(tree) - 1):
+        root, pieces, skeleton, _ = _parted(tree, choice)
+        found.append(((root, *pieces), skeleton))
+    return tuple(found)
+
+
+def _parted(tree: Tree, cut: tuple[bool, ...]) -> tuple[Tree, list[Tree], Tree, tuple[bool, ...]]:
+    """Return the root's piece, the others and the skeleton; one flag of ``cut`` for each edge in preorder."""
+    joined: list[Tree] = []
+    pieces: list[Tree] = []
+    skeletons: list[Tree] = []
+    for child in children(tree):
+        taken, cut = cut[0], cut[1:]
+        root, others, skeleton, cut = _parted(child, cut)
+        pieces += others
+        if taken:
+            pieces.append(root)
+            skeletons.append(skeleton)
+        else:
+            joined.append(root)
+            skeletons += children(skeleton)
+    return _tree(joined), pieces, _tree(skeletons), cut
+
+
+def _tree(below: list[Tree]) -> Tree:
+    return rooted_at_new_vertex(b"".join(sorted(below, reverse=True)))
+
+
+class _Images:
+    """What words of trees become, up to a number of vertices, when every vertex becomes the field."""
+
+    def __init__(self, field: VectorField) -> None:
+        self._field = field
+        self._known: dict[tuple[Forest, int], Combination] = {}
+
+    def __call__(self, word: Forest, most: int) -> Combination:
+        if (word, most) not in self._known:
+            self._known[word, most] = self._image(word, most)
+        return self._known[word, most]
+
+    def _image(self, word: Forest, most: int) -> Combination:
+        letters = trees_of(word)
+        if not letters:
+            return {b"": self._field.ring.one}
+        if len(letters) > 1:
+            front = b"".join(letters[:-1])
+            left, right = self(front, most - len(letters[-1])), self(letters[-1], most - len(front))
+            return self._product(left, right, most, lambda u, v: (u + v,))
+        return self._product(self(branches(word), most - 1), self._of_vertex(most), most, left_graft)
+
+    def _of_vertex(self, most: int) -> Combination:
+        values = {forest: self._field(forest) for n in range(1, most + 1) for forest in ordered_forests(n)}
+        return {forest: x for forest, x in values.items() if self._field.ring.is_zero(x) is not True}
+
+    def _product(
+        self,
+        x: Combination,
+        y: Combination,
+        most: int,
+        multiply: Callable[[Forest, Forest], tuple[Forest, ...]],
+    ) -> Combination:
+        result: Combination = {}
+        for u, a in x.items():
+            for v, b in y.items():
+                if len(u) + len(v) <= most:
+                    for forest in multiply(u, v):
+                        result[forest] = result.get(forest, self._field.ring.zero) + a * b
+        return result
