@@ -17,6 +17,9 @@ from sympy import Matrix, Rational, Symbol
 from codegen.groups import GL, SO3, Cotangent, LeftMultiplication, MatrixGroup, Rn, Rotation
 from codegen.groups.matrix import _invert
 from codegen.ir.domain import FloatDomain, PreciseDomain, SeriesDomain
+from codegen.ir.interpret import interpret
+from codegen.lower import lower, setting
+from codegen.method import Method
 from codegen.scene import FieldScene, HamiltonianScene
 from orderconds.ring import QQ
 from orderconds.tableau import RungeKutta, Tableau, find
@@ -200,3 +203,33 @@ def full(s: int, seed: int = 0) -> Tableau:
 def shipped(name: str) -> Tableau:
     """Return a tableau of the library."""
     return Tableau.load(find(name))
+
+
+def starting(scene: Any, domain: Any) -> dict[str, Any]:
+    """Return the inputs of a program at a scene's initial state, at the time 1/3."""
+    values, first, coordinates = {"t": domain.rational(1, 3)}, 0, scene.initial(domain)
+    for block in scene.state:
+        values[block.name] = coordinates[first : first + len(block.symbols)]
+        first += len(block.symbols)
+    return values
+
+
+def same(scene: Any, before: Any, after: Any, ring: Any = QQ, order: int = 4) -> bool:
+    """Whether two programs are equal steps: exactly over power series, and in doubles to rounding."""
+    exact = SeriesDomain(ring, order)
+    results = [interpret(p, scene, exact, starting(scene, exact)) for p in (before, after)]
+    assert sorted(results[0]) == sorted(results[1])
+    pairs = [pair for n in results[0] for pair in zip(results[0][n], results[1][n], strict=True)]
+    if not all(exact.ring.is_zero(x - y) is True for x, y in pairs):
+        return False
+    doubles = FloatDomain(2.0**-8)
+    results = [interpret(p, scene, doubles, starting(scene, doubles)) for p in (before, after)]
+    pairs = [pair for n in results[0] for pair in zip(results[0][n], results[1][n], strict=True)]
+    return all(abs(x - y) < 1e-12 * max(1.0, abs(x)) for x, y in pairs)
+
+
+def lowered(family: str, tableau: Any, scene: Any, cutoff: int | None = None) -> tuple[Any, Any]:
+    """Return the setting and the program of a method on a scene, before all passes."""
+    made = shipped(tableau) if isinstance(tableau, str) else tableau
+    method = Method(family, made, cutoff)
+    return setting(scene, method), lower(scene, method)

@@ -41,7 +41,9 @@ class Domain(Protocol):
 
 
 def stumpff(k: int, z: float) -> float:
-    """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0..3 and z >= 0, to a few units in the last place.
+    """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0..3 and z >= 0.
+
+    The error is a few units in the last place of the oscillation's amplitude there.
 
     >>> stumpff(1, 0.0), stumpff(2, 0.0)
     (1.0, 0.5)

@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
+from itertools import zip_longest
 
 from codegen.ir.number import Number
 
@@ -117,8 +118,9 @@ class Assign:
         """Spell it for people."""
         left = ", ".join(t.name for t in self.targets)
         if self.operation.name == "lin":
-            terms = zip(self.operation.coefficients, self.args, strict=True)
-            return f"{left} = " + " + ".join(f"({c.text()}) {a.name}" for c, a in terms)
+            # The verifier spells programs that are wrong: the numbers of coefficients and arguments may differ.
+            terms = zip_longest([f"({c.text()})" for c in self.operation.coefficients], self.args)
+            return f"{left} = " + " + ".join(f"{c or '?'} {a.name if a else '?'}" for c, a in terms)
         extra = [c.text() for c in self.operation.coefficients]
         return f"{left} = {self.operation.text()}({', '.join([a.name for a in self.args] + extra)})"
 

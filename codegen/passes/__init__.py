@@ -48,9 +48,11 @@ def optimise(program: Program, scene: Setting) -> tuple[Program, tuple[PassRepor
         ("blocks", blocks.run),
         ("dead code", dead.run),
         ("factors", factor.run),
+        ("cancellation", zeros.run),
         ("sharing", sharing.run),
         ("fusion", fuse.run),
         ("dead code", dead.run),
+        ("blocks", blocks.run),  # what factoring made independent of a block's unknowns leaves it
     ]
     reports: list[PassReport] = []
     meaning = Reference(program, scene)

@@ -1,0 +1,71 @@
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from codegen.ir.domain import FloatDomain, NotConverged, PreciseDomain, SeriesDomain
+from codegen.ir.interpret import interpret
+from codegen.lower import lower, setting
+from codegen.method import Method
+from codegen.passes import optimise
+from orderconds.ring import QQ
+from tests.strategies import butcher, field_scene, hamiltonian_scene, shipped
+
+
+def start(scene, domain):
+    """The initial state, block by block."""
+    values, first, coordinates = {}, 0, scene.initial(domain)
+    for block in scene.state:
+        values[block.name] = coordinates[first : first + len(block.symbols)]
+        first += len(block.symbols)
+    return values
+
+
+def test_euler_on_a_vector_space_is_y_plus_h_f():
+    scene = field_scene("R^3")
+    method = Method("rk", shipped("euler"))
+    d = SeriesDomain(QQ, 3)
+    (y,) = start(scene, d).values()
+    slope = scene.velocity(d, y)
+    found = interpret(lower(scene, method), scene, d, {"y": y})["y"]
+    assert all(d.ring.is_zero(a - (b + d.h * v)) is True for a, b, v in zip(found, y, slope, strict=True))
+
+
+@pytest.mark.parametrize("family", ["vcg", "rkmk"])
+def test_doubles_and_forty_digits_agree_to_rounding(family):
+    scene = hamiltonian_scene("SO(3)")
+    method = Method(family, shipped("gauss2"), 2 if family == "rkmk" else None)
+    view = setting(scene, method)
+    program, _ = optimise(lower(scene, method), view)
+    results = []
+    for domain in (FloatDomain(2.0**-7), PreciseDomain(Fraction(1, 128), 40)):
+        found = interpret(program, view, domain, start(view, domain))
+        results.append([x for name in sorted(found) for x in found[name]])
+    assert max(abs(float(b) - a) for a, b in zip(*results, strict=True)) < 1e-14
+
+
+def test_the_exact_series_evaluated_at_h_is_the_step_up_to_the_truncation():
+    scene, method, h = field_scene("GL(2)"), Method("rkmk", shipped("rk4"), 2), Fraction(1, 10**5)
+    program = lower(scene, method)
+    d, exact = PreciseDomain(h, 40), SeriesDomain(QQ, 8)
+    found = interpret(program, scene, d, start(scene, d))["y"]
+    series = interpret(program, scene, exact, start(scene, exact))["y"]
+    for a, s in zip(found, series, strict=True):
+        total = sum(Fraction(int(c.p), int(c.q)) * h**k for k, c in enumerate(s.coefficients))
+        assert abs(a - d.rational(total.numerator, total.denominator)) < 1e-30
+
+
+def test_a_block_that_does_not_settle_is_named():
+    scene = field_scene("S^2")
+    method = Method("cg", butcher("stiff", [[1]], [1]))
+    program = lower(scene, method)
+    with pytest.raises(NotConverged, match=r"^stages did not settle in 30 sweeps"):
+        interpret(program, scene, FloatDomain(5.0), start(scene, FloatDomain(5.0)), limit=30)
+
+
+def test_a_block_that_leaves_the_numbers_is_an_arithmetic_error():
+    scene = field_scene("R^3")
+    program = lower(scene, Method("rk", butcher("stiff", [[1]], [1])))
+    with pytest.raises(ArithmeticError):
+        interpret(program, scene, FloatDomain(1e5), start(scene, FloatDomain(1e5)))

@@ -1,0 +1,46 @@
+from __future__ import annotations
+
+import pytest
+
+from codegen.ir.verify import verify
+from codegen.passes import dead, sharing, zeros
+from tests.strategies import butcher, field_scene, full, hamiltonian_scene, lowered, same
+
+
+@pytest.mark.parametrize("tableau", ["kutta3", "midpoint", full(2), full(3)])
+@pytest.mark.parametrize("family", ["vcg", "cg"])
+def test_the_meaning_stays(family, tableau):
+    scene = hamiltonian_scene("SO(3)") if family == "vcg" else field_scene("S^2")
+    view, program = lowered(family, tableau, scene)
+    assert same(view, program, verify(sharing.run(program)))
+
+
+def test_no_value_is_computed_twice():
+    _, program = lowered("vcg", "gauss2", hamiltonian_scene("SO(3)"))
+    new = sharing.run(program)
+    keys = [(a.operation, a.args, a.targets[0].kind) for a in new.assigns()]
+    assert len(keys) == len(set(keys))
+
+
+def test_exponentials_are_shared_between_stages_and_update():
+    tableau = butcher("shared", [[0, 0, 0], ["1/2", 0, 0], ["1/2", "1/4", 0]], ["1/2", "1/4", "1/4"])
+    scene, program = lowered("cg", tableau, field_scene("S^2"))
+    new = sharing.run(program)
+    assert program.counts()["exp"] == 6
+    # exp(h k_1/2) and exp(h k_2/4) exp(h k_1/2) stand in all rows, the products too.
+    assert new.counts()["exp"] == 3
+    assert new.counts()["act"] == 3
+    assert same(scene, program, new)
+
+
+def test_sums_are_seen_as_equal_in_any_order():
+    _, program = lowered("vcg", "midpoint", hamiltonian_scene("SO(3)"))
+    twice = sharing.run(sharing.run(program))
+    assert twice == sharing.run(program)
+
+
+def test_after_sharing_a_composition_cancels():
+    _, program = lowered("vcg", "triple_jump", hamiltonian_scene("SO(3)"))
+    shared = dead.run(zeros.run(sharing.run(zeros.run(program))))
+    unshared = dead.run(zeros.run(zeros.run(program)))
+    assert shared.counts()["dexpt"] < unshared.counts()["dexpt"]
