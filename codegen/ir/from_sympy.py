@@ -69,7 +69,12 @@ def read(space: Space, expression: Any, where: str = "") -> Expr:
             return value if n > 0 else space.div(space.one, value)
         raise SceneError(f"the power {e}", where=where, expected="an integer or half-integer exponent")
 
-    return visit(sympy.sympify(expression))
+    try:
+        formula = sympy.sympify(expression, strict=True)  # strict: a string is no formula
+    except sympy.SympifyError:
+        found = f"{type(expression).__name__} {expression!r}"
+        raise SceneError(found, where=where, expected="a sympy formula or a number") from None
+    return visit(formula)
 
 
 def _fold(operation: Any, nodes: list[Expr]) -> Expr:

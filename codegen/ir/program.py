@@ -118,7 +118,7 @@ class Assign:
         """Spell it for people."""
         left = ", ".join(t.name for t in self.targets)
         if self.operation.name == "lin":
-            # The verifier spells programs that are wrong: the numbers of coefficients and arguments may differ.
+            # The verifier spells wrong programs too: coefficients and arguments may differ in number.
             terms = zip_longest([f"({c.text()})" for c in self.operation.coefficients], self.args)
             return f"{left} = " + " + ".join(f"{c or '?'} {a.name if a else '?'}" for c, a in terms)
         extra = [c.text() for c in self.operation.coefficients]

@@ -26,7 +26,7 @@ class TestStumpffFunctions:
     @pytest.mark.parametrize("k", range(4))
     @pytest.mark.parametrize("z", ARGUMENTS)
     def test_in_doubles_to_a_few_units_in_the_last_place(self, k, z):
-        # Relative to the amplitude of the oscillation, since c_0, c_1, c_2 have zeros; sqrt z is rounded once.
+        # Relative to the amplitude of the oscillation: c_0, c_1, c_2 have zeros. sqrt z is rounded once.
         root = math.sqrt(z)
         amplitude = min(1 / math.factorial(k), (1, 1 / root, 2 / z, 1 / z)[k] if z else 1.0)
         assert abs(stumpff(k, z) - exact_stumpff(k, z)) <= (4 + root) * 2.0**-53 * amplitude
@@ -52,10 +52,8 @@ class TestSeries:
         d = SeriesDomain(QQ, 8)
         with mpmath.workdps(30):
             expected = mpmath.taylor(getattr(mpmath, function), 0, 8)
-            found = d.call(function, d.h).coefficients
-            assert all(
-                abs(mpmath.mpf(int(c.p)) / int(c.q) - e) < 1e-25 for c, e in zip(found, expected, strict=True)
-            )
+            found = [mpmath.mpf(int(c.p)) / int(c.q) for c in d.call(function, d.h).coefficients]
+            assert all(abs(c - e) < 1e-25 for c, e in zip(found, expected, strict=True))
 
     def test_addition_theorem(self):
         d = SeriesDomain(QQ, 7)

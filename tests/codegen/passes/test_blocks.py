@@ -44,9 +44,8 @@ def test_a_fully_implicit_method_stays_one_block():
 
 
 def test_implicit_stages_after_an_explicit_one_are_solved_alone():
-    tableau = butcher(
-        "mixed", [[0, 0, 0], ["1/4", "1/4", "1/3"], ["1/4", "1/2", "1/4"]], ["1/6", "1/3", "1/2"]
-    )
+    A = [[0, 0, 0], ["1/4", "1/4", "1/3"], ["1/4", "1/2", "1/4"]]
+    tableau = butcher("mixed", A, ["1/6", "1/3", "1/2"])
     scene, program = lowered("cg", tableau, field_scene("GL(2)"))
     new = verify(blocks.run(prepared(program)))
     assert solved(new) == [["k2", "k3"]]

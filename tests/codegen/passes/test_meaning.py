@@ -16,11 +16,11 @@ from tests.strategies import field_scene, full, hamiltonian_scene, lowered, same
 
 def mapped(program, change):
     """The program with one function applied to every assignment, inside blocks as well."""
-    body = tuple(
-        replace(s, body=tuple(map(change, s.body))) if isinstance(s, Solve) else change(s)
-        for s in program.body
-    )
-    return replace(program, body=body)
+
+    def inside(s):
+        return replace(s, body=tuple(map(change, s.body))) if isinstance(s, Solve) else change(s)
+
+    return replace(program, body=tuple(map(inside, program.body)))
 
 
 def fewer_brackets(assign):
@@ -103,7 +103,7 @@ def test_a_broken_pass_is_the_compilers_fault(monkeypatch, name):
 def test_a_pass_that_breaks_the_types_is_caught_by_the_verifier(monkeypatch):
     view, program = lowered("cg", "heun", field_scene("S^2"))
     monkeypatch.setattr(passes.sharing, "run", lambda p: replace(p, body=p.body[1:]))
-    with pytest.raises(IllFormed, match="before it is defined|the starts"):
+    with pytest.raises(IllFormed, match=r"before it is defined|the starts"):
         passes.optimise(program, view)
 
 

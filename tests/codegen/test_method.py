@@ -1,0 +1,144 @@
+"""Methods by their spelling, and methods that cannot serve a scene."""
+
+from __future__ import annotations
+
+import pytest
+
+from codegen import scenes
+from codegen.errors import MethodError
+from codegen.ir.domain import ExprDomain
+from codegen.lower import LOWERINGS, lower
+from codegen.lower.kernel import to_kernel
+from codegen.method import Method, parse
+from orderconds.errors import InputError, TableauError, UnknownName, ZeroWeight
+from orderconds.tableau import Tableau
+from tests.strategies import butcher, field_scene, hamiltonian_scene, shipped
+
+FIELD = ("rkmk", "cg", "cf")
+ALL = ("rkmk", "cg", "cf", "vcg")
+
+
+@pytest.mark.parametrize(
+    ("spelling", "families", "label"),
+    [
+        ("rkmk(2):rk4", FIELD, "rkmk(2):rk4"),
+        ("rkmk(0):rk4", FIELD, "rkmk(0):rk4"),
+        ("rkmk:rk4", FIELD, "rkmk(2):rk4"),
+        ("rkmk:gauss3", FIELD, "rkmk(4):gauss3"),
+        ("cg:rk4", FIELD, "cg:rk4"),
+        ("vcg:triple_jump", ALL, "vcg:triple_jump"),
+        (" cf4 ", FIELD, "cf:cf4"),
+        ("cg3", FIELD, "rkmk(1):cg3"),
+        ("cg3", ("cg", "rkmk"), "cg:cg3"),
+    ],
+)
+def test_a_spelling_is_read(spelling, families, label):
+    assert parse(spelling, families).label == label
+
+
+def test_a_file_is_a_tableau(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(
+        'name = "mine"\nfamily = "rk"\nA = [[]]\nb = ["1"]\n[claims]\nrk = 1\ncg = 1\n', encoding="utf-8"
+    )
+    assert parse(f"cg:{path}", FIELD).label == "cg:mine"
+    assert parse(str(path), FIELD).label == "cg:mine"
+
+
+@pytest.mark.parametrize(
+    ("spelling", "families", "error", "message"),
+    [
+        ("", FIELD, MethodError, "the method ''"),
+        ("vcg:midpoint", FIELD, MethodError, "family vcg on this scene; expected one of rkmk, cg, cf"),
+        ("nosuch:midpoint", FIELD, MethodError, "family nosuch on this scene"),
+        ("cg(2):rk4", FIELD, MethodError, "a cut-off for family cg"),
+        ("vcg(1):midpoint", ALL, MethodError, "a cut-off for family vcg"),
+        ("rkmk(1):nosuch", FIELD, UnknownName, "no tableau 'nosuch'"),
+        ("rk44", FIELD, UnknownName, "did you mean rk4"),
+        ("nowhere.toml", FIELD, InputError, "nowhere.toml"),
+        ("cf4", ("rkmk", "cg"), MethodError, "claims no order under rkmk, cg"),
+        ("rkmk:cf4", FIELD, MethodError, "claims no order under rkmk"),
+    ],
+)
+def test_what_cannot_be_read_is_named(spelling, families, error, message):
+    with pytest.raises(error) as caught:
+        parse(spelling, families)
+    assert message in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def refused(scene, method, error=MethodError):
+    with pytest.raises(error) as caught:
+        lower(scene, method)
+    return str(caught.value)
+
+
+def test_vcg_needs_a_hamiltonian():
+    assert "vcg on free_rigid_body; expected a Hamiltonian scene" in refused(
+        scenes.load("free_rigid_body"), Method("vcg", shipped("midpoint"))
+    )
+
+
+@pytest.mark.parametrize("place", ["dipole", "free_rigid_body"])
+def test_plain_runge_kutta_needs_a_vector_space(place):
+    assert "expected R^n; use rkmk, cg or cf" in refused(scenes.load(place), Method("rk", shipped("rk4")))
+
+
+def test_vcg_divides_by_every_weight():
+    tableau = butcher("zero", [[0, 0], ["1/2", 0]], [0, 1])
+    message = refused(scenes.load("dipole"), Method("vcg", tableau), ZeroWeight)
+    assert "b_1 = 0" in message
+    assert "non-zero" in message
+
+
+def test_a_weight_that_cancels_is_zero():
+    text = 'name = "x"\nfamily = "rk"\nA = [[], ["1/2"]]\nb = ["sqrt(2)*sqrt(8) - 4", "1"]\n'
+    assert "b_1 = 0" in refused(scenes.load("dipole"), Method("vcg", Tableau.loads(text)), ZeroWeight)
+
+
+def test_rkmk_needs_a_finite_number_of_brackets():
+    message = refused(scenes.load("free_rigid_body"), Method("rkmk", shipped("rk4")))
+    assert "without a cut-off" in message
+
+
+@pytest.mark.parametrize("family", ["rkmk", "cg", "vcg"])
+def test_a_commutator_free_tableau_is_no_butcher_tableau(family):
+    scene = scenes.load("dipole")
+    cutoff = 1 if family == "rkmk" else None
+    assert f"{family} with the cf tableau cf4" in refused(scene, Method(family, shipped("cf4"), cutoff))
+
+
+def test_a_family_without_lowering_is_named():
+    message = refused(scenes.load("dipole"), Method("sprk", shipped("midpoint")))
+    assert f"expected one of {', '.join(LOWERINGS)}" in message
+
+
+@pytest.mark.parametrize("family", sorted(LOWERINGS))
+def test_every_lowering_serves_a_cotangent_bundle(family):
+    scene = hamiltonian_scene("R^3")
+    tableau = shipped("cf4" if family == "cf" else "heun")
+    program = lower(scene, Method(family, tableau, 1 if family == "rkmk" else None))
+    assert [name for name, _ in program.outputs] == (["q", "mu"] if family == "vcg" else ["y"])
+
+
+def test_a_group_without_closed_forms_cannot_be_compiled():
+    scene = field_scene("GL(2)")
+    with pytest.raises(InputError, match=r"GL\(2\).*closed forms"):
+        to_kernel(lower(scene, Method("cg", shipped("euler"))), scene)
+
+
+def test_a_nilpotent_matrix_group_can():
+    scene = field_scene("Heisenberg")
+    kernel = to_kernel(lower(scene, Method("cg", shipped("euler"))), scene)
+    assert kernel.functions() == ()
+
+
+def test_a_tableau_file_that_is_broken_is_its_own_error(tmp_path):
+    path = tmp_path / "broken.toml"
+    path.write_text("name = [", encoding="utf-8")
+    with pytest.raises(TableauError, match="broken.toml"):
+        parse(f"cg:{path}", FIELD)
+
+
+def test_expressions_hold_no_step_of_another_name():
+    assert str(ExprDomain().h) == "h"
