@@ -136,7 +136,7 @@ def test_a_nilpotent_matrix_group_can():
 def test_a_tableau_file_that_is_broken_is_its_own_error(tmp_path):
     path = tmp_path / "broken.toml"
     path.write_text("name = [", encoding="utf-8")
-    with pytest.raises(TableauError, match="broken.toml"):
+    with pytest.raises(TableauError, match=r"broken\.toml"):
         parse(f"cg:{path}", FIELD)
 
 

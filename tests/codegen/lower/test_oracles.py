@@ -61,7 +61,7 @@ class Oracle:
     def iterate(self, step, start):
         """Fixed-point iteration: long enough for every power of h, and for 40 digits at a small step."""
         x = start
-        for _ in range(2 * ORDER + 3 if isinstance(self.d, SeriesDomain) else 70):
+        for _ in range(2 * ORDER + 3 if isinstance(self.d, SeriesDomain) else 30):
             x = step(x)
         return x
 
@@ -167,7 +167,7 @@ class Oracle:
 
 
 def precise():
-    return PreciseDomain(Fraction(1, 80), 40)
+    return PreciseDomain(Fraction(1, 1000), 40)
 
 
 def check(scene, method, domain, expected):
