@@ -46,6 +46,11 @@ class ActionFormula(ABC):
     """Writes action conditions; subclasses say how stages and update depend on the stage velocities.
 
     ``row`` is the index of a stage, None for the update.
+
+    >>> from orderconds.formula import named
+    >>> from orderconds.series.action_trees import force, velocity
+    >>> named(CrouchGrossmanFormula().condition(velocity((), (force(), force())))).text()
+    'sum_i b_i^-1 (sum_j b_j a_ji)^2'
     """
 
     @abstractmethod
@@ -82,7 +87,13 @@ class ActionFormula(ABC):
 
 
 class ExponentialsFormula(ActionFormula):
-    """Writes the conditions of products of exponentials; ``place`` is the index of one of them."""
+    """Writes the conditions of products of exponentials; ``place`` is the index of one of them.
+
+    >>> from orderconds.formula import named
+    >>> from orderconds.series.action_trees import transport, velocity
+    >>> named(CrouchGrossmanFormula().condition(velocity((), (transport((velocity(),)),)))).text()
+    'sum_i b_i (sum_{j>i} b_j + 1/2 b_i)'
+    """
 
     @abstractmethod
     def place(self) -> str:
@@ -138,7 +149,13 @@ class ExponentialsFormula(ActionFormula):
 
 
 class CrouchGrossmanFormula(ExponentialsFormula):
-    """One exponential for each a_ij and each b_j: places are stages."""
+    """One exponential for each a_ij and each b_j: places are stages.
+
+    >>> from orderconds.formula import named
+    >>> from orderconds.series.action_trees import velocity
+    >>> named(CrouchGrossmanFormula().condition(velocity((velocity(), velocity())))).text()
+    'sum_i b_i c_i^2'
+    """
 
     def place(self) -> str:
         """Return a new stage index."""
@@ -154,7 +171,13 @@ class CrouchGrossmanFormula(ExponentialsFormula):
 
 
 class CommutatorFreeFormula(ExponentialsFormula):
-    """Exponents ``sum_j alpha_iJj xi_j`` in the stages, ``sum_j beta_Jj xi_j`` in the update."""
+    """Exponents ``sum_j alpha_iJj xi_j`` in the stages, ``sum_j beta_Jj xi_j`` in the update.
+
+    >>> from orderconds.formula import named
+    >>> from orderconds.series.action_trees import velocity
+    >>> named(CommutatorFreeFormula().condition(velocity((velocity((velocity(),)),)))).text()
+    'sum_{i,I,j} b_i alpha_iIj c_j'
+    """
 
     def place(self) -> str:
         """Return a new index of exponentials."""
@@ -178,7 +201,13 @@ class CommutatorFreeFormula(ExponentialsFormula):
 
 
 class MuntheKaasFormula(ActionFormula):
-    """One exponential of ``X_i = sum_j a_ij dexpinv_{(r),X_j} xi_j``."""
+    """One exponential of ``X_i = sum_j a_ij dexpinv_{(r),X_j} xi_j``.
+
+    >>> from orderconds.formula import named
+    >>> from orderconds.series.action_trees import velocity
+    >>> named(MuntheKaasFormula(0).condition(velocity((velocity((velocity(),)),)))).text()
+    'sum_{i,j} b_i a_ij c_j'
+    """
 
     def __init__(self, cutoff: int | None) -> None:
         self._cutoff = cutoff

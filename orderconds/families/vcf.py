@@ -66,5 +66,9 @@ class VariationalCommutatorFree(ActionFamily):
 
 
 def create(update: int | None = None, stage: int | None = None) -> VariationalCommutatorFree:
-    """Return the family, its independent conditions for so many exponentials in the update and in a stage."""
+    """Return the family, its independent conditions for so many exponentials in the update and in a stage.
+
+    >>> [len(create(update=2, stage=2).conditions(n)) for n in (3, 4)]
+    [6, 27]
+    """
     return VariationalCommutatorFree(update, stage)

@@ -50,5 +50,9 @@ class VariationalCrouchGrossman(ActionFamily):
 
 
 def create() -> VariationalCrouchGrossman:
-    """Return the family."""
+    """Return the family.
+
+    >>> create().label()
+    'vcg'
+    """
     return VariationalCrouchGrossman()

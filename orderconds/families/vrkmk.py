@@ -24,7 +24,11 @@ if TYPE_CHECKING:
 
 
 class VariationalMuntheKaas(ActionFamily):
-    """The family ``vrkmk(r)`` of tableaux (A, b) with all b_i non-zero."""
+    """The family ``vrkmk(r)`` of tableaux (A, b) with all b_i non-zero.
+
+    >>> [len(VariationalMuntheKaas(cutoff=2).conditions(n)) for n in (1, 2, 3, 4)]
+    [1, 1, 3, 8]
+    """
 
     name = "vrkmk"
     formats = ("rk",)
@@ -56,6 +60,9 @@ def create(cutoff: int | None = None) -> VariationalMuntheKaas:
     """Return the family with dexpinv cut after the power ``cutoff``, or uncut.
 
     Raises :class:`~orderconds.errors.InputError` for a negative cutoff.
+
+    >>> create(cutoff=2).label(), create().label()
+    ('vrkmk(2)', 'vrkmk')
     """
     if cutoff is not None and not (isinstance(cutoff, int) and cutoff >= 0):
         raise InputError(f"cutoff {cutoff!r}", where="family vrkmk", expected="an integer >= 0")

@@ -37,6 +37,12 @@ class ActionSeries(ABC):
     """Coefficients of one method over one ring; every value is computed once.
 
     ``weights`` are the b_i, all invertible in ``ring``. Row ``stages`` (the last) is the update's.
+
+    >>> from orderconds.ring import QQ
+    >>> from orderconds.series.action_trees import force, velocity
+    >>> series = CommutatorFreeSeries(QQ, crouch_grossman_rows(QQ, [[QQ.rational(1, 2)]], [QQ.one]))
+    >>> series.tau(velocity((velocity(),))), series.psi(force())
+    ([1/2], [1/2])
     """
 
     def __init__(self, ring: Ring, weights: Sequence[Element]) -> None:
@@ -145,6 +151,12 @@ class CommutatorFreeSeries(ActionSeries):
     ``rows`` are the stages' exponentials and then the update's; b_i is the sum of the update's coefficients
     at stage i. Equation (3.18) for VCG; for VCF the discrete Lagrangian of the same form, whose Hamilton
     equations carry each exponential's own coefficient.
+
+    >>> from orderconds.ring import QQ
+    >>> from orderconds.series.action_trees import velocities
+    >>> midpoint = CommutatorFreeSeries(QQ, crouch_grossman_rows(QQ, [[QQ.rational(1, 2)]], [QQ.one]))
+    >>> [str(midpoint.condition(tree)) for tree in velocities(2)]  # o(o), o(|f(*)), o(|L(o))
+    ['1/2', '1/2', '1/2']
     """
 
     def __init__(self, ring: Ring, rows: Sequence[Row]) -> None:
@@ -246,7 +258,12 @@ class CommutatorFreeSeries(ActionSeries):
 
 
 def crouch_grossman_rows(ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element]) -> tuple[Row, ...]:
-    """Return the exponentials of a Butcher tableau read as VCG: one for each coefficient that is not zero."""
+    """Return the exponentials of a Butcher tableau read as VCG: one for each coefficient that is not zero.
+
+    >>> from orderconds.ring import QQ
+    >>> crouch_grossman_rows(QQ, [[QQ.zero, QQ.zero], [QQ.one, QQ.zero]], [QQ.one, QQ.one])
+    ((), (((0, 1),),), (((0, 1),), ((1, 1),)))
+    """
     return tuple(
         tuple(((j, a),) for j, a in enumerate(row) if ring.is_zero(a) is not True) for row in (*A, b)
     )

@@ -27,19 +27,34 @@ from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, W
 
 @cache
 def tau(tree: Velocity) -> UnivariatePolynomial:
-    """Return the exact coefficient of a g-valued tree at time s."""
+    """Return the exact coefficient of a g-valued tree at time s.
+
+    >>> from orderconds.series.action_trees import velocities
+    >>> [str(tau(t)) for t in velocities(2)]  # o(o), o(|f(*)), o(|L(o))
+    ['x', '(-1)*x + 1', '(-1)*x + 1']
+    """
     return phi(tree.word) * psi_product(tree.momenta)
 
 
 @cache
 def phi(word: Word) -> UnivariatePolynomial:
-    """Return the exact coefficient of a word in the group element at time s."""
+    """Return the exact coefficient of a word in the group element at time s.
+
+    >>> from orderconds.series.action_trees import velocity
+    >>> phi((velocity(), velocity()))
+    1/2*x^2
+    """
     return integral_from_zero(phi(word[:-1]) * tau(word[-1])) if word else ONE
 
 
 @cache
 def psi(tree: Momentum) -> UnivariatePolynomial:
-    """Return the exact coefficient of a g*-valued tree at time s."""
+    """Return the exact coefficient of a g*-valued tree at time s.
+
+    >>> from orderconds.series.action_trees import force, velocity
+    >>> psi(force()), psi(force((velocity(),)))
+    ((-1)*x + 1, (-1)*x^2 + x)
+    """
     if not isinstance(tree, Force):
         return _transport(tree.word)
     total, after = ZERO, tree.after
@@ -61,7 +76,12 @@ def _later(word: Word, momenta: Momenta) -> UnivariatePolynomial:
 
 @cache
 def psi_product(momenta: Momenta) -> UnivariatePolynomial:
-    """Return the product of exact psi_p over a multiset."""
+    """Return the product of exact psi_p over a multiset.
+
+    >>> from orderconds.series.action_trees import force
+    >>> psi_product((force(), force()))
+    x^2 + (-2)*x + 1
+    """
     return psi_product(momenta[:-1]) * psi(momenta[-1]) if momenta else ONE
 
 
@@ -76,10 +96,19 @@ def condition(tree: Velocity) -> Fraction:
 
 
 def update(word: Word) -> Fraction:
-    """Return the exact coefficient of a word in the flow's group element at time 1."""
+    """Return the exact coefficient of a word in the flow's group element at time 1.
+
+    >>> from orderconds.series.action_trees import velocity
+    >>> print(update((velocity(), velocity(), velocity())))
+    1/6
+    """
     return value_at_one(phi(word))
 
 
 def update_words(vertices: int) -> dict[Word, Fraction]:
-    """Return :func:`update` for every word with at most that many vertices."""
+    """Return :func:`update` for every word with at most that many vertices.
+
+    >>> [(" ".join(map(str, word)), str(q)) for word, q in update_words(1).items()]
+    [('', '1'), ('o', '1')]
+    """
     return {word: update(word) for n in range(vertices + 1) for word in words(n)}

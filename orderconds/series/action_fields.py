@@ -20,7 +20,12 @@ Matrix = tuple[tuple[Any, ...], ...]
 
 
 class Nilpotent:
-    """A polynomial in eps_1, eps_2, ... whose squares are zero: a value for each bit mask of them."""
+    """A polynomial in eps_1, eps_2, ... whose squares are zero: a value for each bit mask of them.
+
+    >>> eps = Nilpotent({1: 1})
+    >>> ((3 + eps) * (3 + eps)).parts
+    {1: 6, 0: 9}
+    """
 
     __slots__ = ("parts",)
 
@@ -66,6 +71,16 @@ class ActionFields:
     ``hamiltonian(q, mu)`` takes a matrix (tuple of rows) and the coordinates of mu, and uses ``+ - *`` only.
     ``basis`` are matrices that span the Lie algebra, ``coordinates`` turns a matrix of it into coordinates;
     mu has its coordinates in the dual basis. Trees are evaluated without their symmetry factors, h = 1.
+
+    >>> from orderconds.ring import QQ
+    >>> from orderconds.series.action_trees import force, velocity
+    >>> one, zero = QQ.one, QQ.zero
+    >>> fields = ActionFields(  # R^1 as matrices (1, q; 0, 1), H = mu^3 + q^2 at q = 2, mu = 5
+    ...     QQ, lambda q, mu: mu[0] * mu[0] * mu[0] + q[0][1] * q[0][1], ((one, 2 * one), (zero, one)),
+    ...     (5 * one,), [((zero, one), (zero, zero))], lambda m: (m[0][1],),
+    ... )
+    >>> fields.velocity(velocity()), fields.covector(force()), fields.velocity(velocity((), (force(),)))
+    ((75,), (4,), (120,))
     """
 
     def __init__(

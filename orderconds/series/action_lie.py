@@ -21,7 +21,14 @@ Letters = tuple[Velocity | int, ...]
 
 
 class MuntheKaasActionSeries(ActionSeries):
-    """The action series of the tableau (A, b) read as VRKMK with dexpinv cut after the power ``cutoff``."""
+    """The action series of the tableau (A, b) read as VRKMK with dexpinv cut after the power ``cutoff``.
+
+    >>> from orderconds.ring import QQ
+    >>> from orderconds.series.action_trees import velocities
+    >>> midpoint = MuntheKaasActionSeries(QQ, [[QQ.rational(1, 2)]], [QQ.one], cutoff=0)
+    >>> [str(midpoint.condition(tree)) for tree in velocities(2)]  # o(o), o(|f(*)), o(|L(o))
+    ['1/2', '1/2', '1/2']
+    """
 
     def __init__(
         self, ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], cutoff: int | None

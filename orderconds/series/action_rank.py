@@ -40,6 +40,11 @@ def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity,
     independent, with all products of lower ones, is proved, and the larger set is kept. That no tree is
     missing holds up to chance, and is proved where there are as many as
     :func:`~orderconds.series.action_counts.tree_counts` allows (VCF).
+
+    >>> from functools import partial
+    >>> from orderconds.families import get
+    >>> independent_trees(partial(get("vcg").random_series, order=2), 2)
+    ((o,), (o(o),))
     """
     found = [_independent(family, order, prime) for prime in PRIMES]
     return max(found, key=lambda trees: [len(of_order) for of_order in trees])
@@ -65,6 +70,13 @@ def sample(
     """Return the values of trees at the flow and at as many random methods as the rank may need.
 
     The methods are the same for every list of trees.
+
+    >>> from functools import partial
+    >>> from orderconds.families import get
+    >>> from orderconds.series.action_trees import velocity
+    >>> values = sample(partial(get("vcg").random_series, order=1), 1, [velocity()], 101)[velocity()].values
+    >>> values.size, int(values[-1])  # the flow stands last
+    (26, 1)
     """
     count = _largest_rank(order) + SPARE_SAMPLES
     blocks: list[list[NDArray[np.int64]]] = []
@@ -97,7 +109,13 @@ def _largest_rank(order: int) -> int:
 
 
 def products(generators: Sequence[tuple[int, Residue]], degree: int) -> Iterator[Residue]:
-    """Yield every monomial of exactly that degree in generators given as (degree, value)."""
+    """Yield every monomial of exactly that degree in generators given as (degree, value).
+
+    >>> ring = Residues(101, 1)
+    >>> b, bc = ring.rational(3), ring.rational(5)
+    >>> [int(x.values[0]) for x in products([(1, b), (2, bc)], 3)]  # b^3, b bc
+    [27, 15]
+    """
     yield from _monomials(generators, degree, 0, None)
 
 

@@ -30,6 +30,15 @@ def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -
     ``independent`` are the independent trees of each order 1, 2, ..., by
     :func:`orderconds.series.action_rank.independent_trees`. Exact unless chance, about one in 10^8, hides a
     difference at every sample; the tests verify relations over Q at methods of their own.
+
+    >>> from functools import partial
+    >>> from orderconds.families import get
+    >>> from orderconds.series.action_rank import independent_trees
+    >>> family = partial(get("vcg").random_series, order=2)
+    >>> for tree, polynomial in relations(family, independent_trees(family, 2)).items():
+    ...     print(tree, [(str(q), trees) for q, trees in polynomial])
+    o(|f(*)) [('1', (o(o),))]
+    o(|L(o)) [('1/2', (o, o))]
     """
     order = len(independent)
     representatives = [of_class[0] for of_class in classes(order)]

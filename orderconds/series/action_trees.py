@@ -42,7 +42,12 @@ class _Node:
 
 
 class Velocity(_Node):
-    """The g-valued tree t = (w, M); made by :func:`velocity`."""
+    """The g-valued tree t = (w, M); made by :func:`velocity`.
+
+    >>> tree = velocity((velocity(),), (force(), force()))
+    >>> tree, tree.vertices, tree.symmetry
+    (o(o|f(*) f(*)), 4, 2)
+    """
 
     __slots__ = ("momenta", "word")
 
@@ -59,7 +64,12 @@ class Velocity(_Node):
 
 
 class Force(_Node):
-    """The g*-valued tree H(u * v | M); made by :func:`force`."""
+    """The g*-valued tree H(u * v | M); made by :func:`force`.
+
+    >>> tree = force((), (velocity(),))
+    >>> tree, tree.vertices
+    (f(* o), 2)
+    """
 
     __slots__ = ("after", "before", "momenta")
 
@@ -76,7 +86,12 @@ class Force(_Node):
 
 
 class Transport(_Node):
-    """The g*-valued tree L(w), w not empty; made by :func:`transport`."""
+    """The g*-valued tree L(w), w not empty; made by :func:`transport`.
+
+    >>> tree = transport((velocity(), velocity()))
+    >>> tree, tree.vertices
+    (L(o o), 2)
+    """
 
     __slots__ = ("word",)
 
@@ -137,7 +152,11 @@ def transport(word: Word) -> Transport:
 
 
 def multiset(momenta: Momenta) -> Momenta:
-    """Return the canonical order of a multiset of g*-valued trees."""
+    """Return the canonical order of a multiset of g*-valued trees.
+
+    >>> multiset((transport((velocity(),)), force()))
+    (f(*), L(o))
+    """
     return tuple(sorted(momenta, key=lambda p: p.key))
 
 
@@ -179,7 +198,11 @@ def velocities(vertices: int) -> tuple[Velocity, ...]:
 
 @cache
 def words(vertices: int) -> tuple[Word, ...]:
-    """Return every word of g-valued trees with that many copies of H in all."""
+    """Return every word of g-valued trees with that many copies of H in all.
+
+    >>> words(2)
+    ((o, o), (o(o),), (o(|f(*)),), (o(|L(o)),))
+    """
     if vertices == 0:
         return ((),)
     return tuple(
@@ -211,7 +234,11 @@ def momenta(vertices: int) -> Momenta:
 
 @cache
 def multisets(vertices: int) -> tuple[Momenta, ...]:
-    """Return every multiset of g*-valued trees with that many copies of H in all."""
+    """Return every multiset of g*-valued trees with that many copies of H in all.
+
+    >>> multisets(1)
+    ((f(*),), (L(o),))
+    """
     return tuple(_multisets(vertices, vertices, None))
 
 
