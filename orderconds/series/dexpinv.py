@@ -39,6 +39,10 @@ class DexpinvSeries:
         """Return the value of the step on a forest."""
         return self._exponential(self._step, forest)
 
+    def stage(self, i: int, forest: Forest) -> Element:
+        """Return the value on a forest of exp(u_i), which leads to stage i (counted from 0)."""
+        return self._exponential(i, forest)
+
     def argument(self, i: int, word: Forest) -> Element:
         """Return the coefficient of a word in u_i (0-based; i = s means the argument of the step)."""
         return self._power(i, 1, word)

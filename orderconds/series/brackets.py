@@ -1,0 +1,351 @@
+"""Runge-Kutta-Munthe-Kaas methods with few brackets: their arguments reduced in a graded free Lie algebra.
+
+Combinations of the stage values k_1, ..., k_s of an explicit method that vanish to higher order in h have a
+higher grade; q_j is the combination of k_j and earlier values that has the highest grade. A stage argument
+is needed up to grade p - 1, the argument of the step up to grade p (Munthe-Kaas and Owren, Phil. Trans. R.
+Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003) 723). One argument after the other is then written by
+stage values, by brackets that are there already, and by as few new ones as suffice.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import count
+from random import Random
+
+from orderconds.errors import InputError
+from orderconds.ring.protocol import Element, Ring
+from orderconds.series.dexpinv import DexpinvSeries
+from orderconds.series.graded import GradedAlgebra, Polynomial, solve
+from orderconds.trees.levels import branches
+from orderconds.trees.ordered import ordered_trees
+
+Name = tuple[str, int]
+"""``("k", j)``, a stage value, or ``("B", r)``, a bracket; both counted from 0."""
+
+Row = dict[Name, Element]
+
+
+@dataclass(frozen=True)
+class BracketProgram:
+    """The arguments u_1, ..., u_s of the stages and u of the step, with the brackets they share.
+
+    Stage i is k_i = f(exp(u_i) y0), the step exp(u) y0. ``brackets[r]`` holds the rows of x and y in B_r =
+    [x, y], over stage values and earlier brackets; ``stages`` and ``update`` are rows alike, every k standing
+    for h k. ``least`` is a lower bound of the number of brackets with which these arguments can be written;
+    ``grades[j]`` is the grade of q_j.
+    """
+
+    brackets: tuple[tuple[Row, Row], ...]
+    stages: tuple[Row, ...]
+    update: Row
+    least: int
+    grades: tuple[int, ...]
+
+    def text(self, ring: Ring) -> str:
+        """Write the program, a line a bracket or argument, h left out and names counted from 1."""
+        lines = [
+            f"B{r + 1} = [{_spell(x, ring)}, {_spell(y, ring)}]" for r, (x, y) in enumerate(self.brackets)
+        ]
+        lines += [f"u{i + 1} = {_spell(row, ring)}" for i, row in enumerate(self.stages)]
+        return "\n".join([*lines, f"u = {_spell(self.update, ring)}"])
+
+
+def fewest_brackets(
+    ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int, attempts: int = 4
+) -> BracketProgram:
+    """Return arguments with few brackets that keep ``order`` of an explicit tableau (A, b).
+
+    ``ring`` must decide zero and divide. The order is kept where the tableau has it. Coefficients that the
+    order leaves free are zero at first; unless ``least`` is reached, so many ``attempts`` give them small
+    random values, always the same. Raises :class:`~orderconds.errors.InputError` for an implicit tableau.
+
+    >>> from orderconds.ring import QQ
+    >>> half, third, sixth = QQ.rational(1, 2), QQ.rational(1, 3), QQ.rational(1, 6)
+    >>> none, one = QQ.zero, QQ.one
+    >>> A = [[none] * 4, [half, none, none, none], [none, half, none, none], [none, none, one, none]]
+    >>> print(fewest_brackets(QQ, A, [sixth, third, third, sixth], 4).text(QQ))
+    B1 = [k1, -1/8 k2]
+    B2 = [k1, 7/6 k2 - 1/12 k4]
+    u1 = 0
+    u2 = 1/2 k1
+    u3 = 1/2 k2 + B1
+    u4 = k3
+    u = 1/6 k1 + 1/3 k2 + 1/3 k3 + 1/6 k4 + 28/3 B1 + B2
+    """
+    for i, row in enumerate(A):
+        for j in range(i, len(b)):
+            if ring.is_zero(row[j]) is not True:
+                raise InputError(
+                    f"a_{i + 1}{j + 1} = {ring.text(row[j])}",
+                    where="fewest brackets",
+                    expected="an explicit tableau, a_ij = 0 for j >= i",
+                )
+    values = [*A, b]
+    bases = _graded_bases(ring, A, b, order)
+    algebra = GradedAlgebra(ring, [grade for grade, _ in bases], order)
+    arguments, rows = _arguments(algebra, values, bases), [row for _, row in bases]
+    best = _Search(algebra, rows, None).program(arguments)
+    for seed in range(attempts):
+        if len(best.brackets) > best.least:
+            found = _Search(algebra, rows, Random(seed)).program(arguments)
+            best = min(best, found, key=lambda program: len(program.brackets))
+    return best
+
+
+def _graded_bases(
+    ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int
+) -> list[tuple[int, list[Element]]]:
+    """Return for each j the grade of q_j and its row over k_1, ..., k_j, in which k_j stands once."""
+    series, found = DexpinvSeries(ring, A, b), list[tuple[int, list[Element]]]()
+    trees = [[*ordered_trees(n)] for n in range(1, order)]
+    values = [{t: series.stage(j, branches(t)) for of_size in trees for t in of_size} for j in range(len(b))]
+    for j in range(len(b)):
+        row: list[Element] = [ring.one if n == j else ring.zero for n in range(j + 1)]
+        grade = 1
+        while grade < order:
+            below = [t for of_size in trees[:grade] for t in of_size]
+            columns = [{t: values[n][t] for t in below} for n in range(j)]
+            combination = solve(ring, columns, {t: values[j][t] for t in below})
+            if combination is None:
+                break
+            row = [*(ring.zero - x for x in combination), ring.one]
+            grade += 1
+        found.append((grade, row))
+    return found
+
+
+def _arguments(
+    algebra: GradedAlgebra, rows: Sequence[Sequence[Element]], bases: Sequence[tuple[int, list[Element]]]
+) -> list[Polynomial]:
+    """Return u_1, ..., u_s and u over h in the letters q."""
+    ring, values, pulled, found = algebra.ring, list[Polynomial](), list[Polynomial](), list[Polynomial]()
+    for j, (_, row) in enumerate(bases):
+        earlier = [(ring.zero - x, value) for x, value in zip(row, values, strict=False)]
+        values.append(algebra.combine((ring.one, {(j,): ring.one}), *earlier))
+    for j, coefficients in enumerate(rows):
+        found.append(algebra.combine(*zip(coefficients, pulled, strict=False)))
+        if j < len(values):
+            pulled.append(algebra.dexpinv(found[-1], values[j]))
+    return found
+
+
+@dataclass(frozen=True)
+class _Shape:
+    """How new brackets enter an argument: [q_1 + x, y + C_1] + sum_e [e, w_e], C_n = [q_1, z_n + C_(n+1)].
+
+    ``inner`` counts the C's; ``leading`` fixes the coefficient of the pool's second element in y to one, so
+    that x is determined linearly; ``extra`` are the places in the pool of further left factors e.
+    """
+
+    outer: bool = False
+    leading: bool = False
+    inner: int = 0
+    extra: tuple[int, ...] = ()
+
+
+def _shapes(pool: int) -> Iterator[_Shape]:
+    """Yield shapes by rising number of brackets."""
+    yield _Shape()
+    for brackets in count(1):
+        for others in range(min(brackets - 1, 2) + 1):
+            for extra in ([()], [(e,) for e in range(1, pool)], [(1, e) for e in range(2, pool)])[others]:
+                for leading in (True, False):
+                    yield _Shape(True, leading, brackets - 1 - others, tuple(extra))
+
+
+class _Search:
+    """Takes the arguments in turn; ``pool`` holds what combinations may use, with its row."""
+
+    def __init__(self, algebra: GradedAlgebra, bases: Sequence[list[Element]], random: Random | None) -> None:
+        self.algebra, self.ring, self._bases, self._random = algebra, algebra.ring, bases, random
+        self.pool: list[tuple[Polynomial, Row]] = []
+        self.brackets: list[tuple[Row, Row]] = []
+
+    def program(self, arguments: Sequence[Polynomial]) -> BracketProgram:
+        rows = []
+        order = self.algebra.largest
+        for i, argument in enumerate(arguments):
+            if i:
+                row = {("k", n): x for n, x in enumerate(self._bases[i - 1])}
+                self.pool.append(({(i - 1,): self.ring.one}, self._clean(row)))
+            rows.append(self._written(argument, order - (i < len(arguments) - 1)))
+        return BracketProgram(
+            tuple(self.brackets), tuple(rows[:-1]), rows[-1], self._least(arguments), self.algebra.grades
+        )
+
+    def _least(self, arguments: Sequence[Polynomial]) -> int:
+        """Add up what the newest stage value in each argument needs: such brackets cannot be older.
+
+        The part linear in the newest letter q is ad_P q. One bracket [x, y] makes ad_z q only, z a
+        combination of what is older and so a Lie element; where P is none, it takes two.
+        """
+        needed, first = 0, False
+        for i, argument in enumerate(arguments):
+            newest, limit = i - 1, self.algebra.largest - (i < len(arguments) - 1)
+            before = {
+                word[:-1]: x
+                for word, x in self.algebra.cut(argument, limit).items()
+                if len(word) > 1 and word.count(newest) == 1 and word[-1] == newest
+            }
+            first |= any(len(word) > 1 for word in self.algebra.cut(argument, limit))
+            needed += 0 if not before else 1 if self._is_lie(before) else 2
+        return max(needed, int(first))
+
+    def _is_lie(self, x: Polynomial) -> bool:
+        """Decide by right-normed brackets: they multiply a Lie element of length n by n (Dynkin)."""
+        one, total = self.ring.one, dict[tuple[int, ...], Element]()
+        for word, value in x.items():
+            nested: Polynomial = {word[-1:]: one}
+            for letter in reversed(word[:-1]):
+                nested = self.algebra.bracket({(letter,): one}, nested)
+            total = self.algebra.combine((one, total), (value * self.ring.rational(1, len(word)), nested))
+        return not self.algebra.combine((one, total), (self.ring.rational(-1), x))
+
+    def _written(self, argument: Polynomial, limit: int) -> Row:
+        shapes = _shapes(len(self.pool))
+        return next(row for row in (self._fitted(s, argument, limit) for s in shapes) if row is not None)
+
+    def _fitted(self, shape: _Shape, argument: Polynomial, limit: int) -> Row | None:
+        """Return the row of an argument in this shape, its new brackets put into the pool; None if unfit.
+
+        The unknown numbers enter linearly but for products of those in x and in y. Either y is taken from the
+        sweep before, or what of x lower grades fix is taken from there, until all grades fit.
+        """
+        if shape.leading and len(self.pool) < 3:
+            return None
+        for fixed_left in (False, True) if shape.leading else (False,):
+            right = dict(self.pool[1][0]) if shape.leading else {}
+            left: dict[int, Element] = {}
+            for sweep in range(self.algebra.largest):
+                reach = limit - 1 if fixed_left and not sweep else limit
+                columns = self._columns(shape, right, left)
+                found = self._solved(shape, columns, argument, reach, left)
+                if found is None:
+                    break
+                numbers = {name: x for (name, _), x in zip(columns, found, strict=True)}
+                numbers |= {("left", 0, n): x for n, x in left.items()}
+                brackets, before = len(self.brackets), len(self.pool)
+                row, value, used = self._built(shape, numbers)
+                defect = self.algebra.combine((self.ring.one, argument), (self.ring.rational(-1), value))
+                if not self.algebra.cut(defect, limit):
+                    return row
+                del self.brackets[brackets:], self.pool[before:]
+                if fixed_left:
+                    left = {n: numbers["left", 0, n] for n in self._lightest_left()}
+                else:
+                    right = used
+        return None
+
+    def _lightest_left(self) -> list[int]:
+        """Return the places in the pool, beyond the first two, of those that begin with the least grade."""
+        least = [min(map(self.algebra.grade, x)) for x, _ in self.pool]
+        return [n for n, grade in enumerate(least) if n > 1 and grade == min(least[2:])]
+
+    def _solved(
+        self,
+        shape: _Shape,
+        columns: Sequence[tuple[tuple[str, int, int], Polynomial]],
+        argument: Polynomial,
+        limit: int,
+        left: Mapping[int, Element],
+    ) -> list[Element] | None:
+        algebra, one = self.algebra, self.ring.one
+        constant: Polynomial = {}
+        if shape.leading:
+            constant = algebra.bracket(self._left_factor(left), self.pool[1][0])
+        target = algebra.combine((one, argument), (self.ring.rational(-1), constant))
+        cut = [algebra.cut(column, limit) for _, column in columns]
+        return self._any_solution(cut, algebra.cut(target, limit))
+
+    def _any_solution(self, columns: Sequence[Polynomial], target: Polynomial) -> list[Element] | None:
+        """Return a solution, some unknowns moved at random first where chance is asked for."""
+        if self._random is None or self._random.random() < 0.4:
+            return solve(self.ring, columns, target)
+        moved = [self.ring.zero] * len(columns)
+        for n in range(len(columns)):
+            if self._random.random() < 0.25:
+                numerator, denominator = self._random.choice((-2, -1, 1, 2)), self._random.choice((1, 2, 3))
+                moved[n] = self.ring.rational(numerator, denominator)
+        shift = [(self.ring.zero - x, column) for x, column in zip(moved, columns, strict=True)]
+        found = solve(self.ring, columns, self.algebra.combine((self.ring.one, target), *shift))
+        return None if found is None else [x + y for x, y in zip(found, moved, strict=True)]
+
+    def _left_factor(self, left: Mapping[int, Element]) -> Polynomial:
+        more = ((x, self.pool[n][0]) for n, x in left.items())
+        return self.algebra.combine((self.ring.one, self.pool[0][0]), *more)
+
+    def _columns(
+        self, shape: _Shape, right: Polynomial, left: Mapping[int, Element]
+    ) -> list[tuple[tuple[str, int, int], Polynomial]]:
+        """Return the polynomial that each unknown multiplies: ``right`` is y and ``left`` in x so far."""
+        bracket, pool = self.algebra.bracket, [x for x, _ in self.pool]
+        columns = [(("linear", 0, n), x) for n, x in enumerate(pool)]
+        if shape.outer:
+            first, factor = 2 if shape.leading else 1, self._left_factor(left)
+            columns += [(("right", 0, n), bracket(factor, x)) for n, x in enumerate(pool) if n >= first]
+        if shape.leading:
+            columns += [
+                (("left", 0, n), bracket(x, right)) for n, x in enumerate(pool) if n > 1 and n not in left
+            ]
+        for place in shape.extra:
+            columns += [(("extra", place, n), bracket(pool[place], x)) for n, x in enumerate(pool)]
+        nested = [bracket(pool[0], x) for x in pool]
+        for depth in range(1, shape.inner + 1):
+            nested = [bracket(pool[0], x) for x in nested]
+            columns += [(("inner", depth, n), x) for n, x in enumerate(nested) if n]
+        return columns
+
+    def _built(
+        self, shape: _Shape, numbers: Mapping[tuple[str, int, int], Element]
+    ) -> tuple[Row, Polynomial, Polynomial]:
+        """Put the brackets of a shape into the pool; return the argument's row, its value and y."""
+        one, size = self.ring.one, len(self.pool)
+
+        def of(kind: str, depth: int, *more: tuple[Element, int]) -> list[tuple[Element, int]]:
+            return [*more, *((x, n) for (k, d, n), x in numbers.items() if (k, d) == (kind, depth))]
+
+        above: list[tuple[Element, int]] = []
+        for depth in range(shape.inner, 0, -1):
+            above = [(one, self._bracket([(one, 0)], of("inner", depth, *above)))]
+        terms = of("linear", 0)
+        y: list[tuple[Element, int]] = []
+        if shape.outer:
+            y = of("right", 0, *above, *([(one, 1)] if shape.leading else []))
+            terms.append((one, self._bracket(of("left", 0, (one, 0)), y)))
+        for place in shape.extra:
+            terms.append((one, self._bracket([(one, place)], of("extra", place))))
+        value = self.algebra.combine(*((x, self.pool[n][0]) for x, n in terms))
+        right = self.algebra.combine(*((x, self.pool[n][0]) for x, n in y if n < size))
+        return self._row(terms), value, right
+
+    def _bracket(self, left: Sequence[tuple[Element, int]], right: Sequence[tuple[Element, int]]) -> int:
+        """Add the bracket of two combinations of the pool; return its place there."""
+        x, y = (self.algebra.combine(*((c, self.pool[n][0]) for c, n in side)) for side in (left, right))
+        rows = self._row(left), self._row(right)
+        if len(rows[0]) == 1:
+            rows[1].pop(next(iter(rows[0])), None)  # [k, k] is zero
+        self.brackets.append(rows)
+        self.pool.append((self.algebra.bracket(x, y), {("B", len(self.brackets) - 1): self.ring.one}))
+        return len(self.pool) - 1
+
+    def _row(self, terms: Sequence[tuple[Element, int]]) -> Row:
+        result: Row = {}
+        for x, n in terms:
+            for name, value in self.pool[n][1].items():
+                result[name] = result.get(name, self.ring.zero) + x * value
+        return self._clean(result)
+
+    def _clean(self, row: Row) -> Row:
+        kept = {name: x for name, x in row.items() if self.ring.is_zero(x) is not True}
+        return dict(sorted(kept.items(), key=lambda item: (item[0][0] == "B", item[0][1])))
+
+
+def _spell(row: Mapping[Name, Element], ring: Ring) -> str:
+    terms = []
+    for (kind, n), x in row.items():
+        number = ring.text(x)
+        name = f"{kind}{n + 1}"
+        terms.append({"1": name, "-1": f"-{name}"}.get(number, f"{number} {name}"))
+    return " + ".join(terms).replace("+ -", "- ") or "0"
