@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from orderconds.commands.screen import is_terminal, print_json, print_table
+from orderconds.commands.screen import print_json, print_table, working
 from orderconds.errors import InputError
 
 
@@ -33,15 +33,16 @@ def command(
     prescribed = read_steps(steps)
     setting = load(scene)
     chosen = [parse(spelling, families_for(setting)) for spelling in methods]
-    orders = [certified_order(method) for method in chosen]
-    pairs = zip(chosen, orders, strict=True)
-    runners = [runner(setting, method, target, digits, order) for method, order in pairs]
-    if is_terminal() and not as_json:
-        click.echo(f"computing the reference of {setting.name} ...", err=True)
-    exact = reference(setting)
+    with working("order conditions") as tell:
+        pairs = [(method, certified_order(method)) for method in chosen]
+        tell("compiling")
+        runners = [(runner(setting, method, target, digits, order), order) for method, order in pairs]
+        tell("reference solution")
+        exact = reference(setting)
     found: list[Convergence] = []
-    for run, order in zip(runners, orders, strict=True):
-        found.append(converge(run, order, exact, steps=prescribed))
+    for run, order in runners:
+        with working(f"running {run.compiled.method.label}"):
+            found.append(converge(run, order, exact, steps=prescribed))
         if not as_json:
             show(found[-1], first=len(found) == 1)
     if as_json:

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import sys
-
 import click
 
-from orderconds.commands.screen import print_json
+from orderconds.commands.screen import print_json, working
 
 
 @click.command("report", short_help="Write one HTML page: orders, convergence, error against run time.")
@@ -22,14 +20,8 @@ def command(scenes: tuple[str, ...], methods: tuple[str, ...], output: str, as_j
     """
     from codegen.lab.report import report
 
-    def tell(what: str) -> None:
-        if sys.stderr.isatty():
-            click.echo(f"\r\033[2K{what}", nl=False, err=True)
-
-    try:
+    with working("reading scenes and methods") as tell:
         path, studies = report(scenes, methods, output, tell)
-    finally:
-        tell("")
     if as_json:
         print_json(
             {

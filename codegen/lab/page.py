@@ -166,9 +166,9 @@ def _line(condition: OrderCondition) -> tuple[str, Markup]:
 def _failing(found: MethodStudy) -> dict[str, Any]:
     rows = []
     for failure in found.order.failing[:3]:
-        exact = failure.residual if len(failure.residual) <= LONGEST else ""
-        residual = exact or scientific(float(failure.decimal))
-        rows.append((*_line(failure.condition), residual.replace("-", "−")))
+        short = len(failure.residual) <= LONGEST
+        residual = typeset(failure.residual) if short else scientific(float(failure.decimal), 4)
+        rows.append((_line(failure.condition)[1], Markup(residual)))
     return {
         "label": found.method.label,
         "order": found.order.order,
@@ -189,15 +189,15 @@ def _emission(found: MethodStudy) -> dict[str, Any]:
     }
 
 
-def scientific(x: float) -> str:
-    """Return a number to two significant digits as people write it.
+def scientific(x: float, digits: int = 2) -> str:
+    """Return a number to some significant digits as people write it.
 
-    >>> scientific(8.86e-35), scientific(0.0), scientific(-0.25)
-    ('8.9 · 10⁻³⁵', '0', '-0.25')
+    >>> scientific(8.86e-35), scientific(0.0), scientific(-0.12345, 4)
+    ('8.9 · 10⁻³⁵', '0', '−0.1235')
     """
     from codegen.lab.figures import superscript
 
     if x == 0 or 1e-3 <= abs(x) < 1e4:
-        return f"{x:.2g}"
-    mantissa, exponent = f"{x:.1e}".split("e")
-    return f"{mantissa} · 10{superscript(int(exponent))}"
+        return f"{x:.{digits}g}".replace("-", "−")
+    mantissa, exponent = f"{x:.{digits - 1}e}".split("e")
+    return f"{mantissa.replace('-', '−')} · 10{superscript(int(exponent))}"

@@ -28,7 +28,7 @@ COMPARED = 4 * FIRST
 MOST_TIMED = 2560
 """Steps of the longest run that is timed."""
 
-Tell = Callable[[str], None]
+Tell = Callable[[str], object]
 
 
 @dataclass(frozen=True)

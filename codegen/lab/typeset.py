@@ -12,8 +12,11 @@ _TOKEN = re.compile(
     r"sum_(?:\{(?P<range>[^}]*)\}|(?P<index>\w+))"
     r"|(?P<name>[A-Za-z]+)_(?P<sub>[A-Za-z0-9]+)"
     r"|\^(?P<power>-?\d+)"
+    r"|\^\((?P<root>-?\d+/\d+)\)"
     r"|(?P<number>\d+(?:/\d+)?)"
     r"|(?P<minus>-)"
+    r"|(?P<times>\*)"
+    r"|(?P<radical>sqrt)(?=\()"
     r"|(?P<space> )"
     r"|(?P<other>.)"
 )
@@ -26,6 +29,8 @@ def typeset(text: str) -> str:
     '∑<sub>i,j</sub> <i>b</i><sub>i</sub> <i>a</i><sub>ij</sub> <i>c</i><sub>j</sub><sup>2</sup> = 1/12'
     >>> typeset("sum_{i<j} b_i^-1 - 1/2")
     '∑<sub>i&lt;j</sub> <i>b</i><sub>i</sub><sup>−1</sup> − 1/2'
+    >>> typeset("-5*2^(1/3)/288 - sqrt(2)")
+    '−5·2<sup>1/3</sup>/288 − √(2)'
     """
     return "".join(_set(match) for match in _TOKEN.finditer(text))
 
@@ -39,8 +44,14 @@ def _set(match: re.Match[str]) -> str:
         return f"<i>{letter}</i><sub>{_subscript(found['sub'])}</sub>"
     if found["power"]:
         return f"<sup>{found['power'].replace('-', '−')}</sup>"
+    if found["root"]:
+        return f"<sup>{found['root'].replace('-', '−')}</sup>"
     if found["minus"]:
         return "−"
+    if found["times"]:
+        return "·"
+    if found["radical"]:
+        return "√"
     return escape(match.group())
 
 

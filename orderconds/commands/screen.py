@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -17,15 +17,18 @@ def is_terminal() -> bool:
 
 
 @contextmanager
-def working(message: str) -> Iterator[None]:
-    """Show on a terminal what is being worked on, while it is; elsewhere show nothing."""
+def working(message: str) -> Iterator[Callable[[str], object]]:
+    """Show on a terminal what is being worked on, while it is; elsewhere show nothing.
+
+    What it gives is called to change the message.
+    """
     if not (is_terminal() and sys.stderr.isatty()):
-        yield
+        yield str
         return
     from rich.console import Console
 
-    with Console(stderr=True).status(message):
-        yield
+    with Console(stderr=True, highlight=False, markup=False).status(message) as status:
+        yield status.update
 
 
 def print_json(value: Any) -> None:
