@@ -42,6 +42,16 @@ def test_slopes_divide_by_the_true_step_ratio() -> None:
     assert ladder.verdict(3) == "holds"
 
 
+def test_what_is_missing_is_judged_by_the_step_ratio() -> None:
+    # Steps in the ratio 1.1: slopes change by 0.03 a rung, yet they are still 0.3 and more from the order 2.
+    steps = [round(1000 * 1.1**k) for k in range(5)]
+    rungs, error = [], 1.0
+    for n, slope in zip(steps, (0, 1.60, 1.63, 1.66, 1.69), strict=True):
+        error = rungs[-1].error * (rungs[-1].steps / n) ** slope if rungs else error
+        rungs.append(Rung(n, 1 / n, error))
+    assert Ladder(tuple(rungs)).verdict(2) == "undecided"
+
+
 def test_rungs_inside_rounding_do_not_count() -> None:
     rungs = (*errors(4, count=4).rungs, *(Rung(5 * 2**k, 0.2 / 2**k, 1e-14, "rounding") for k in (4, 5)))
     assert Ladder(rungs).observed == pytest.approx(4)
