@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
-from codegen.lab import report
+from codegen.certify import CertifiedOrder
+from codegen.lab import report, study
 from orderconds.cli import program
 
 
@@ -31,6 +32,16 @@ def test_json_holds_the_measurements_and_stdout_nothing_else(tmp_path: Path) -> 
     (method,) = scene["methods"]
     assert (scene["scene"], method["method"]) == ("free_rigid_body", "rkmk(0):euler")
     assert method["c"]["verdict"] == method["python"]["verdict"] == method["verdict"] == "holds"
+
+
+def test_an_order_that_is_not_observed_exits_1_and_stands_in_the_page(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(study, "certified_order", lambda method: CertifiedOrder(4, "exact"))
+    result = run("free_rigid_body", "-m", "cg:cg3", "-o", str(tmp_path))
+    assert result.exit_code == 1
+    assert "fails: observed order 3.00, stated 4" in result.stdout
+    assert '<td class="fails">fails</td>' in (tmp_path / "index.html").read_text(encoding="utf-8")
 
 
 def test_a_user_scene_is_reported_by_its_own_words(tmp_path: Path) -> None:
