@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
+from codegen.errors import SceneError
 from codegen.groups.protocol import LieGroup, Scalars, dot, matmul
 from codegen.ir.domain import Domain, ExprDomain, SeriesDomain
 
@@ -22,15 +23,21 @@ class MatrixGroup(LieGroup):
 
     ``basis`` is a list of n x n integer or Fraction matrices (rows); coordinates in the algebra are with
     respect to it, those in the dual with respect to the dual basis. ``constants`` are the structure constants
-    that do not vanish: (i, j, k, c) for the component c of [e_i, e_j] along e_k.
+    that do not vanish: (i, j, k, c) for the component c of [e_i, e_j] along e_k. Matrices that are no basis
+    of a Lie algebra are a :class:`codegen.errors.SceneError`.
     """
 
     def __init__(self, name: str, basis: Sequence[Sequence[Sequence[int | Fraction]]]) -> None:
         self.name = name
-        self.n = len(basis[0])
+        self.n = len(basis[0]) if basis else 0
+        if not self.n or any(len(rows) != self.n for matrix in basis for rows in (matrix, *matrix)):
+            raise SceneError("a basis that is empty or not square", where=name, expected="n x n matrices")
         self.dim, self.size = len(basis), self.n**2
         self.basis = [tuple(Fraction(x) for row in matrix for x in row) for matrix in basis]
-        self._gram_inverse = _inverse([[dot(a, b) for b in self.basis] for a in self.basis])
+        gram = _inverse([[dot(a, b) for b in self.basis] for a in self.basis])
+        if gram is None:
+            raise SceneError("a linearly dependent basis", where=name, expected="independent matrices")
+        self._gram_inverse = gram
         self.constants = tuple(
             (i, j, k, c)
             for i, a in enumerate(self.basis)
@@ -45,11 +52,15 @@ class MatrixGroup(LieGroup):
         return tuple(x - y for x, y in pairs)
 
     def _coordinates(self, matrix: Scalars) -> Scalars:
-        """Return the coordinates of a rational matrix of the algebra; ValueError outside it."""
+        """Return the coordinates of a rational matrix of the algebra; SceneError outside it."""
         products = tuple(dot(b, matrix) for b in self.basis)
         x = tuple(dot(tuple(row), products) for row in self._gram_inverse)
         if tuple(dot(x, tuple(b[k] for b in self.basis)) for k in range(self.size)) != matrix:
-            raise ValueError(f"{self.name}: the basis is not closed under the bracket")
+            raise SceneError(
+                "a basis that is not closed under [A, B] = AB - BA",
+                where=self.name,
+                expected="all brackets of basis matrices to be combinations of them",
+            )
         return x
 
     def hat(self, d: Domain, x: Scalars) -> Scalars:
@@ -163,12 +174,14 @@ def _entire(d: Domain, first: Scalars, advance: Any, shift: int) -> Scalars:
     raise ArithmeticError(f"an exponential series does not end within {longest} terms")
 
 
-def _inverse(a: list[list[Fraction]]) -> list[list[Fraction]]:
-    """Return the inverse of a regular rational matrix by Gauss-Jordan elimination."""
+def _inverse(a: list[list[Fraction]]) -> list[list[Fraction]] | None:
+    """Return the inverse of a rational matrix by Gauss-Jordan elimination, None for a singular one."""
     n = len(a)
     rows = [[*row, *(Fraction(int(i == j)) for j in range(n))] for i, row in enumerate(a)]
     for k in range(n):
-        pivot = next(i for i in range(k, n) if rows[i][k])
+        pivot = next((i for i in range(k, n) if rows[i][k]), None)
+        if pivot is None:
+            return None
         rows[k], rows[pivot] = rows[pivot], rows[k]
         rows[k] = [x / rows[k][k] for x in rows[k]]
         for i in range(n):

@@ -215,9 +215,9 @@ FIELDS = ("R^3", "S^2", "SO(3)", "GL(2)", "Heisenberg")
 
 
 class TestMuntheKaasIsItsEquation:
-    @pytest.mark.parametrize("cutoff", range(5))
-    @pytest.mark.parametrize("tableau", ["heun", "rk4", "full2"])
-    @pytest.mark.parametrize("place", FIELDS)
+    @pytest.mark.parametrize("cutoff", [0, 1, 2, 4])
+    @pytest.mark.parametrize("tableau", ["rk4", "full2"])
+    @pytest.mark.parametrize("place", ["S^2", "GL(2)", "Heisenberg"])
     def test_exactly(self, place, tableau, cutoff):
         method = Method("rkmk", RATIONAL[tableau], cutoff)
         check(field_scene(place), method, SeriesDomain(QQ, ORDER), lambda o: o.rkmk(cutoff))

@@ -55,11 +55,14 @@ def test_different_maps_stay():
     assert after(build)["dexpt"] == 2
 
 
-def test_a_value_with_another_use_stays():
+def test_values_with_other_uses_are_not_computed_again():
     def build(b, x, n):
-        p = b.do("dexpt", "p", x, mu)
-        total = b.lin("m", Kind.DUAL, [(ONE, p), (H, b.do("dexpt", "p", x, n))])
-        return b.lin("m", Kind.DUAL, [(ONE, total), (H, p)])
+        p, r = b.do("dexpt", "p", x, mu), b.do("dexpt", "r", x, n)
+        total = b.lin("m", Kind.DUAL, [(ONE, p), (H, r)])
+        other = b.do("Adt", "a", q, b.do("adt", "b", x, p))
+        return b.lin(
+            "m", Kind.DUAL, [(ONE, total), (H, other), (H, b.do("adt", "c", x, b.do("Adt", "d", q, r)))]
+        )
 
     assert after(build)["dexpt"] == 2
 

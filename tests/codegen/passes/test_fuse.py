@@ -2,9 +2,11 @@ from __future__ import annotations
 
 import pytest
 
+from codegen.ir.number import Number
+from codegen.ir.program import Builder, Coefficient, Kind, Program, Var
 from codegen.ir.verify import verify
 from codegen.passes import dead, fuse
-from tests.strategies import butcher, field_scene, full, lowered, same
+from tests.strategies import field_scene, full, lowered, same
 
 
 @pytest.mark.parametrize("place", ["R^3", "S^2", "SO(3)", "GL(2)", "Heisenberg"])
@@ -18,15 +20,15 @@ def test_an_exponential_used_once_is_never_formed(place, tableau):
     assert same(scene, program, new)
 
 
-def test_an_exponential_used_twice_is_kept():
-    from codegen.passes import sharing
-
-    tableau = butcher("shared", [[0, 0], ["1/2", 0]], ["1/2", "1/2"])
-    _, program = lowered("rkmk", tableau, field_scene("S^2"), 0)
-    shared = sharing.run(program)
-    assert fuse.run(shared).counts()["actexp"] >= 1
-
-    twice = butcher("twice", [[0, 0, 0], ["1/2", 0, 0], [0, "1/2", 0]], ["1/2", 0, "1/2"])
-    scene, program = lowered("cg", twice, field_scene("S^2"))
-    new = verify(dead.run(fuse.run(sharing.run(program))))
-    assert same(scene, program, new)
+def test_an_exponential_used_twice_is_formed_once():
+    """exp(x) moves y, and then what it moved."""
+    builder, y = Builder({"y", "t", "h"}), Var("y", Kind.POINT)
+    k = builder.do("field", "k", y)
+    x = builder.lin("x", Kind.ALG, [(Coefficient(Number.rational(1, 2), 1), k)])
+    g = builder.do("exp", "g", x)
+    half = builder.do("act", "y1", g, y)
+    whole = builder.do("act", "y2", g, half)
+    program = verify(Program("p", (y,), builder.take(), (("y", whole),)))
+    new = verify(dead.run(fuse.run(program)))
+    assert new.counts() == {"act": 2, "exp": 1, "field": 1, "lin": 1}
+    assert same(field_scene("S^2"), program, new)

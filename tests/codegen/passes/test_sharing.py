@@ -2,9 +2,13 @@ from __future__ import annotations
 
 import pytest
 
+from codegen.ir.number import Number
+from codegen.ir.program import ONE, Builder, Coefficient, Kind, Program, Var
 from codegen.ir.verify import verify
 from codegen.passes import dead, sharing, zeros
 from tests.strategies import butcher, field_scene, full, hamiltonian_scene, lowered, same
+
+H = Coefficient(Number.rational(1, 2), 1)
 
 
 @pytest.mark.parametrize("tableau", ["kutta3", "midpoint", full(2), full(3)])
@@ -33,10 +37,35 @@ def test_exponentials_are_shared_between_stages_and_update():
     assert same(scene, program, new)
 
 
+def hand_made(build):
+    """A program on T*SO(3) whose momentum is what ``build`` makes of (builder, xi, n, mu)."""
+    builder, q, mu = Builder({"q", "mu", "t", "h"}), Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
+    xi, n = builder.hamilton("xi", "n", q, mu)
+    result = build(builder, xi, n, mu)
+    return verify(Program("p", (q, mu), builder.take(), (("q", q), ("mu", result))))
+
+
 def test_sums_are_seen_as_equal_in_any_order():
-    _, program = lowered("vcg", "midpoint", hamiltonian_scene("SO(3)"))
-    twice = sharing.run(sharing.run(program))
-    assert twice == sharing.run(program)
+    def build(b, xi, n, mu):
+        one = b.lin("a", Kind.DUAL, [(ONE, mu), (H, n)])
+        other = b.lin("b", Kind.DUAL, [(H, n), (ONE, mu)])
+        return b.lin("m", Kind.DUAL, [(ONE, one), (H, other)])
+
+    program = hand_made(build)
+    new = verify(sharing.run(program))
+    assert (program.counts()["lin"], new.counts()["lin"]) == (3, 2)
+    assert same(hamiltonian_scene("SO(3)"), program, new)
+
+
+def test_values_of_different_kinds_are_different():
+    """The zero of the algebra is not the zero of its dual."""
+
+    def build(b, xi, n, mu):
+        x, z = b.lin("x", Kind.ALG, []), b.lin("z", Kind.DUAL, [])
+        return b.lin("m", Kind.DUAL, [(ONE, b.do("dexpt", "p", x, mu)), (H, z)])
+
+    program = hand_made(build)
+    assert verify(sharing.run(program)).counts()["zero"] == 2
 
 
 def test_after_sharing_a_composition_cancels():
