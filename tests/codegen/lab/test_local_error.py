@@ -132,8 +132,7 @@ def test_on_a_vector_space_variational_methods_are_partitioned_ones(method, orde
         assert all(method.ring.is_zero(x - y) is True for x, y in zip(found, expected, strict=True))
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("group", ["SO(3)", "GL(2)"])
+@pytest.mark.parametrize("group", ["SO(3)", pytest.param("GL(2)", marks=pytest.mark.slow)])
 def test_the_triple_jump_has_order_four(group):
     agree(hamiltonian_scene(group), Method("vcg", shipped("triple_jump")), 4)
 
