@@ -28,6 +28,7 @@ class CertifiedOrder:
         """Say it in words."""
         how = {
             "exact": "every order condition up to it is zero in exact arithmetic",
+            "ball": "interval arithmetic proves a method of this order within the last digit of the decimals",
             "decimal": "what the printed digits of the coefficients support",
         }
         least = "at least " if self.bound else ""

@@ -3,9 +3,11 @@
 Orders 1, 2, ... are evaluated over the tableau's own ring until the first with a condition that fails. A
 claim is an equality: a method that is better than its file says fails the claim as well.
 
-Certificates. ``exact``: every residual up to the order is zero in an exact ring. ``decimal``: some
-residuals are balls that contain zero, so the order is what the printed digits support, and no more than
-that is claimed: a ball never proves zero. A ball too wide to speak (see :data:`RESOLUTION`) leaves the
+Certificates. ``exact``: every residual up to the order is zero in an exact ring. ``ball``: the file says
+which equations its decimals solve, and interval arithmetic proves that they have one solution within the last
+digits, which has the order (:mod:`orderconds.proof`). ``decimal``: some residuals are balls that contain
+zero, so the order is what the printed digits support, and no more than that is claimed: a ball never
+proves zero. A ball too wide to speak (see :data:`RESOLUTION`) leaves the
 order ``undecided``; one that excludes zero proves that the condition fails.
 """
 
@@ -17,7 +19,7 @@ from decimal import Context, Decimal
 from math import factorial
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from orderconds import families
 from orderconds.conditions import OrderCondition
@@ -26,6 +28,10 @@ from orderconds.families import Family
 from orderconds.ring import Element, Ring
 from orderconds.tableau import Tableau, find
 from orderconds.tableau.properties import properties
+
+if TYPE_CHECKING:
+    from orderconds.proof.certificate import Certificate
+    from orderconds.proof.implications import Fact
 
 RESOLUTION = Decimal("1e-3")
 """A ball supports a condition of order n only when its radius is at most this part of 1/n!, the smallest
@@ -115,6 +121,7 @@ class Report:
     orders: tuple[FamilyOrder, ...]
     properties: dict[str, bool | None]
     broken_claims: tuple[str, ...] = ()
+    proof: Certificate | None = None
 
     @property
     def verdict(self) -> str:
@@ -134,6 +141,8 @@ class Report:
             "orders": {family.family: family.as_json() for family in self.orders},
             "properties": self.properties,
         }
+        if self.proof is not None:
+            record["proof"] = self.proof.as_json()
         return {**record, "broken_claims": list(self.broken_claims)} if self.broken_claims else record
 
 
@@ -160,14 +169,44 @@ def check(
     if not isinstance(tableau, Tableau):
         tableau = read(tableau)
     wanted = list(_wanted(tableau, family))
+    proof, broken = _proof(tableau)
+    enclosed = proof.tableau if proof else tableau
+    facts = proof.facts if proof else ()
+    if family is None:
+        broken += _broken_claims(enclosed)
     return Report(
         name=tableau.name,
         file=tableau.path,
         format=tableau.family,
-        orders=tuple(family_order(tableau, f, claimed, order) for f, claimed in wanted),
+        orders=tuple(
+            _certified(family_order(enclosed, f, claimed, order), f, facts) for f, claimed in wanted
+        ),
         properties=properties(tableau),
-        broken_claims=tuple(_broken_claims(tableau)) if family is None else (),
+        broken_claims=tuple(broken),
+        proof=proof,
     )
+
+
+def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
+    """Return the proof that the file's decimals stand for a solution, or why there is none."""
+    if tableau.proof is None:
+        return None, []
+    from orderconds.proof.certificate import certify
+    from orderconds.proof.krawczyk import NotProved
+
+    try:
+        return certify(tableau), []
+    except NotProved as problem:
+        return None, [f"no proof: {problem}"]
+
+
+def _certified(found: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> FamilyOrder:
+    """Raise the certificate from ``decimal`` to ``ball`` where proved facts imply the order."""
+    if found.certificate != "decimal" or not facts:
+        return found
+    from orderconds.proof.implications import implied
+
+    return replace(found, certificate="ball") if implied(facts, family, found.order) else found
 
 
 def family_order(

@@ -32,6 +32,10 @@ BUILT_IN = {
     "cite": ("orderconds.commands.cite", "Print the BibTeX of a tableau's source."),
     "derive": ("orderconds.commands.derive", "Print the independent order conditions of a family."),
     "list": ("orderconds.commands.list", "List families, tableaux, and what other packages offer."),
+    "refine": (
+        "orderconds.commands.refine",
+        "Sharpen the decimals of a tableau by Newton's method and prove them.",
+    ),
     "trees": ("orderconds.commands.trees", "Enumerate trees, forests and Lyndon words."),
 }
 """Built-in commands: name -> (module that holds ``command``, one line for --help)."""

@@ -34,3 +34,13 @@ class precision:  # noqa: N801 - reads as the statement it is: with precision(20
         self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
     ) -> None:
         ctx.prec = self.before
+
+
+def working_bits() -> int:
+    """Return the precision that balls are computed with here.
+
+    >>> with precision(99):
+    ...     working_bits()
+    99
+    """
+    return int(ctx.prec)

@@ -56,7 +56,7 @@ def evaluate(
     """
     from orderconds.ring.tower import DegreeError, Tower
 
-    constants = [c for x in (*expressions.values(), *numbers.values()) for c in _constants(x)]
+    constants = [c for x in (*expressions.values(), *numbers.values()) for c in rounded_and_exact(x)]
     if not any(c.unit for c in constants):
         tower = Tower()
         try:
@@ -76,20 +76,28 @@ def evaluate(
     return balls, values
 
 
+def evaluate_in(
+    scalars: Scalars, expressions: Mapping[str, Expression], numbers: Mapping[str, Definition], where: str
+) -> dict[str, Element]:
+    """Evaluate expressions in given scalars; raises :class:`TableauError`."""
+    return _Evaluation(scalars, numbers, where).all(expressions)
+
+
 def _shared(values: Mapping[str, Element], lift: Any) -> dict[str, Element]:
     """Lift every value once, so that shared elements stay shared."""
     lifted = {id(x): lift(x) for x in values.values()}
     return {key: lifted[id(x)] for key, x in values.items()}
 
 
-def _constants(x: Definition) -> Iterator[Constant]:
+def rounded_and_exact(x: Definition) -> Iterator[Constant]:
+    """Yield every constant that is spelled in an expression."""
     if isinstance(x, Constant):
         yield x
     elif isinstance(x, Chain):
         for operand in x.operands:
-            yield from _constants(operand)
+            yield from rounded_and_exact(operand)
     elif isinstance(x, Power):
-        yield from _constants(x.base)
+        yield from rounded_and_exact(x.base)
 
 
 def _bits(constants: Sequence[Constant]) -> int:

@@ -22,12 +22,14 @@ from orderconds.tableau.formats import (
     Format,
     LowStorage,
     Number,
+    ProofEntry,
     RootEntry,
     StageEntry,
 )
 from orderconds.tableau.grammar import Chain, Constant, Expression, parse
 from orderconds.tableau.properties import PROPERTIES
 from orderconds.tableau.record import Claims, OrderClaim, Tableau
+from orderconds.tableau.unknowns import Proof, Spelled
 
 MAX_BYTES = 1_000_000
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.+-]*")
@@ -37,6 +39,7 @@ _NESTED: dict[str, type[Struct]] = {
     "stage": StageEntry,
     "update": StageEntry,
     "low_storage": LowStorage,
+    "proof": ProofEntry,
 }
 
 
@@ -45,13 +48,18 @@ def load(path: str | Path) -> Tableau:
 
     Raises :class:`TableauError` naming the file, the key, what was found and what was expected.
     """
+    return loads(text_of(path), str(path), str(path))
+
+
+def text_of(path: str | Path) -> str:
+    """Return the text of a tableau file, refused where it is too large or no UTF-8."""
     file = Path(path)
     try:
         if file.stat().st_size > MAX_BYTES:
             raise TableauError(
                 "a file too large for a tableau", where=str(path), expected=f"{MAX_BYTES} bytes"
             )
-        text = file.read_text(encoding="utf-8")
+        return file.read_text(encoding="utf-8")
     except OSError as problem:
         reason = (problem.strerror or "unreadable").lower()
         raise TableauError(reason, where=str(path), expected="a tableau file (TOML)") from None
@@ -59,7 +67,6 @@ def load(path: str | Path) -> Tableau:
         raise TableauError(
             "bytes that are no UTF-8", where=str(path), expected="a tableau file (TOML)"
         ) from None
-    return loads(text, str(path), str(path))
 
 
 def loads(text: str, where: str = "<text>", path: str | None = None) -> Tableau:
@@ -77,7 +84,8 @@ def loads(text: str, where: str = "<text>", path: str | None = None) -> Tableau:
     _verify_names(entry, where)
     entry.verify(where)
     expressions = {place: _parsed(x, f"{where}: {place}") for place, x in entry.coefficients()}
-    ring, values = evaluate(expressions, _numbers(entry, where), where)
+    numbers = _numbers(entry, where)
+    ring, values = evaluate(expressions, numbers, where)
     method, embedded = entry.build(values, ring)
     return Tableau(
         name=entry.name,
@@ -89,6 +97,7 @@ def loads(text: str, where: str = "<text>", path: str | None = None) -> Tableau:
         claims=_claims(entry, where),
         embedded=embedded,
         path=path,
+        proof=_proof(entry, Spelled(expressions, numbers, where, entry.build)),
     )
 
 
@@ -171,7 +180,7 @@ def _numbers(entry: Format, where: str) -> dict[str, Definition]:
 
 
 def _rational(x: str | int, where: str) -> Fraction:
-    """Read a coefficient of a minimal polynomial: a rational, since radicals need no polynomial."""
+    """Read a rational number: of a minimal polynomial, whose radicals need none, or as a source prints it."""
     try:
         return _fraction(_parsed(x, where))
     except (TypeError, ZeroDivisionError):
@@ -194,6 +203,44 @@ def _decimal(text: str, where: str) -> Constant:
         raise TableauError(f"near = {text!r}", where=where, expected='a decimal such as "1.2599"')
     places = match[2] or ""
     return Constant(Fraction(f"{match[1]}.{places}0"), Fraction(1, 10 ** len(places)))
+
+
+def _proof(entry: Format, spelled: Spelled) -> Proof | None:
+    """Return what the file says of the equations that its decimals solve, the names in it verified."""
+    given = entry.proof
+    if given is None:
+        return None
+    place = f"{spelled.where}: proof"
+    decimals = {u.name: u for u in spelled.decimals()}
+    if not decimals:
+        raise TableauError("a proof for exact coefficients", where=place, expected='decimals with "~"')
+    for name in given.pins:
+        if name not in decimals:
+            raise TableauError(
+                f"the pin {name!r}", where=f"{place}.pins", expected=f"one of {', '.join(decimals)}"
+            )
+    if (given.reduction == "simplifying") is not bool(given.assumptions):
+        raise TableauError(
+            f"reduction = {given.reduction!r} with {len(given.assumptions)} assumptions",
+            where=place,
+            expected='assumptions such as { B = 6, C = 3, D = 2 } with reduction = "simplifying" only',
+        )
+    known = {*entry.numbers, *spelled.expressions}
+    for name in given.printed:
+        if name not in known:
+            raise TableauError(
+                f"printed digits of {name!r}", where=f"{place}.printed", expected="a number of this file"
+            )
+    return Proof(
+        conditions=given.conditions,
+        order=given.order,
+        reduction=given.reduction,
+        assumptions={str(key): n for key, n in given.assumptions.items()},
+        printed={name: _rational(x, f"{place}.printed.{name}") for name, x in given.printed.items()},
+        unknowns=tuple(u for u in decimals.values() if u.name not in given.pins),
+        pinned=tuple(u for u in decimals.values() if u.name in given.pins),
+        spelled=spelled,
+    )
 
 
 def _claims(entry: Format, where: str) -> Claims:

@@ -44,6 +44,17 @@ class CutoffClaim(Struct, forbid_unknown_fields=True):
     order: Annotated[int, Meta(ge=1)]
 
 
+class ProofEntry(Struct, forbid_unknown_fields=True):
+    """Which equations the rounded decimals of the file solve (:mod:`orderconds.tableau.unknowns`)."""
+
+    conditions: str
+    order: Annotated[int, Meta(ge=1, le=20)]
+    pins: list[str] = []
+    reduction: Literal["symmetric", "low-storage", "simplifying"] | None = None
+    assumptions: dict[Literal["B", "C", "D"], Annotated[int, Meta(ge=0, le=40)]] = {}
+    printed: dict[str, Coefficient] = {}
+
+
 Number = Coefficient | RootEntry
 """What may stand under ``numbers``."""
 Claim = bool | Annotated[int, Meta(ge=1)] | list[CutoffClaim]
@@ -59,6 +70,7 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     bibtex: str = ""
     numbers: dict[str, Any] = {}
     claims: dict[str, Any] = {}
+    proof: ProofEntry | None = None
 
     def coefficients(self) -> Places:
         """Yield (place, spelling) of every coefficient."""

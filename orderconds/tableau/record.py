@@ -15,6 +15,7 @@ from orderconds.tableau.methods import (
     PartitionedRungeKutta,
     RungeKutta,
 )
+from orderconds.tableau.unknowns import Proof
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,8 @@ class Tableau:
     claims: Claims = field(default_factory=Claims)
     embedded: Embedded | None = None
     path: str | None = None
+    proof: Proof | None = field(default=None, compare=False)
+    """Which equations the rounded decimals solve, where the file says so."""
 
     @staticmethod
     def load(path: str | Path) -> Tableau:
@@ -87,7 +90,7 @@ class Tableau:
         embedded = self.embedded
         if embedded is not None:
             embedded = replace(embedded, b=tuple(convert(x) for x in embedded.b))
-        return replace(self, ring=ring, method=self.method.map(convert), embedded=embedded)
+        return replace(self, ring=ring, method=self.method.map(convert), embedded=embedded, proof=None)
 
     def read_as(self, formats: tuple[str, ...]) -> Method | None:
         """Return the method in the first of these formats that it can be read in, or None.

@@ -1,0 +1,52 @@
+"""``orderconds refine``: more digits for the rounded decimals of a tableau, and their proof."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from orderconds.commands import screen
+from orderconds.errors import TableauError
+
+
+@click.command(
+    name="refine", short_help="Sharpen the decimals of a tableau by Newton's method and prove them."
+)
+@click.argument("file", metavar="FILE")
+@click.option(
+    "--digits", type=click.IntRange(10, 1000), default=60, show_default=True, help="Places to write."
+)
+@click.option("--output", "-o", metavar="FILE", help="Write here instead of stdout.")
+@click.option("--json", "as_json", is_flag=True, help="Digits, pins and proof on stdout as JSON.")
+def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
+    """Solve the equations that the [proof] of FILE names, from the decimals ("0.8177~") that stand in it, and
+    write the file again with more digits, the pins that were needed, and the old digits on record.
+
+    Exits with 0 if interval arithmetic proves the new digits, 1 if not, 2 for a file that cannot be read.
+    """
+    from orderconds.proof.certificate import certify
+    from orderconds.proof.krawczyk import NotProved
+    from orderconds.proof.refine import refine
+    from orderconds.tableau import Tableau
+    from orderconds.tableau.file import text_of
+
+    text = text_of(file)
+    try:
+        with screen.working(f"refining {file}"):
+            found = refine(text, file, digits)
+            proof = certify(Tableau.loads(found.text, file))
+    except NotProved as problem:
+        click.echo(f"orderconds: {file}: no proof: {problem}", err=True)
+        return 1
+    if output is not None:
+        try:
+            Path(output).write_text(found.text, encoding="utf-8")
+        except OSError as problem:
+            reason = (problem.strerror or "unwritable").lower()
+            raise TableauError(reason, where=output, expected="a file that can be written") from None
+    if as_json:
+        screen.print_json({"decimals": found.decimals, "proof": proof.as_json()})
+    elif output is None:
+        click.echo(found.text, nl=False)
+    return 0

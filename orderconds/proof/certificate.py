@@ -1,0 +1,135 @@
+"""The proof of one file: the enclosed solution, how far the decimals are from it, and what orders it has."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+
+from flint import arb, fmpq
+
+from orderconds.proof.equations import Equations, equations, independent
+from orderconds.proof.implications import Fact
+from orderconds.proof.krawczyk import NotProved, enclose
+from orderconds.ring.balls import Balls
+from orderconds.ring.decimals import endpoints, rational_decimal
+from orderconds.ring.jets import Jet, Jets
+from orderconds.ring.precision import precision
+from orderconds.tableau import Tableau
+from orderconds.tableau.unknowns import Proof
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """A proved solution near the decimals of a file.
+
+    ``tableau`` has its coefficients, over balls; ``facts`` the orders that the equations imply. ``radius``
+    bounds how far any decimal is from the solution; ``printed`` says the same of each number as its source
+    prints it.
+    """
+
+    tableau: Tableau
+    facts: tuple[Fact, ...]
+    equations: int
+    radius: str
+    printed: dict[str, str] = field(default_factory=dict)
+
+    def as_json(self) -> dict[str, object]:
+        """Return the JSON object of a proof."""
+        proof = self.tableau.proof
+        assert proof is not None
+        return {
+            "conditions": proof.conditions,
+            "order": proof.order,
+            "reduction": proof.reduction,
+            "unknowns": [u.name for u in proof.unknowns],
+            "pins": [u.name for u in proof.pinned],
+            "radius": self.radius,
+            "printed": self.printed,
+        }
+
+
+def certify(tableau: Tableau) -> Certificate:
+    """Prove that the decimals of ``tableau`` stand for a solution of its equations.
+
+    Raises :class:`~orderconds.proof.krawczyk.NotProved` with what is missing.
+    """
+    found = _certify(_Key(tableau))
+    return replace(found, tableau=replace(found.tableau, path=tableau.path))
+
+
+class _Key:
+    """A tableau by what its proof depends on, so that a proof that several families ask for is made once."""
+
+    def __init__(self, tableau: Tableau) -> None:
+        self.tableau = tableau
+
+    def __hash__(self) -> int:
+        return hash(self.tableau.name)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Key) and other.tableau is self.tableau
+
+
+@lru_cache(maxsize=8)
+def _certify(key: _Key) -> Certificate:
+    tableau = key.tableau
+    proof = tableau.proof
+    if proof is None:
+        raise NotProved("the file names no equations")
+    bits = max(256, 64 + 4 * max(len(str(u.constant.unit.denominator)) for u in proof.unknowns))
+    system = equations(tableau)
+    with precision(bits):
+        box = [
+            arb(_fmpq(u.constant.value)) + arb(0, arb(_fmpq(u.constant.unit)).upper()) for u in proof.unknowns
+        ]
+        ring = Jets(len(box))
+        kept = independent(system, [ring.variable(i, x) for i, x in enumerate(box)], ring)
+    if len(kept) != len(box):
+        raise NotProved(_mismatch(len(kept), len(box)))
+
+    def square(point: list[Jet], over: Jets) -> list[Jet]:
+        values = system(point, over)
+        return [values[i] for i in kept]
+
+    solution = enclose(square, box, bits)  # type: ignore[arg-type]  # a list is a sequence
+    return _certificate(system, proof, solution, bits, len(kept))
+
+
+def _mismatch(conditions: int, unknowns: int) -> str:
+    advice = (
+        f"pin {unknowns - conditions} of them"
+        if unknowns > conditions
+        else "name a reduction that makes some of the equations follow from the others"
+    )
+    return f"{conditions} equations for {unknowns} unknowns; {advice}"
+
+
+def _certificate(
+    system: Equations, proof: Proof, solution: tuple[arb, ...], bits: int, count: int
+) -> Certificate:
+    ring = Balls(bits)
+    values = {u.name: ring.enclose(x) for u, x in zip(proof.unknowns, solution, strict=True)}
+    method, embedded = proof.over(ring, values)
+    distances = [_distance(x, _fmpq(u.constant.value)) for u, x in zip(proof.unknowns, solution, strict=True)]
+    printed = {
+        name: rational_decimal(_distance(proof.number(name, ring, values).value, _fmpq(given)), 3)
+        for name, given in proof.printed.items()
+    }
+    return Certificate(
+        tableau=replace(system.tableau, ring=ring, method=method, embedded=embedded),
+        facts=system.facts,
+        equations=count,
+        radius=rational_decimal(max(distances), 3),
+        printed=printed,
+    )
+
+
+def _distance(x: arb, to: fmpq) -> fmpq:
+    """Return an upper bound of |x - to|."""
+    low, high = endpoints(x)
+    return max(abs(low - to), abs(high - to))
+
+
+def _fmpq(x: object) -> fmpq:
+    numerator, denominator = x.as_integer_ratio()  # type: ignore[attr-defined]
+    return fmpq(numerator, denominator)

@@ -1,0 +1,210 @@
+"""The equations that the decimals of a file solve, and which orders their solution has.
+
+Without a reduction they are all independent conditions of one family. A reduction leaves fewer, and what
+makes the others follow is verified exactly, on the file and not on its decimals:
+
+``symmetric``    a palindromic composition of a symmetric method: its order is even, and of the conditions
+                 of a composition only those of odd order count, one a Lyndon word in the letters 1, 3, 5,
+                 ... (HLW V.3.1-3.2). Midpoints composed are the method with the composed tableau, in every
+                 family whose step is that of the tableau's midpoints one after the other (Bogfjellmo and
+                 Marthinsen, Lemma 3.5.4).
+``low-storage``  a 2N scheme: on a group it has the order that it has on a vector space (see below).
+``simplifying``  B(p), C(q), D(r) imply order min(p, q + r + 1, 2q + 2) (Butcher 1964; Hairer, Norsett and
+                 Wanner, Theorem II.7.4).
+
+2N schemes. With y_j, k_j, f_j the values of Y_j, K_j, F(Y_j) on a word or tree, k_j = A_j k_{j-1} + f_j and
+y_{j+1} = y_j + B_j k_j on single trees, D_j = y_j(t) k_j(u) - y_j(u) k_j(t) is not changed by y_j ->
+y_{j+1}, so it obeys D_j = A_j D_{j-1} + y_j(t) f_j(u) - y_j(u) f_j(t): the recursion of k_j on a
+combination of trees. Hence y(tu) - y(ut), the sum of B_j D_j, is a linear combination of values on single
+trees, the same for every scheme and for the exact flow. The tests confirm, by ranks modulo primes, that no
+condition on longer words is left either: a 2N scheme has as many independent conditions as there are
+rooted trees.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from math import factorial
+from typing import Any
+
+from orderconds import families
+from orderconds.errors import InputError
+from orderconds.proof.krawczyk import NotProved
+from orderconds.ring.jets import Jet, Jets
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau import Composition, Tableau
+from orderconds.tableau.properties import properties
+from orderconds.tableau.unknowns import Proof
+from orderconds.words.lyndon import lyndon_words
+
+COMPOSITION = "composition"
+"""The fact that a composition of a symmetric method of order 2 has an order, whatever the method."""
+
+LOW_STORAGE_ORDER = 5
+"""Up to here the tests compute that 2N schemes have no conditions but those of rooted trees."""
+
+
+@dataclass(frozen=True)
+class Equations:
+    """Equations for the decimals of ``tableau``; a solution has the orders that ``facts`` name by family."""
+
+    tableau: Tableau
+    proof: Proof
+    facts: tuple[tuple[str, int], ...]
+
+    def __call__(self, point: Sequence[Element], ring: Any) -> list[Element]:
+        """Return left-hand sides less right-hand sides; ``point`` are the unknowns' values in ``ring``."""
+        values = {u.name: x for u, x in zip(self.proof.unknowns, point, strict=True)}
+        method, _ = self.proof.over(ring, values)
+        if self.proof.reduction == "symmetric" and isinstance(method, Composition):
+            return list(symmetric_composition(method.gamma, ring, self.proof.order))
+        if self.proof.reduction == "simplifying":
+            return list(simplifying(method, ring, self.proof.assumptions))
+        family = families.get(self.proof.conditions)
+        read = replace(self.tableau, ring=ring, method=method).read_as(family.formats)
+        if read is None and family.name == "rk":
+            read = replace(self.tableau, ring=ring, method=method).abelian()
+        if read is None:
+            raise InputError(
+                f"conditions = {self.proof.conditions!r}",
+                where=f"{self.tableau.path or self.tableau.name}: proof",
+                expected=f"a family that reads format {self.tableau.family}",
+            )
+        step = 2 if self.proof.reduction == "symmetric" else 1
+        conditions = [c for n in range(1, self.proof.order + 1, step) for c in family.conditions(n)]
+        return list(families.residuals(family, read, ring, conditions))
+
+
+def equations(tableau: Tableau) -> Equations:
+    """Return the equations that the proof of a tableau names; its reduction is verified here.
+
+    Raises :class:`NotProved` where the reduction does not apply, :class:`InputError` for an unknown family.
+    """
+    proof = tableau.proof
+    if proof is None:
+        raise NotProved("the file names no equations")
+    if proof.reduction == "simplifying":
+        order = simplifying_order(**{key: proof.assumptions.get(key, 0) for key in "BCD"})
+        return Equations(tableau, proof, (("rk", _reached(proof, order)),))
+    if proof.reduction == "symmetric":
+        if properties(tableau).get("symmetric") is not True:
+            raise NotProved("reduction: the method is not symmetric by its spelling")
+        if proof.order % 2:
+            raise NotProved(
+                f"reduction: the order of a symmetric method is even, the file says {proof.order}"
+            )
+        label = (
+            COMPOSITION if isinstance(tableau.method, Composition) else families.get(proof.conditions).label()
+        )
+        return Equations(tableau, proof, ((label, proof.order),))
+    if proof.reduction == "low-storage":
+        if not any(place.startswith("low_storage.") for place in proof.spelled.expressions):
+            raise NotProved("reduction: the file gives no low_storage scheme")
+        if proof.conditions != "rk" or proof.order > LOW_STORAGE_ORDER:
+            raise NotProved(f'reduction: low-storage takes conditions = "rk" up to order {LOW_STORAGE_ORDER}')
+        return Equations(tableau, proof, (("rk", proof.order), ("cf", proof.order)))
+    return Equations(tableau, proof, ((families.get(proof.conditions).label(), proof.order),))
+
+
+def _reached(proof: Proof, order: int) -> int:
+    if proof.order > order:
+        raise NotProved(f"reduction: it implies order {order}, the file says {proof.order}")
+    return proof.order
+
+
+@lru_cache(maxsize=16)
+def symmetric_words(order: int) -> tuple[tuple[int, ...], ...]:
+    """Return the Lyndon words of odd weight below ``order`` in the letters 1, 3, 5, ...
+
+    >>> symmetric_words(6)
+    ((1,), (3,), (1, 1, 3), (5,))
+    """
+    return tuple(
+        word for n in range(1, order, 2) for word in lyndon_words(tuple(range(1, n + 1, 2)), n, weigh=int)
+    )
+
+
+def symmetric_composition(gamma: Sequence[Element], ring: Ring, order: int) -> Iterator[Element]:
+    """Yield the conditions of a symmetric composition of a symmetric method of order 2 (HLW V.3.2).
+
+    The basic method is exp(h E_1 + h^3 E_3 + ...); the coefficient of a word in the E is sum over i_1 <=
+    ... <= i_k of prod gamma_i^(letter) / (run lengths)!, and that of the exact flow exp(h E_1) is 0 where
+    a letter is not 1.
+    """
+    powers: dict[int, list[Element]] = {1: list(gamma)}
+    for n in range(2, order):
+        powers[n] = [x * g for x, g in zip(powers[n - 1], gamma, strict=True)]
+    known: dict[tuple[int, ...], list[Element]] = {(): [ring.one] * (len(gamma) + 1)}
+
+    def partial(word: tuple[int, ...]) -> list[Element]:
+        if word not in known:
+            found = [ring.zero]
+            for i in range(len(gamma)):
+                value, run = found[-1], ring.one
+                for r, letter in enumerate(reversed(word), start=1):
+                    run = run * powers[letter][i]
+                    value = value + partial(word[: len(word) - r])[i] * run * ring.rational(1, factorial(r))
+                found.append(value)
+            known[word] = found
+        return known[word]
+
+    for word in symmetric_words(order):
+        yield partial(word)[-1] - (1 if word == (1,) else 0)
+
+
+def simplifying_order(B: int, C: int, D: int) -> int:
+    """Return the order that B(p), C(q), D(r) imply.
+
+    >>> simplifying_order(6, 3, 2), simplifying_order(10, 5, 5)
+    (6, 10)
+    """
+    return min(B, C + D + 1, 2 * C + 2)
+
+
+def simplifying(method: Any, ring: Ring, assumptions: Mapping[str, int]) -> Iterator[Element]:
+    """Yield the simplifying assumptions B(p), C(q), D(r), for k = 1, ... up to p, q, r.
+
+    B: sum b_i c_i^(k-1) = 1/k; C: sum_j a_ij c_j^(k-1) = c_i^k/k, where k = 1 defines c;
+    D: sum_i b_i c_i^(k-1) a_ij = b_j (1 - c_j^k)/k.
+    """
+    A, b, stages = method.A, method.b, range(method.s)
+    c = [sum(row, ring.zero) for row in A]
+    powers = [[ring.one] * method.s]
+    for _ in range(max(assumptions.values())):
+        powers.append([x * y for x, y in zip(powers[-1], c, strict=True)])
+    for k in range(1, assumptions.get("B", 0) + 1):
+        yield _dot(b, powers[k - 1], ring) - ring.rational(1, k)
+    for k in range(2, assumptions.get("C", 0) + 1):
+        for i in stages:
+            yield _dot(A[i], powers[k - 1], ring) - powers[k][i] * ring.rational(1, k)
+    for k in range(1, assumptions.get("D", 0) + 1):
+        for j in stages:
+            column = _dot([b[i] * A[i][j] for i in stages], powers[k - 1], ring)
+            yield column - b[j] * (ring.one - powers[k][j]) * ring.rational(1, k)
+
+
+def _dot(x: Sequence[Element], y: Sequence[Element], ring: Ring) -> Element:
+    return sum((p * q for p, q in zip(x, y, strict=True)), ring.zero)
+
+
+def independent(system: Equations, box: Sequence[Jet], ring: Jets) -> list[int]:
+    """Return the places of the equations that are not satisfied identically, whatever the unknowns are.
+
+    Those that a box cannot tell from constants are evaluated as polynomials in the unknowns; one that is
+    the zero polynomial is left out. ``box`` are jets of the unknowns.
+    """
+    values = system(box, ring)
+    flat = [i for i, f in enumerate(values) if f.value.contains(0) and all(g.contains(0) for g in f.gradient)]
+    if not flat:
+        return list(range(len(values)))
+    from orderconds.ring.polynomials import Polynomials
+
+    R = Polynomials([f"x{i}" for i in range(len(box))])
+    try:
+        exact = system(R.generators, R)
+    except (AttributeError, ArithmeticError, ValueError, TypeError):  # radicals or quotients of unknowns
+        return list(range(len(values)))
+    identical = {i for i in flat if R.is_zero(exact[i])}
+    return [i for i in range(len(values)) if i not in identical]

@@ -1,0 +1,75 @@
+"""What a proved order in one family says of the order in another: theorems, each with its source.
+
+A fact is (label of a family, order). ``cg`` 4 implies ``rk`` 4, since a vector space is a group; every family
+has the conditions of ``rk`` up to order 2, since no bracket or momentum enters before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from orderconds.families import Family
+
+Fact = tuple[str, int]
+
+ABELIAN = {
+    "rk": ("symplectic_rk",),
+    "cg": ("rk", "cf"),
+    "cf": ("rk",),
+    "sprk": ("rk",),
+    "prk": ("rk",),
+    "vcg": ("cg", "sprk", "vcf"),
+    "vcf": ("cf",),
+    "composition": ("rk", "symplectic_rk", "sprk", "cg", "cf", "vcg", "vcf"),
+}
+"""A family to those whose conditions are among its own, at every order.
+
+Groups contain vector spaces; T*G contains the flow on G of a Hamiltonian linear in the momentum, and T*V
+of a vector space V. Crouch-Grossman methods are commutator-free ones. A composition of midpoints is one in
+each family (Bogfjellmo and Marthinsen, Lemma 3.5.4)."""
+
+
+ONE_TABLEAU = ("rk", "symplectic_rk", "sprk", "cg", "cf", "rkmk", "vcg", "vcf", "vrkmk")
+"""Families with the conditions of ``rk``, and no others, up to order 2."""
+
+
+def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
+    """Say whether ``facts`` about a tableau imply that it has at least this order in ``family``.
+
+    >>> from orderconds import families
+    >>> facts = [("cg", 4)]
+    >>> implied(facts, families.get("rk"), 4), implied(facts, families.get("rkmk(1)"), 3)
+    (True, True)
+    >>> implied(facts, families.get("vcg"), 2), implied(facts, families.get("vcg"), 3)
+    (True, False)
+    """
+    known = dict[str, int]()
+    waiting = list(facts)
+    while waiting:
+        label, proved = waiting.pop()
+        if proved > known.get(label, 0):
+            known[label] = proved
+            base = label.partition("(")[0]
+            waiting += [(other, proved) for other in ABELIAN.get(base, ())]
+            if base in ("rkmk", "vrkmk"):
+                waiting.append(("rk" if base == "rkmk" else "sprk", proved))
+    best = known.get(family.label(), 0)
+    if family.name in ONE_TABLEAU:
+        best = max(best, min(2, known.get("rk", 0)))
+    if family.name in ("rkmk", "vrkmk"):
+        best = max(best, _truncated(known.get("rk" if family.name == "rkmk" else "sprk", 0), family))
+    return order <= best
+
+
+def _truncated(abelian: int, family: Any) -> int:
+    """Return min(p, R + 2), p the order where brackets vanish.
+
+    dexpinv cut after r leaves an error of h^(r+3), and B_(r+1) = 0 for even r >= 2 makes the cut after r that
+    after R = r + 1 (HLW Theorem IV.8.4; Bogfjellmo and Marthinsen, Theorem 3.5.3).
+    """
+    r = family.cutoff
+    if r is None:
+        return abelian
+    kept = r + 1 if r >= 2 and r % 2 == 0 else r
+    return min(abelian, int(kept) + 2)

@@ -1,0 +1,183 @@
+"""Newton's method in high precision from the few digits that a source prints, free parameters pinned.
+
+Where there are more decimals than equations, the Jacobian's elimination with complete pivoting says which of
+them the equations determine best; the others keep their printed digits exactly.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from flint import arb, arb_mat, fmpq
+
+from orderconds.proof.equations import equations, independent
+from orderconds.proof.krawczyk import NotProved, jets
+from orderconds.ring import QQ
+from orderconds.ring.decimals import endpoints
+from orderconds.ring.jets import Jets
+from orderconds.ring.precision import precision
+from orderconds.tableau import Tableau
+from orderconds.tableau.unknowns import Proof
+
+MAX_STEPS = 60
+TOLERANCE = fmpq(1, 100)
+"""Newton's method may not move a number further than this: it would be another method's."""
+
+
+@dataclass(frozen=True)
+class Refined:
+    """New ``decimals`` by name, the names that were ``pinned``, and the text of the file with them."""
+
+    decimals: dict[str, str]
+    pinned: tuple[str, ...]
+    text: str
+
+
+def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
+    """Return a tableau file with ``digits`` places in the decimals of its ``[proof]``, and the pins it needs.
+
+    The digits that were there are recorded as ``printed``, unless the file has such a record. Raises
+    :class:`~orderconds.proof.krawczyk.NotProved` where Newton's method does not converge nearby.
+    """
+    tableau = Tableau.loads(text, where)
+    if tableau.proof is None:
+        raise NotProved("the file has no [proof] that names the equations")
+    proof = tableau.proof
+    with precision(64 + 4 * digits):
+        start = [arb(_rational(u.constant.value)) for u in proof.unknowns]
+        ring = Jets(len(start))
+        at = [ring.variable(i, x) for i, x in enumerate(start)]
+        system = equations(tableau)
+        # Constants of the equations show on a box, not at a point.
+        wide = [ring.variable(i, x + arb(0, 1e-6)) for i, x in enumerate(start)]
+        kept = independent(system, wide, ring)
+        values = system(at, ring)
+        free = determined([[values[i].gradient[j] for j in range(len(start))] for i in kept])
+        solved = _newton(tableau, kept, free, start, digits)
+    decimals = {proof.unknowns[j].name: x for j, x in zip(free, solved, strict=True)}
+    pinned = (
+        *(u.name for u in proof.pinned),
+        *(u.name for j, u in enumerate(proof.unknowns) if j not in free),
+    )
+    return Refined(decimals, pinned, _rewritten(text, proof, decimals, pinned))
+
+
+def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
+    """Return the unknowns that elimination with complete pivoting solves for, in rising order.
+
+    Raises :class:`~orderconds.proof.krawczyk.NotProved` where the rows are dependent to working precision.
+    """
+    rows = [[x.mid() for x in row] for row in jacobian]
+    chosen: list[int] = []
+    while rows:
+        entries = (
+            (float(abs(x)), i, j) for i, row in enumerate(rows) for j, x in enumerate(row) if j not in chosen
+        )
+        size, i, j = max(entries, default=(0.0, 0, 0))
+        if size < 1e-8:
+            raise NotProved(f"{len(rows)} of {len(jacobian)} equations depend on the others at the decimals")
+        pivot = rows.pop(i)
+        chosen.append(j)
+        rows = [[x - row[j] / pivot[j] * y for x, y in zip(row, pivot, strict=True)] for row in rows]
+    return sorted(chosen)
+
+
+def _newton(
+    tableau: Tableau, kept: Sequence[int], free: Sequence[int], start: Sequence[arb], digits: int
+) -> list[str]:
+    system = equations(tableau)
+    point = list(start)
+    for _ in range(MAX_STEPS):
+        values = jets(system, point)
+        jacobian = arb_mat(len(kept), len(free), [values[i].gradient[j] for i in kept for j in free]).mid()
+        try:
+            step = jacobian.solve(arb_mat(len(kept), 1, [values[i].value.mid() for i in kept]))
+        except ZeroDivisionError:
+            raise NotProved("Newton's method met a singular Jacobian") from None
+        for place, j in enumerate(free):
+            point[j] = (point[j] - step[place, 0]).mid()
+            if not abs(point[j] - start[j]) < arb(TOLERANCE):
+                raise NotProved("Newton's method leaves the decimals: they solve no such equations")
+        if all(abs(step[place, 0]).upper() < arb(10) ** -(digits + 5) for place in range(len(free))):
+            return [_decimal(point[j], digits) for j in free]
+    raise NotProved("Newton's method does not converge from the decimals")
+
+
+def _decimal(x: arb, digits: int) -> str:
+    """Spell a positive number with so many places."""
+    low, high = endpoints(x)
+    figures = str(int(((low + high) / 2 * fmpq(10) ** digits).round())).rjust(digits + 1, "0")
+    return f"{figures[:-digits]}.{figures[-digits:]}"
+
+
+def _rational(x: object) -> fmpq:
+    numerator, denominator = x.as_integer_ratio()  # type: ignore[attr-defined]
+    return fmpq(numerator, denominator)
+
+
+def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequence[str]) -> str:
+    """Return the file with new digits for old ones, pins and printed digits recorded under ``[proof]``."""
+    record = dict[str, str]()
+    for unknown in proof.unknowns:
+        if unknown.name not in decimals:
+            continue
+        value, unit = unknown.constant.value, unknown.constant.unit
+        places = len(str(unit.denominator)) - 1
+        old = re.compile(rf"(?<![\d.])0*{_figures(value, places)}~")
+        text, count = old.subn(decimals[unknown.name] + "~", text)
+        if count == 0:
+            raise NotProved(f"cannot find the digits of {unknown.name} in the text of the file")
+        record[unknown.name] = _printed(proof, unknown.name)
+    kept = {name: _spelled(value) for name, value in proof.printed.items()} or record
+    lines, skipping = list[str](), False
+    for line in text.splitlines():
+        if line.startswith("["):
+            skipping = line.strip() == "[proof.printed]"
+        if not skipping and not re.match(r"(pins|printed)\s*=", line):
+            lines.append(line)
+    at = next(i for i, line in enumerate(lines) if line.strip() == "[proof]")
+    end = next((i for i in range(at + 1, len(lines)) if lines[i].startswith("[")), len(lines))
+    while not lines[end - 1].strip():
+        end -= 1
+    added = [f"pins = [{', '.join(_quoted(name) for name in pinned)}]"] if pinned else []
+    added += ["", "[proof.printed]", *(f"{_key(name)} = {_quoted(x)}" for name, x in kept.items())]
+    return "\n".join([*lines[:end], *added, *lines[end:]]) + "\n"
+
+
+def _figures(value: object, places: int) -> str:
+    scaled = int(value * 10**places)
+    figures = str(scaled).rjust(places + 1, "0")
+    whole = figures[: len(figures) - places].lstrip("0")
+    part = figures[len(figures) - places :]
+    return (whole or "0?") + (rf"\.{part}" if places else r"\.?")
+
+
+def _printed(proof: Proof, name: str) -> str:
+    """Return the number of that name with the decimals as they stand."""
+    at = replace(proof, pinned=(*proof.pinned, *proof.unknowns), unknowns=())
+    value = at.number(name, QQ, {})  # type: ignore[arg-type]  # a decimal has no radicals
+    return _spelled(Fraction(int(value.p), int(value.q)))
+
+
+def _spelled(x: Fraction) -> str:
+    """Spell a rational as a decimal where it is one.
+
+    >>> _spelled(Fraction(-1, 8)), _spelled(Fraction(1, 3))
+    ('-0.125', '1/3')
+    """
+    places = next((n for n in range(60) if 10**n % x.denominator == 0), None)
+    if not places:
+        return str(x)
+    figures = str(abs(x.numerator) * 10**places // x.denominator).rjust(places + 1, "0")
+    return f"{'-' if x < 0 else ''}{figures[:-places]}.{figures[-places:]}"
+
+
+def _quoted(x: str) -> str:
+    return f'"{x}"'
+
+
+def _key(x: str) -> str:
+    return x if re.fullmatch(r"[A-Za-z0-9_-]+", x) else _quoted(x)

@@ -1,0 +1,129 @@
+"""The rounded decimals of a file as unknowns of equations, and what the file says of their proof.
+
+A decimal with ``~`` stands for a number that nobody can spell exactly. With a ``[proof]`` table it is an
+unknown: the true method solves the order conditions that the table names, near the decimals of the file.
+
+::
+
+    [proof]
+    conditions = "cg"          # the family whose independent conditions are the equations
+    order = 4                  # all of them up to this order
+    pins = ["a31", "a42"]      # decimals taken at their word: exact, no unknowns
+    reduction = "symmetric"    # optional: what makes fewer equations enough
+    printed = { a21 = "0.8177227988124852" }   # optional: as the source prints them
+
+An unknown is named as under ``numbers``, or by its place (``A[2][1]``). Equal spellings are one unknown.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any, Protocol
+
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.evaluate import Definition, evaluate_in, rounded_and_exact
+from orderconds.tableau.grammar import Constant, Expression, Name
+from orderconds.tableau.methods import Embedded, Method
+
+
+class RootedRing(Ring, Protocol):
+    """A ring in which radicals can be taken: balls, jets."""
+
+    def root(self, x: Element, index: int) -> Element:
+        """Return the real root."""
+
+
+@dataclass(frozen=True)
+class Unknown:
+    """A rounded decimal: its name, and the one positive constant that is spelled in the file."""
+
+    name: str
+    constant: Constant
+
+
+@dataclass(frozen=True)
+class Proof:
+    """What a file says of the equations that its decimals solve; ``printed`` are the source's numbers.
+
+    ``unknowns`` are what the equations are solved for, ``pinned`` the decimals taken as exact.
+    """
+
+    conditions: str
+    order: int
+    reduction: str | None
+    assumptions: Mapping[str, int]
+    printed: Mapping[str, Fraction]
+    unknowns: tuple[Unknown, ...]
+    pinned: tuple[Unknown, ...]
+    spelled: Spelled = field(repr=False)
+
+    def over(self, ring: RootedRing, values: Mapping[str, Element]) -> tuple[Method, Embedded | None]:
+        """Return the method with ``values`` for the unknowns and the pinned decimals as exact numbers."""
+        return self.spelled.method(ring, self._known(ring, values))
+
+    def number(self, name: str, ring: RootedRing, values: Mapping[str, Element]) -> Element:
+        """Return the number of that name, or at that place, with ``values`` for the unknowns."""
+        return self.spelled.number(name, ring, self._known(ring, values))
+
+    def _known(self, ring: RootedRing, values: Mapping[str, Element]) -> dict[Constant, Element]:
+        known = {u.constant: values[u.name] for u in self.unknowns}
+        for u in self.pinned:
+            known[u.constant] = ring.rational(*u.constant.value.as_integer_ratio())
+        return known
+
+
+@dataclass(frozen=True)
+class Spelled:
+    """The parsed coefficients of a file, to be evaluated in another ring or with other decimals."""
+
+    expressions: Mapping[str, Expression]
+    numbers: Mapping[str, Definition]
+    where: str
+    build: Callable[[Mapping[str, Element], Ring], tuple[Method, Embedded | None]]
+
+    def method(self, ring: RootedRing, known: Mapping[Constant, Element]) -> tuple[Method, Embedded | None]:
+        """Return the method with the given values for its decimals."""
+        values = evaluate_in(_Substituted(ring, known), self.expressions, self.numbers, self.where)
+        return self.build(values, ring)
+
+    def number(self, name: str, ring: RootedRing, known: Mapping[Constant, Element]) -> Element:
+        """Return one number of the file, by its name or its place."""
+        spelled = {name: Name(name) if name in self.numbers else self.expressions[name]}
+        return evaluate_in(_Substituted(ring, known), spelled, self.numbers, self.where)[name]
+
+    def decimals(self) -> tuple[Unknown, ...]:
+        """Return every rounded decimal, named numbers first, in the order of the file."""
+        found: dict[Constant, str] = {}
+        for name, definition in (*self.numbers.items(), *self.expressions.items()):
+            for constant in rounded_and_exact(definition):
+                if constant.unit:
+                    found.setdefault(constant, name)
+        names = list(found.values())
+        return tuple(
+            Unknown(name if names.count(name) == 1 else f"{name}: {float(constant.value):.6g}", constant)
+            for constant, name in found.items()
+        )
+
+
+class _Substituted:
+    """Scalars of a ring in which the rounded decimals have the values given."""
+
+    def __init__(self, ring: RootedRing, known: Mapping[Constant, Element]) -> None:
+        self.ring, self.known = ring, known
+
+    def constant(self, value: Fraction, unit: Fraction) -> Element:
+        if unit:
+            return self.known[Constant(value, unit)]
+        return self.ring.rational(value.numerator, value.denominator)
+
+    def root(self, x: Element, index: int) -> Element:
+        return self.ring.root(x, index)
+
+    def named_root(self, minpoly: Any, near: Fraction, unit: Fraction, name: str) -> Element:
+        found: Any = self.ring
+        return found.named_root(minpoly, near, unit, name)
+
+    def size(self, x: Element) -> int:
+        return 0  # what explodes was refused when the file was read
