@@ -36,7 +36,7 @@ BUILT_IN = {
         "orderconds.commands.refine",
         "Sharpen the decimals of a tableau by Newton's method and prove them.",
     ),
-    "trees": ("orderconds.commands.trees", "Enumerate trees, forests and Lyndon words."),
+    "trees": ("orderconds.commands.trees", "Enumerate, draw and explain trees, forests and Lyndon words."),
 }
 """Built-in commands: name -> (module that holds ``command``, one line for --help)."""
 

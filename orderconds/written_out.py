@@ -11,17 +11,49 @@ from orderconds import families
 from orderconds.derive import Derivation
 from orderconds.errors import InputError
 from orderconds.formula import Coefficient, Formula, Power, Product, Total
+from orderconds.ring.protocol import Element
+
+Name = tuple[str, tuple[str, ...]]
+"""A coefficient's letter and indices."""
 
 
-def write_out(derivation: Derivation, stages: int) -> Derivation:
-    """Return the same conditions as polynomials in the entries of a full tableau with ``stages`` stages.
+def write_out(derivation: Derivation, stages: int, *, explicit: bool = False) -> Derivation:
+    """Return the same conditions as polynomials in the entries of a tableau with ``stages`` stages.
 
-    The engine itself is run over a ring of (Laurent) polynomials. Raises
+    The tableau is full, or with ``explicit`` strictly lower triangular. Raises
     :class:`~orderconds.errors.InputError` for a family whose coefficients are not those of a Butcher tableau.
 
     >>> from orderconds.derive import derive
-    >>> print(write_out(derive("rk", order=1), 2).conditions[0])
-    b_1 + b_2 = 1
+    >>> derivation = derive("rk", order=2)
+    >>> print(*write_out(derivation, 2).conditions, sep="; ")
+    b_1 + b_2 = 1; b_1 a_11 + b_1 a_12 + b_2 a_21 + b_2 a_22 = 1/2
+    >>> print(write_out(derivation, 2, explicit=True).conditions[-1])
+    b_2 a_21 = 1/2
+    """
+    ring, names, values = polynomials(derivation, stages, explicit=explicit)
+    symbols = [Coefficient(*name) for name in names]
+    written = iter(values)
+    return replace(
+        derivation,
+        by_order=tuple(
+            tuple(replace(c, source=_formula(symbols, ring.terms(next(written)))) for c in conditions)
+            for conditions in derivation.by_order
+        ),
+    )
+
+
+def polynomials(
+    derivation: Derivation, stages: int, *, explicit: bool = False
+) -> tuple[Any, tuple[Name, ...], tuple[Element, ...]]:
+    """Return a ring of polynomials, its variables, and the left-hand sides as elements of the ring.
+
+    The engine itself is run over that ring: polynomials, or Laurent polynomials for a family that divides by
+    weights. Raises :class:`~orderconds.errors.InputError` as :func:`write_out` does.
+
+    >>> from orderconds.derive import derive
+    >>> ring, names, values = polynomials(derive("rk", order=2), 2, explicit=True)
+    >>> names, ring.text(values[1])
+    ((('b', ('1',)), ('b', ('2',)), ('a', ('2', '1'))), 'b_2*a_2_1')
     """
     family = families.get(derivation.family)
     if family.formats[0] != "rk":
@@ -32,23 +64,21 @@ def write_out(derivation: Derivation, stages: int) -> Derivation:
             hint="leave --stages out",
         )
     from orderconds.ring.laurent import LaurentPolynomials
+    from orderconds.ring.polynomials import Polynomials
     from orderconds.tableau import RungeKutta
 
-    indices = [str(i) for i in range(1, stages + 1)]
-    names = [("b", (i,)) for i in indices] + [("a", (i, j)) for i in indices for j in indices]
-    ring = LaurentPolynomials([name + "_".join(index) for name, index in names])
-    b, a = ring.generators[:stages], ring.generators[stages:]
-    method = RungeKutta(A=tuple(a[i * stages : (i + 1) * stages] for i in range(stages)), b=tuple(b))
-    symbols = [Coefficient(name, index) for name, index in names]
-
-    def written(conditions: Iterable[Any]) -> tuple[Any, ...]:
-        values = family.evaluate(method, ring, tuple(conditions))
-        return tuple(
-            replace(condition, source=_formula(symbols, ring.terms(value)))
-            for condition, value in zip(conditions, values, strict=True)
-        )
-
-    return replace(derivation, by_order=tuple(written(conditions) for conditions in derivation.by_order))
+    rows = range(1, stages + 1)
+    entries = [(i, j) for i in rows for j in (range(1, i) if explicit else rows)]
+    names: list[Name] = [("b", (str(i),)) for i in rows] + [("a", (str(i), str(j))) for i, j in entries]
+    # A family that reads other formats too completes the tableau to a pair, and divides by weights for that.
+    divides = family.needs_nonzero_weights or family.formats != ("rk",)
+    ring = (LaurentPolynomials if divides else Polynomials)(["_".join((n, *ix)) for n, ix in names])
+    a = dict(zip(entries, ring.generators[stages:], strict=True))
+    method = RungeKutta(
+        A=tuple(tuple(a.get((i, j), ring.zero) for j in rows) for i in rows),
+        b=tuple(ring.generators[:stages]),
+    )
+    return ring, tuple(names), family.evaluate(method, ring, derivation.conditions)
 
 
 def _formula(symbols: list[Coefficient], terms: Iterable[tuple[tuple[int, ...], Any]]) -> Formula:

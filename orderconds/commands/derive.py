@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import click
@@ -19,51 +18,103 @@ FORMATS = ("text", "latex", "sympy", "json")
 @click.argument("family")
 @click.option("--order", "-p", type=click.IntRange(1, 20), required=True, help="Highest order.")
 @click.option("--stages", "-s", type=click.IntRange(1, 12), help="Write the sums out for this many stages.")
+@click.option("--explicit", is_flag=True, help="With --stages: a_ij = 0 for j >= i.")
 @click.option("--format", "form", type=click.Choice(FORMATS), default="text", show_default=True)
-@click.option("--all", "every", is_flag=True, help="Every tree's condition, not only an independent set.")
+@click.option(
+    "--all",
+    "every",
+    is_flag=True,
+    help="Every tree's condition, dependent ones with what they equal; <tree> is a tree's left-hand side.",
+)
+@click.option("--explain", is_flag=True, help="Draw each tree and name its elementary differential.")
 @click.option("--json", "as_json", is_flag=True, help="The same as --format json.")
-def command(family: str, order: int, stages: int | None, form: str, every: bool, as_json: bool) -> int:
+def command(
+    family: str,
+    order: int,
+    stages: int | None,
+    explicit: bool,
+    form: str,
+    every: bool,
+    explain: bool,
+    as_json: bool,
+) -> int:
     """Print the independent order conditions of FAMILY (rk, vcg, "rkmk(1)", ...) up to an order."""
     from orderconds.derive import derive
 
+    if explicit and stages is None:
+        raise click.UsageError("--explicit says how the tableau of --stages S is filled; give --stages too")
     with screen.working(f"deriving {family} to order {order}"):
         derivation = derive(family, order, every=every)
         if stages is not None:
             from orderconds.written_out import write_out
 
-            derivation = write_out(derivation, stages)
+            derivation = write_out(derivation, stages, explicit=explicit)
     match "json" if as_json else form:
         case "json":
-            screen.print_json(derivation.as_json())
+            _print_json(derivation, explain)
         case "latex":
-            _print_latex(derivation)
+            _print_latex(derivation, explain)
         case "sympy":
             for condition in derivation.conditions:
                 click.echo(condition.sympy())
         case _:
-            _print_text(derivation)
+            _print_text(derivation, explain)
     return 0
 
 
-def _print_text(derivation: Derivation) -> None:
+def _print_text(derivation: Derivation, explain: bool) -> None:
     """Print each order with its count, its trees and its equations."""
     click.echo(f"{derivation.family}: {', '.join(map(str, derivation.counts))} conditions of order 1, 2, ...")
     for order, conditions in enumerate(derivation.by_order, start=1):
         click.echo(f"\norder {order}: {len(conditions)} condition{'' if len(conditions) == 1 else 's'}")
-        screen.print_table(
-            ("tree", "condition"), [(condition.tree, str(condition)) for condition in conditions], indent=2
+        if explain:
+            _print_entries(derivation, order)
+            continue
+        columns: tuple[str, ...] = ("tree", "condition")
+        rows: list[tuple[str, ...]] = [(condition.tree, str(condition)) for condition in conditions]
+        if any(condition.relation is not None for condition in conditions):
+            columns += ("equals",)
+            rows = [(*row, c.relation or "") for row, c in zip(rows, conditions, strict=True)]
+        screen.print_table(columns, rows, indent=2)
+
+
+def _print_entries(derivation: Derivation, order: int) -> None:
+    """Print the conditions of an order, each under a drawing of its tree and what that names."""
+    from orderconds.explain import kinds
+
+    kind = kinds.of_family(derivation.family)
+    for condition in derivation.by_order[order - 1]:
+        lines = (
+            [condition.tree, f"    condition  {condition}"]
+            if kind is None
+            else kind.entry(condition.key, condition, screen.drawing_style())
         )
+        click.echo("\n".join(f"  {line}" for line in lines))
 
 
-def _print_latex(derivation: Derivation) -> None:
-    r"""Print one ``align*`` environment (package amsmath), the trees as comments."""
-    lines = list(_aligned(derivation))
-    click.echo("\n".join([r"\begin{align*}", *lines, r"\end{align*}"]))
+def _print_json(derivation: Derivation, explain: bool) -> None:
+    """Print the record; with ``explain`` each condition says what its tree names."""
+    record = derivation.as_json()
+    if explain:
+        from orderconds.explain.kinds import named_by
+
+        for entry, condition in zip(record["conditions"], derivation.conditions, strict=True):
+            entry["names"] = named_by(condition)
+    screen.print_json(record)
 
 
-def _aligned(derivation: Derivation) -> Iterator[str]:
-    for number, condition in enumerate(derivation.conditions, start=1):
-        left, _, right = condition.latex_equation.rpartition(" = ")
-        end = r" \\" if number < len(derivation.conditions) else ""
-        yield f"  % order {condition.order}, {condition.tree}"
-        yield f"  {left} &= {right}{end}"
+def _print_latex(derivation: Derivation, explain: bool) -> None:
+    r"""Print one ``align*`` environment (package amsmath), trees and relations as comments."""
+    from orderconds.explain.kinds import named_by
+    from orderconds.formula.equations import aligned
+    from orderconds.formula.spelling import fraction_latex
+
+    rows = []
+    for condition in derivation.conditions:
+        comment = f"order {condition.order}, {condition.tree}"
+        if explain:
+            comment += f"\nnames {named_by(condition)}"
+        if condition.relation is not None:
+            comment += f"\nequals {condition.relation}"
+        rows.append((comment, condition.latex, fraction_latex(condition.rhs)))
+    click.echo(aligned(rows))

@@ -6,14 +6,34 @@ import json
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
+
+if TYPE_CHECKING:
+    from orderconds.explain.lines import Style
 
 
 def is_terminal() -> bool:
     """Say whether a person is reading stdout; colours, rules and progress are only for them."""
     return sys.stdout.isatty()
+
+
+def drawing_style(plain: bool = False) -> Style:
+    """Return how to draw trees on stdout: in Unicode, or in ASCII if asked to or if the encoding has no more.
+
+    >>> drawing_style(plain=True).signs["dot"]
+    'o'
+    """
+    from orderconds.explain import lines
+
+    try:
+        "".join([*lines.UNICODE.signs.values(), *lines.UNICODE.edges.values()]).encode(
+            getattr(sys.stdout, "encoding", None) or "ascii"
+        )
+    except UnicodeEncodeError:
+        return lines.ASCII
+    return lines.ASCII if plain else lines.UNICODE
 
 
 @contextmanager

@@ -1,153 +1,107 @@
-"""``orderconds trees``: enumerate, count and draw trees, forests and Lyndon words of one order."""
+"""``orderconds trees``: enumerate, count, draw and explain trees, forests and Lyndon words of one order."""
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from orderconds.commands import screen
-from orderconds.errors import UnknownName
+
+if TYPE_CHECKING:
+    from orderconds.explain.kinds import Kind
 
 
-@dataclass(frozen=True)
-class Kind:
-    """What one KIND enumerates: its members of an order, their number, their text and their drawing."""
-
-    members: Callable[[int], Iterable[Any]]
-    count: Callable[[int], int]
-    text: Callable[[Any], str]
-    draw: Callable[[Any], list[str]]
-
-
-@click.command(name="trees", short_help="Enumerate trees, forests and Lyndon words.")
+@click.command(name="trees", short_help="Enumerate, draw and explain trees, forests and Lyndon words.")
 @click.argument("kind")
 @click.option("--order", "-p", type=click.IntRange(1, 40), required=True, help="How many vertices.")
 @click.option("--count", is_flag=True, help="Only their number, from its generating function.")
 @click.option("--draw", is_flag=True, help="A drawing of each.")
+@click.option("--explain", is_flag=True, help="A drawing of each, what it names, and its order condition.")
+@click.option("--ascii", "plain", is_flag=True, help="Draw with ASCII signs only.")
+@click.option("--svg", type=click.Path(dir_okay=False), help="Write all drawings to this file as SVG.")
 @click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
-def command(kind: str, order: int, count: bool, draw: bool, as_json: bool) -> int:
-    """Enumerate the trees of one KIND with so many vertices: rooted (unordered), ordered (planar),
-    directed (free trees whose edges carry a direction), forests (of ordered trees), or lyndon (Lyndon
-    words over ordered trees).
+def command(
+    kind: str, order: int, count: bool, draw: bool, explain: bool, plain: bool, svg: str | None, as_json: bool
+) -> int:
+    """Enumerate the trees of one KIND with so many vertices.
+
+    \b
+    rooted       rooted trees, unordered                       rk
+    ordered      ordered (planar) rooted trees                 cg, cf, rkmk
+    forests      words of ordered trees                        cg, cf, rkmk
+    lyndon       Lyndon words of ordered trees                 cg, cf, rkmk
+    bicoloured   rooted trees with vertices of two colours     prk
+    free         free (unrooted) trees                         symplectic_rk
+    essential    free trees without two equal halves           symplectic_rk
+    directed     free trees whose edges carry a direction      sprk
+    directed-rooted  rooted trees with such edges              prk_same_weights
+    alternating  free trees whose neighbours differ in colour  sprk_separable
+    action       action trees of variational methods           vcg, vcf, vrkmk
+
+    In drawings the root stands on top. A directed edge leads from a derivative in q to one in p (or mu); a
+    diamond (L) is a coadjoint action on mu. (>*>) behind a vertex says where, among its branches, its
+    own direction stands in the word of derivatives.
     """
-    found = _kind(kind)
-    number = found.count(order)
+    from orderconds.explain import kinds
+
+    found = kinds.get(kind)
+    if svg is not None:
+        _write_svg(found, order, svg, explain)
     if as_json:
-        record: dict[str, Any] = {"kind": kind, "order": order, "count": number}
-        screen.print_json(record if count else {**record, "trees": [*map(found.text, found.members(order))]})
+        screen.print_json(_record(kind, found, order, count, draw, explain, plain))
     elif count:
-        click.echo(number)
-    else:
-        for member in found.members(order):
-            click.echo(found.text(member))
-            if draw:
-                click.echo("".join(f"    {line}\n" for line in found.draw(member)))
+        click.echo(found.count(order))
+    elif svg is None:
+        for line in _listed(found, order, draw, explain, plain):
+            click.echo(line)
     return 0
 
 
-def draw_tree(level_sequence: Iterable[int], marks: Iterable[str] = ()) -> list[str]:
-    r"""Draw a rooted tree, the root on top, a vertex a line, from its levels in preorder.
+def _record(
+    name: str, kind: Kind, order: int, count: bool, draw: bool, explain: bool, plain: bool
+) -> dict[str, Any]:
+    from orderconds.explain import lines
 
-    ``marks`` stand in front of the vertices, one each.
-
-    >>> print("\n".join(draw_tree([0, 1, 2, 1])))
-    o
-    +-o
-    | +-o
-    +-o
-    """
-    levels = list(level_sequence)
-    signs = list(marks) or ["-"] * len(levels)
-    lines = []
-    for place, level in enumerate(levels):
-        # A line runs down at level k where another child of the vertex at level k - 1 still follows.
-        rails = ["| " if _continues(levels[place + 1 :], k) else "  " for k in range(1, level)]
-        lines.append("".join(rails) + (f"+{signs[place]}" if level else "") + "o")
-    return lines
-
-
-def _continues(after: list[int], level: int) -> bool:
-    return next((found == level for found in after if found <= level), False)
+    record: dict[str, Any] = {"kind": name, "order": order, "count": kind.count(order)}
+    if count:
+        return record
+    members = list(kind.members(order))
+    record["trees"] = [kind.text(member) for member in members]
+    if draw:
+        style = lines.ASCII if plain else lines.UNICODE
+        record["drawings"] = [lines.draw(kind.diagram(member), style) for member in members]
+    if explain:
+        conditions = kind.conditions(order)
+        record["names"] = [kind.names(member) for member in members]
+        record["conditions"] = [str(conditions[member]) for member in members]
+    return record
 
 
-def _draw_directed(tree: bytes) -> list[str]:
-    """Draw a rooting of a directed tree: ``>`` an edge away from the root (a_ij), ``<`` towards it
-    (ahat_ij)."""
-    return draw_tree([v >> 1 for v in tree], ["<" if v & 1 else ">" for v in tree])
+def _listed(kind: Kind, order: int, draw: bool, explain: bool, plain: bool) -> Iterator[str]:
+    from orderconds.explain import lines
+
+    style = screen.drawing_style(plain)
+    conditions = kind.conditions(order) if explain else {}
+    for member in kind.members(order):
+        if explain:
+            yield from kind.entry(member, conditions.get(member), style)
+        else:
+            yield kind.text(member)
+        if draw and not explain:
+            yield from (f"    {line}" for line in lines.draw(kind.diagram(member), style))
+        if draw or explain:
+            yield ""
 
 
-def _draw_forest(forest: bytes) -> list[str]:
-    from orderconds.trees.levels import trees_of
+def _write_svg(kind: Kind, order: int, path: str, explain: bool) -> None:
+    from pathlib import Path
 
-    return _draw_word(trees_of(forest))
+    from orderconds.explain.svg import sheet
 
-
-def _draw_word(word: Iterable[bytes]) -> list[str]:
-    return [line for tree in word for line in draw_tree(tree)]
-
-
-def _rooted() -> Kind:
-    from orderconds.trees import counts, levels, rooted
-
-    return Kind(rooted.rooted_trees, counts.rooted_tree_count, levels.text, draw_tree)
-
-
-def _ordered() -> Kind:
-    from orderconds.trees import counts, levels, ordered
-
-    return Kind(ordered.ordered_trees, counts.ordered_tree_count, levels.text, draw_tree)
-
-
-def _directed() -> Kind:
-    from orderconds.trees import counts, directed
-
-    count = counts.directed_free_tree_count
-    return Kind(directed.directed_free_trees, count, directed.text, _draw_directed)
-
-
-def _forests() -> Kind:
-    from orderconds.trees import counts, levels, ordered
-
-    return Kind(ordered.ordered_forests, counts.ordered_forest_count, levels.text, _draw_forest)
-
-
-def _lyndon() -> Kind:
-    from orderconds.trees import counts, levels, ordered
-    from orderconds.words.lyndon import lyndon_words
-
-    def words(order: int) -> Iterator[tuple[bytes, ...]]:
-        letters = [tree for n in range(1, order + 1) for tree in ordered.ordered_trees(n)]
-        return lyndon_words(letters, order, weigh=len)
-
-    def count(order: int) -> int:
-        return counts.lyndon_word_count(order, counts.ordered_tree_count)
-
-    def text(word: tuple[bytes, ...]) -> str:
-        return " ".join(map(levels.text, word))
-
-    return Kind(words, count, text, _draw_word)
-
-
-KINDS = {
-    "rooted": _rooted,
-    "ordered": _ordered,
-    "directed": _directed,
-    "forests": _forests,
-    "lyndon": _lyndon,
-}
-"""The kinds; each is put together when it is asked for."""
-
-
-def _kind(name: str) -> Kind:
-    if name not in KINDS:
-        close = difflib.get_close_matches(name, KINDS, n=1)
-        raise UnknownName(
-            f"there is no kind of trees {name!r}",
-            expected=f"one of {', '.join(KINDS)}",
-            hint=f"type: orderconds trees {close[0] if close else 'rooted'} --order 4",
-        )
-    return KINDS[name]()
+    entries = [
+        (kind.diagram(member), [kind.text(member), *([kind.names(member)] if explain else [])])
+        for member in kind.members(order)
+    ]
+    Path(path).write_text(sheet(entries), encoding="utf-8")

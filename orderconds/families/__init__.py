@@ -40,7 +40,9 @@ class Family(Protocol):
 
     Optional: ``search_limit``, the order up to which ``check`` searches where nothing is claimed;
     ``decisive_conditions(order)``, what it evaluates when an independent set costs more than all trees;
-    ``require(method, ring)``, which raises InputError for a method that is no member of the family.
+    ``require(method, ring)``, which raises InputError for a method that is no member of the family;
+    ``trees``, the kind of trees its conditions belong to, by which they are drawn and named
+    (``orderconds.explain.kinds``).
     """
 
     name: str

@@ -34,6 +34,7 @@ class ActionFamily(ABC):
     name: str
     formats: tuple[str, ...]
     needs_nonzero_weights = True
+    trees = "action"
     search_limit = 6
 
     def label(self) -> str:

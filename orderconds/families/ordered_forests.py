@@ -31,6 +31,7 @@ class OrderedForestFamily(ABC):
     name: str
     formats: tuple[str, ...]
     needs_nonzero_weights = False
+    trees = "forests"
 
     @abstractmethod
     def label(self) -> str:

@@ -28,6 +28,7 @@ class PartitionedFamily:
     """
 
     name = "prk"
+    trees = "bicoloured"
     formats: tuple[str, ...] = ("prk", "rk")
     search_limit = 7
     needs_nonzero_weights = False

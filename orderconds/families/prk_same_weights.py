@@ -23,6 +23,7 @@ class SameWeightsFamily(PartitionedFamily):
     """
 
     name = "prk_same_weights"
+    trees = "directed-rooted"
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of this order, one a rooted tree with edges of two kinds."""

@@ -23,6 +23,7 @@ class RungeKuttaFamily:
     """
 
     name = "rk"
+    trees = "rooted"
     formats: tuple[str, ...] = ("rk",)
     needs_nonzero_weights = False
     search_limit = 12

@@ -36,6 +36,7 @@ class SymplecticPartitionedFamily:
     """
 
     name = "sprk"
+    trees = "directed"
     formats: tuple[str, ...] = ("rk",)
     search_limit = 8
     needs_nonzero_weights = True

@@ -36,6 +36,7 @@ class SeparableFamily:
     """
 
     name = "sprk_separable"
+    trees = "alternating"
     formats: tuple[str, ...] = ("rk", "prk")
     search_limit = 10
     needs_nonzero_weights = False

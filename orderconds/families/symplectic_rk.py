@@ -33,6 +33,7 @@ class SymplecticFamily:
     """
 
     name = "symplectic_rk"
+    trees = "free"
     formats: tuple[str, ...] = ("rk",)
     search_limit = 12
     needs_nonzero_weights = False

@@ -18,6 +18,15 @@ def tree_counts(order: int) -> tuple[int, ...]:
     return tuple(lie[n] - edges[n] for n in range(1, order + 1))
 
 
+def velocity_count(vertices: int) -> int:
+    """Return the number of g-valued action trees with this many copies of H.
+
+    >>> [velocity_count(n) for n in range(1, 7)]
+    [1, 3, 17, 111, 813, 6331]
+    """
+    return _generating_functions(vertices)[0][vertices]
+
+
 def _generating_functions(order: int) -> tuple[list[int], list[int]]:
     """Iterate the equations of T and P until their first coefficients stand."""
     size = order + 1

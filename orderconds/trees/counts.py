@@ -1,6 +1,6 @@
 """How many trees there are, from generating functions: independent of every enumeration.
 
-Section numbers are those of OEIS: A000081, A000108, A000238, A000151.
+Section numbers are those of OEIS: A000055, A000081, A000108, A000151, A000238.
 """
 
 from __future__ import annotations
@@ -52,6 +52,40 @@ def ordered_forest_count(vertices: int) -> int:
     [1, 1, 2, 5, 14, 42]
     """
     return ordered_tree_count(vertices + 1)
+
+
+def free_tree_count(vertices: int) -> int:
+    """Count free trees (A000055) by Otter's formula: r(n) - 1/2 (sum_k r(k) r(n - k) - r(n/2)).
+
+    >>> [free_tree_count(n) for n in range(1, 11)]
+    [1, 1, 1, 2, 3, 6, 11, 23, 47, 106]
+    """
+    rooted = [rooted_tree_count(n) for n in range(vertices + 1)]
+    at_edges = sum(rooted[k] * rooted[vertices - k] for k in range(1, vertices))
+    return rooted[vertices] - (at_edges - _in_equal_halves(vertices)) // 2
+
+
+def essential_free_tree_count(vertices: int) -> int:
+    """Count free trees that no edge parts in two equal halves (HLW VI.7.1, Table 7.1).
+
+    >>> [essential_free_tree_count(n) for n in range(1, 11)]
+    [1, 0, 1, 1, 3, 4, 11, 19, 47, 97]
+    """
+    return free_tree_count(vertices) - _in_equal_halves(vertices)
+
+
+def alternating_free_tree_count(vertices: int) -> int:
+    """Count free trees whose neighbours differ in colour: two colourings, one where a symmetry swaps them.
+
+    >>> [alternating_free_tree_count(n) for n in range(1, 9)]
+    [2, 1, 2, 3, 6, 10, 22, 42]
+    """
+    return 2 * free_tree_count(vertices) - _in_equal_halves(vertices)
+
+
+def _in_equal_halves(vertices: int) -> int:
+    """Count the free trees that an edge parts in two equal rooted trees."""
+    return rooted_tree_count(vertices // 2) if vertices % 2 == 0 else 0
 
 
 def directed_free_tree_count(vertices: int) -> int:

@@ -49,6 +49,33 @@ def test_all_prints_the_condition_of_every_tree() -> None:
     assert derived("vcg", "--order", "3", "--all")["counts"] == [1, 3, 17]
 
 
+def test_dependent_conditions_say_what_they_equal() -> None:
+    lines = run("vcg", "--order", "2", "--all").stdout.splitlines()
+    assert "  tree      condition                                  equals" in lines
+    assert any(line.startswith("  o(|L(o))") and line.endswith("1/2 <o> <o>") for line in lines)
+    assert "% equals <o(o)>" in run("vcg", "--order", "2", "--all", "--format", "latex").stdout
+
+
+@pytest.mark.parametrize("family", families.names())
+def test_explanations_name_what_each_condition_is_about(family: str) -> None:
+    result = run(family, "--order", "2", "--explain")
+    assert result.exit_code == 0
+    record = derived(family, "--order", "2", "--explain")
+    assert result.stdout.count("    condition  ") == len(record["conditions"])
+    assert all(condition["names"] for condition in record["conditions"])
+
+
+def test_the_explanation_of_a_condition() -> None:
+    out = run("vcg", "--order", "2", "--explain").stdout
+    assert "  o(o)\n      ●\n      └▸●\n      names      H_q(H_m)\n" in out
+    assert "% names H_q(H_m)" in run("vcg", "--order", "2", "--explain", "--format", "latex").stdout
+
+
+def test_explicit_methods_have_fewer_coefficients() -> None:
+    args = ("rk", "--order", "2", "--stages", "2", "--explicit")
+    assert [c["expression"] for c in derived(*args)["conditions"]] == ["b_1 + b_2", "b_2 a_21"]
+
+
 def test_text_has_the_six_conditions_of_vcg_order_3() -> None:
     result = run("vcg", "--order", "3")
     assert "order 3: 6 conditions" in result.stdout
@@ -79,7 +106,8 @@ def test_written_out_for_two_stages() -> None:
 @pytest.mark.parametrize(
     "family", [name for name in families.names() if families.get(name).formats[0] == "rk"]
 )
-def test_written_out_conditions_have_the_values_of_the_engine(family: str) -> None:
+@pytest.mark.parametrize("explicit", [False, True])
+def test_written_out_conditions_have_the_values_of_the_engine(family: str, explicit: bool) -> None:
     from orderconds.derive import derive
     from orderconds.formula.brute_force import value as brute_force
     from orderconds.ring import QQ
@@ -88,10 +116,12 @@ def test_written_out_conditions_have_the_values_of_the_engine(family: str) -> No
 
     entries = [QQ.rational(k * k - 7, 5 + k) for k in range(6)]
     A, b = (tuple(entries[:2]), tuple(entries[2:4])), tuple(entries[4:])
+    if explicit:
+        A = ((QQ.zero, QQ.zero), (entries[2], QQ.zero))
     derivation = derive(family, order=3)
     engine = families.get(family).evaluate(RungeKutta(A, b), QQ, derivation.conditions)
     at = {"a": A, "b": b}
-    for condition, value in zip(write_out(derivation, 2).conditions, engine, strict=True):
+    for condition, value in zip(write_out(derivation, 2, explicit=explicit).conditions, engine, strict=True):
         assert brute_force(condition.formula, QQ, at, {"1": 0, "2": 1}) == value
 
 
@@ -104,6 +134,7 @@ def test_written_out_conditions_have_the_values_of_the_engine(family: str) -> No
         (["rk", "--order", "2", "--format", "word"], "--format"),
         (["cf", "--order", "2", "--stages", "2"], "--stages"),
         (["rk(1)", "--order", "2"], "rk"),
+        (["rk", "--order", "2", "--explicit"], "--stages"),
     ],
 )
 def test_bad_usage_exits_2_with_one_message(args: list[str], said: str) -> None:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
 
 from orderconds.cli import program
-from orderconds.commands.trees import KINDS
+from orderconds.explain.kinds import KINDS
 
 
 def run(*args: str) -> Result:
@@ -43,16 +44,44 @@ def test_json_is_one_record() -> None:
     assert "trees" not in json.loads(run("rooted", "--order", "30", "--count", "--json").stdout)
 
 
-def test_drawings_have_one_line_a_vertex() -> None:
+@pytest.mark.parametrize("kind", KINDS)
+def test_drawings_have_one_line_a_vertex(kind: str) -> None:
+    lines = run(kind, "--order", "4", "--draw").stdout.splitlines()
+    drawn = [line for line in lines if line.startswith("    ") and "◇" not in line]
+    assert len(drawn) == 4 * int(run(kind, "--order", "4", "--count").stdout)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_explanations_give_a_name_and_a_condition(kind: str) -> None:
+    result = run(kind, "--order", "3", "--explain")
+    assert result.exit_code == 0
+    number = int(run(kind, "--order", "3", "--count").stdout)
+    assert result.stdout.count("    names      ") == result.stdout.count("    condition  ") == number
+    record = json.loads(run(kind, "--order", "3", "--explain", "--draw", "--json").stdout)
+    assert [len(record[key]) for key in ("trees", "drawings", "names", "conditions")] == [number] * 4
+
+
+def test_ascii_drawings_are_ascii() -> None:
     for kind in KINDS:
-        lines = run(kind, "--order", "4", "--draw").stdout.splitlines()
-        drawn = [line for line in lines if line.startswith("    ")]
-        assert all(line.endswith("o") for line in drawn)
-        assert len(drawn) == 4 * int(run(kind, "--order", "4", "--count").stdout)
+        assert run(kind, "--order", "4", "--draw", "--ascii").stdout.isascii()
+
+
+def test_a_stream_that_cannot_carry_unicode_gets_ascii() -> None:
+    runner = CliRunner(charset="ascii")
+    assert "    +-o\n" in runner.invoke(program, ["trees", "rooted", "--order", "2", "--draw"]).stdout
+
+
+def test_svg_goes_to_a_file(tmp_path: Path) -> None:
+    target = tmp_path / "trees.svg"
+    result = run("bicoloured", "--order", "3", "--svg", str(target))
+    assert (result.exit_code, result.stdout) == (0, "")
+    assert target.read_text(encoding="utf-8").count("<circle") == 14 * 3
+    missing = run("rooted", "--order", "3", "--svg", str(tmp_path / "none" / "trees.svg"))
+    assert (missing.exit_code, missing.stderr.count("\n")) == (2, 1)
 
 
 def test_the_drawing_of_a_rooted_tree() -> None:
-    out = run("rooted", "--order", "4", "--draw").stdout
+    out = run("rooted", "--order", "4", "--draw", "--ascii").stdout
     assert "    o\n    +-o\n    | +-o\n    +-o\n" in out
 
 

@@ -1,0 +1,115 @@
+"""Diagrams: vertices, edges and ordered branches, what every kind of tree becomes before it is drawn.
+
+A vertex is a *dot* (trees of one colour), *black* or *white*, or a *transport* (the L of the action trees,
+which is no copy of the Hamiltonian). An edge is *plain*, or it leads from a derivative in q to one in p or
+mu, as in :mod:`orderconds.trees.directed`: *outward* where the branch is a velocity (a_ij), *inward* where it
+is a force (ahat_ij).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from orderconds.series.action_trees import Force, Momentum, Velocity
+from orderconds.trees import bicoloured, directed, levels
+
+Sign = Literal["dot", "black", "white", "transport"]
+Edge = Literal["plain", "inward", "outward"]
+
+
+@dataclass(frozen=True)
+class Branch:
+    """An edge and the diagram at its far end.
+
+    >>> Branch("outward", Vertex("dot")).edge
+    'outward'
+    """
+
+    edge: Edge
+    vertex: Vertex
+
+
+@dataclass(frozen=True)
+class Vertex:
+    """A vertex with its branches from left to right.
+
+    ``legs`` = (before, letters) says that the first so many branches are letters of one word, and that the
+    edge to the parent stands behind ``before`` of them; None where there is no such choice.
+
+    >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
+    2
+    """
+
+    sign: Sign
+    branches: tuple[Branch, ...] = ()
+    legs: tuple[int, int] | None = None
+
+    @property
+    def size(self) -> int:
+        """The number of vertices."""
+        return 1 + sum(branch.vertex.size for branch in self.branches)
+
+
+Diagram = tuple[Vertex, ...]
+"""The roots of a word or forest, from left to right; one for a tree."""
+
+
+def plain(forest: levels.Forest) -> Diagram:
+    r"""Return the diagram of a rooted or ordered tree or forest, given by its levels.
+
+    >>> plain(b"\0\0")[1]
+    Vertex(sign='dot', branches=(), legs=None)
+    """
+    return tuple(
+        Vertex("dot", tuple(Branch("plain", v) for v in plain(levels.branches(tree))))
+        for tree in levels.trees_of(forest)
+    )
+
+
+def coloured(tree: bicoloured.BicolouredTree) -> Diagram:
+    r"""Return the diagram of a tree with vertices of two colours.
+
+    >>> coloured(b"\1")
+    (Vertex(sign='white', branches=(), legs=None),)
+    """
+    below = tuple(Branch("plain", coloured(child)[0]) for child in bicoloured.children(tree))
+    return (Vertex("white" if tree[0] else "black", below),)
+
+
+def with_directions(tree: directed.DirectedTree) -> Diagram:
+    r"""Return the diagram of a tree whose edges carry a direction.
+
+    >>> [branch.edge for branch in with_directions(b"\0\2\3")[0].branches]
+    ['outward', 'inward']
+    """
+    edges: tuple[Edge, Edge] = ("outward", "inward")
+    below = (Branch(edges[kind], with_directions(child)[0]) for kind, child in directed.branches(tree))
+    return (Vertex("dot", tuple(below)),)
+
+
+def action(tree: Velocity) -> Diagram:
+    """Return the diagram of an action tree: first the letters of its word, then its covectors.
+
+    >>> from orderconds.series.action_trees import force, velocity
+    >>> [branch.edge for branch in action(velocity((velocity(),), (force(),)))[0].branches]
+    ['outward', 'inward']
+    """
+    return (Vertex("dot", (*_letters(tree.word), *_covectors(tree.momenta))),)
+
+
+def _letters(trees: Iterable[Velocity]) -> Iterator[Branch]:
+    for tree in trees:
+        yield Branch("outward", action(tree)[0])
+
+
+def _covectors(trees: Iterable[Momentum]) -> Iterator[Branch]:
+    for tree in trees:
+        if isinstance(tree, Force):
+            letters = tree.before + tree.after
+            place = (len(tree.before), len(letters)) if letters else None
+            branches = (*_letters(letters), *_covectors(tree.momenta))
+            yield Branch("inward", Vertex("dot", branches, place))
+        else:
+            yield Branch("inward", Vertex("transport", tuple(_letters(tree.word))))

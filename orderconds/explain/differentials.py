@@ -1,0 +1,109 @@
+"""The elementary differentials and Hamiltonians that trees name, spelled out.
+
+Each function spells one kind of tree. ``f''(x, y)`` is a derivative applied to vectors; subscripts name the
+variables of partial derivatives, one letter each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from orderconds.trees import bicoloured, directed, levels
+
+
+def differential(tree: levels.Tree) -> str:
+    r"""Spell the elementary differential of a rooted tree (HLW III.1, Definition 1.2).
+
+    >>> differential(b"\0\1\2\1")
+    "f''(f'(f), f)"
+    """
+    return _derivative("f", list(map(differential, levels.children(tree))))
+
+
+def hamiltonian(tree: levels.Tree) -> str:
+    r"""Spell the elementary Hamiltonian of a free tree, given by one of its rootings (HLW IX.9.2).
+
+    ``f`` is the Hamiltonian vector field; other rootings give the same function up to its sign.
+
+    >>> hamiltonian(b"\0\1\1")
+    "H''(f, f)"
+    """
+    return _derivative("H", list(map(differential, levels.children(tree))))
+
+
+def frozen_differential(forest: levels.Forest) -> str:
+    r"""Spell the differential operator of an ordered forest, or the vector field of an ordered tree.
+
+    ``f[x y]`` is f differentiated along the frozen fields x and y, the innermost derivative along y: the
+    order of the word, in which x acts first. A forest is the product of its operators (Munthe-Kaas and
+    Wright, Found. Comput. Math. 8 (2008) 227).
+
+    >>> frozen_differential(b"\0\1\2\1"), frozen_differential(b"\0\1\0")
+    ('f[f[f] f]', 'f[f] f')
+    """
+    spelled = []
+    for tree in levels.trees_of(forest):
+        inside = frozen_differential(levels.branches(tree))
+        spelled.append(f"f[{inside}]" if inside else "f")
+    return " ".join(spelled)
+
+
+def partitioned_differential(tree: bicoloured.BicolouredTree) -> str:
+    r"""Spell the elementary differential of a tree of two colours (HLW III.2.1).
+
+    For y' = f(y, z), z' = g(y, z): black vertices are f, white ones g.
+
+    >>> partitioned_differential(b"\0\3\2")
+    'f_zy(g, f)'
+    """
+    below = bicoloured.children(tree)
+    letters = "".join("yz"[child[0]] for child in below)
+    return _partial("fg"[tree[0]], letters, list(map(partitioned_differential, below)))
+
+
+def directed_hamiltonian(tree: directed.DirectedTree) -> str:
+    r"""Spell the elementary Hamiltonian of a tree with directed edges, up to its sign.
+
+    For q' = H_p, p' = -H_q; an edge leads from a derivative in q to one in p.
+
+    >>> directed_hamiltonian(b"\0\3\2")
+    'H_pq(H_q, H_p)'
+    """
+    return _directed(tree, "")
+
+
+def separable_hamiltonian(tree: bicoloured.BicolouredTree) -> str:
+    r"""Spell the elementary Hamiltonian of an alternating tree, up to its sign (HLW VI.7.2).
+
+    For H = T(p) + V(q): black vertices are T, white ones V.
+
+    >>> separable_hamiltonian(b"\0\3\3")
+    'T_pp(V_q, V_q)'
+    """
+    return _separable(tree, "")
+
+
+def _derivative(name: str, inside: Sequence[str]) -> str:
+    if not inside:
+        return name
+    primes = "'" * len(inside) if len(inside) <= 3 else f"^({len(inside)})"
+    return f"{name}{primes}({', '.join(inside)})"
+
+
+def _partial(name: str, letters: str, inside: Sequence[str]) -> str:
+    return (f"{name}_{letters}" if letters else name) + (f"({', '.join(inside)})" if inside else "")
+
+
+def _directed(tree: directed.DirectedTree, output: str) -> str:
+    below = directed.branches(tree)
+    letters = "".join("qp"[kind] for kind, _ in below)
+    inside = [_directed(child, "pq"[kind]) for kind, child in below]
+    return _partial("H", letters + output, inside)
+
+
+def _separable(tree: bicoloured.BicolouredTree, output: str) -> str:
+    below = bicoloured.children(tree)
+    variable = "pq"[tree[0]]
+    return _partial(
+        "TV"[tree[0]], variable * len(below) + output, [_separable(child, "pq"[child[0]]) for child in below]
+    )

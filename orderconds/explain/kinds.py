@@ -1,0 +1,283 @@
+"""The kinds of trees: their members, numbers, texts, drawings, and what they name.
+
+A kind is put together when it is asked for, so that listing rooted trees loads nothing about words.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from orderconds import families
+from orderconds.conditions import OrderCondition
+from orderconds.errors import UnknownName
+from orderconds.explain.diagram import Diagram
+from orderconds.explain.lines import Style, draw
+
+
+@dataclass(frozen=True)
+class Kind:
+    """One kind of trees, words or forests.
+
+    ``members`` enumerates those of an order and ``count`` finds their number another way, from generating
+    functions; ``text`` spells a member, ``diagram`` makes it drawable, ``names`` spells the elementary
+    differential or Hamiltonian it names. ``family`` is a family whose conditions belong to these trees: all
+    of them, or with ``independent`` an independent set.
+
+    >>> kind = get("rooted")
+    >>> [(kind.text(tree), kind.names(tree)) for tree in kind.members(3)]
+    [('[[.]]', "f'(f'(f))"), ('[..]', "f''(f, f)")]
+    """
+
+    members: Callable[[int], Iterable[Any]]
+    count: Callable[[int], int]
+    text: Callable[[Any], str]
+    diagram: Callable[[Any], Diagram]
+    names: Callable[[Any], str]
+    family: str
+    independent: bool = False
+
+    def conditions(self, order: int) -> dict[Any, OrderCondition]:
+        """Return the family's condition of each member."""
+        family = families.get(self.family)
+        found = family.conditions(order) if self.independent else family.all_conditions(order)
+        return {condition.key: condition for condition in found}
+
+    def entry(self, member: Any, condition: OrderCondition | None, style: Style | None) -> list[str]:
+        r"""Return the lines that explain a member: its text, a drawing, what it names, its condition.
+
+        Without a style there is no drawing.
+
+        >>> from orderconds.explain.lines import ASCII
+        >>> kind = get("rooted")
+        >>> tree = b"\0\1\1"
+        >>> for line in kind.entry(tree, kind.conditions(3)[tree], ASCII):
+        ...     print(line)
+        [..]
+            o
+            +-o
+            +-o
+            names      f''(f, f)
+            condition  sum_i b_i c_i^2 = 1/3
+        """
+        lines = [] if style is None else draw(self.diagram(member), style)
+        lines.append(f"names      {self.names(member)}")
+        if condition is not None:
+            lines.append(f"condition  {condition}")
+            if condition.relation is not None:
+                lines.append(f"equals     {condition.relation}")
+        return [self.text(member), *(f"    {line}" for line in lines)]
+
+
+def get(name: str) -> Kind:
+    """Return a kind by name; raise :class:`~orderconds.errors.UnknownName` for any other name.
+
+    >>> get("ordered").count(8)
+    429
+    """
+    if name not in KINDS:
+        close = difflib.get_close_matches(name, KINDS, n=1)
+        raise UnknownName(
+            f"there is no kind of trees {name!r}",
+            expected=f"one of {', '.join(KINDS)}",
+            hint=f"type: orderconds trees {close[0] if close else 'rooted'} --order 4",
+        )
+    return KINDS[name]()
+
+
+def of_family(label: str) -> Kind | None:
+    r"""Return the kind of trees of a family's conditions; None for words, which speak for themselves.
+
+    >>> of_family("rkmk(1)").text(b"\0\1\0")
+    '[.] .'
+    """
+    name = getattr(families.get(label), "trees", None)
+    return None if name is None else get(name)
+
+
+def named_by(condition: OrderCondition) -> str:
+    """Return the elementary differential or Hamiltonian that a condition names, or else its tree's text.
+
+    >>> from orderconds.derive import derive
+    >>> print(*map(named_by, derive("vcg", order=2).conditions))
+    H H_q(H_m)
+    """
+    kind = of_family(condition.family)
+    return condition.tree if kind is None else kind.names(condition.key)
+
+
+def _rooted() -> Kind:
+    from orderconds.explain import diagram, differentials
+    from orderconds.trees import counts, levels, rooted
+
+    return Kind(
+        rooted.rooted_trees,
+        counts.rooted_tree_count,
+        levels.text,
+        diagram.plain,
+        differentials.differential,
+        "rk",
+    )
+
+
+def _ordered() -> Kind:
+    from orderconds.explain import diagram, differentials
+    from orderconds.trees import counts, levels, ordered
+
+    return Kind(
+        ordered.ordered_trees,
+        counts.ordered_tree_count,
+        levels.text,
+        diagram.plain,
+        differentials.frozen_differential,
+        "cg",
+    )
+
+
+def _forests() -> Kind:
+    from orderconds.explain import diagram, differentials
+    from orderconds.trees import counts, levels, ordered
+
+    return Kind(
+        ordered.ordered_forests,
+        counts.ordered_forest_count,
+        levels.text,
+        diagram.plain,
+        differentials.frozen_differential,
+        "cg",
+    )
+
+
+def _lyndon() -> Kind:
+    from orderconds.explain import diagram, differentials
+    from orderconds.trees import counts, levels, ordered
+    from orderconds.words.lyndon import lyndon_words
+
+    def words(order: int) -> Iterator[bytes]:
+        letters = [tree for n in range(order, 0, -1) for tree in ordered.ordered_trees(n)]
+        return map(b"".join, lyndon_words(letters, order, weigh=len))
+
+    def count(order: int) -> int:
+        return counts.lyndon_word_count(order, counts.ordered_tree_count)
+
+    return Kind(
+        words, count, levels.text, diagram.plain, differentials.frozen_differential, "cg", independent=True
+    )
+
+
+def _bicoloured() -> Kind:
+    from orderconds.explain import diagram, differentials
+    from orderconds.trees import bicoloured, counts
+
+    return Kind(
+        bicoloured.bicoloured_rooted_trees,
+        lambda order: 2 * counts.rooted_tree_count(order, kinds=2),
+        bicoloured.text,
+        diagram.coloured,
+        differentials.partitioned_differential,
+        "prk",
+    )
+
+
+def _free() -> Kind:
+    from orderconds.explain import diagram, differentials
+    from orderconds.trees import counts, free, levels
+
+    return Kind(
+        free.free_trees,
+        counts.free_tree_count,
+        levels.text,
+        diagram.plain,
+        differentials.hamiltonian,
+        "symplectic_rk",
+    )
+
+
+def _essential() -> Kind:
+    from orderconds.explain import diagram, differentials
+    from orderconds.trees import counts, free, levels
+
+    return Kind(
+        free.essential_free_trees,
+        counts.essential_free_tree_count,
+        levels.text,
+        diagram.plain,
+        differentials.hamiltonian,
+        "symplectic_rk",
+        independent=True,
+    )
+
+
+def _directed() -> Kind:
+    from orderconds.explain import diagram, differentials
+    from orderconds.trees import counts, directed
+
+    return Kind(
+        directed.directed_free_trees,
+        counts.directed_free_tree_count,
+        directed.text,
+        diagram.with_directions,
+        differentials.directed_hamiltonian,
+        "sprk",
+    )
+
+
+def _directed_rooted() -> Kind:
+    from orderconds.explain import diagram, differentials
+    from orderconds.trees import bicoloured, counts, directed
+
+    return Kind(
+        directed.directed_rooted_trees,
+        lambda order: counts.rooted_tree_count(order, kinds=2),
+        directed.text,
+        diagram.with_directions,
+        # An edge of the second kind leads to a white vertex; the root may have either colour.
+        lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),
+        "prk_same_weights",
+    )
+
+
+def _alternating() -> Kind:
+    from orderconds.explain import diagram, differentials
+    from orderconds.trees import bicoloured, counts
+
+    return Kind(
+        bicoloured.alternating_free_trees,
+        counts.alternating_free_tree_count,
+        bicoloured.text,
+        diagram.coloured,
+        differentials.separable_hamiltonian,
+        "sprk_separable",
+    )
+
+
+def _action() -> Kind:
+    from orderconds.explain import diagram
+    from orderconds.series import action_counts, action_trees
+
+    return Kind(
+        action_trees.velocities,
+        action_counts.velocity_count,
+        str,
+        diagram.action,
+        action_trees.hamiltonian,
+        "vcg",
+    )
+
+
+KINDS: dict[str, Callable[[], Kind]] = {
+    "rooted": _rooted,
+    "ordered": _ordered,
+    "forests": _forests,
+    "lyndon": _lyndon,
+    "bicoloured": _bicoloured,
+    "free": _free,
+    "essential": _essential,
+    "directed": _directed,
+    "directed-rooted": _directed_rooted,
+    "alternating": _alternating,
+    "action": _action,
+}
+"""The kinds, in the order in which messages list them."""

@@ -1,0 +1,185 @@
+"""Diagrams as SVG: the root below and branches above, as books draw them; many on one sheet, with captions.
+
+Coordinates are decimals with two digits, so that a drawing has the same bytes everywhere. Lines take the
+colour of the surrounding text (``currentColor``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from html import escape
+
+from orderconds.explain.diagram import Branch, Diagram, Edge, Vertex
+
+STEP = 18.0
+"""The distance in px between neighbours and between levels."""
+RADIUS = 3.5
+MARGIN = 10.0
+SIZE = 11.0
+"""The size in px of captions, of which a letter is 0.6 wide (monospaced)."""
+
+
+@dataclass(frozen=True)
+class Layout:
+    """A placed vertex: ``x`` in steps, relative to its parent, and its branches.
+
+    ``left`` and ``right`` are its outlines, relative to the vertex, one number a level.
+    """
+
+    x: float
+    vertex: Vertex
+    below: tuple[Layout, ...]
+    left: tuple[float, ...]
+    right: tuple[float, ...]
+
+
+def lay_out(vertex: Vertex) -> Layout:
+    r"""Place branches as close as their outlines allow and parents above their middle.
+
+    The method is that of E. M. Reingold and J. S. Tilford, IEEE Trans. Softw. Eng. 7 (1981) 223.
+
+    >>> from orderconds.explain.diagram import plain
+    >>> [child.x for child in lay_out(plain(b"\0\1\1\1")[0]).below]
+    [-1.0, 0.0, 1.0]
+    """
+    children = [lay_out(branch.vertex) for branch in vertex.branches]
+    places: list[float] = []
+    outline: list[float] = []
+    for child in children:
+        gaps = [right - left for right, left in zip(outline, child.left, strict=False)]
+        place = max((gap + 1.0 for gap in gaps), default=0.0)
+        places.append(place)
+        reached = [place + x for x in child.right]
+        outline = reached + outline[len(reached) :]
+    middle = (places[0] + places[-1]) / 2 if places else 0.0
+    places = [place - middle for place in places]
+    moved = tuple(
+        Layout(place, child.vertex, child.below, child.left, child.right)
+        for place, child in zip(places, children, strict=True)
+    )
+    depth = max((len(child.left) for child in moved), default=0)
+    left = [min(c.x + c.left[level] for c in moved if level < len(c.left)) for level in range(depth)]
+    right = [max(c.x + c.right[level] for c in moved if level < len(c.right)) for level in range(depth)]
+    # A note on the parent's place in a word stands right of the vertex and needs room.
+    room = 1.0 if vertex.legs is not None else 0.0
+    return Layout(0.0, vertex, moved, (0.0, *left), (room, *right))
+
+
+def sheet(entries: Iterable[tuple[Diagram, Sequence[str]]], width: float = 900.0) -> str:
+    r"""Return an SVG document with all diagrams in rows, each above the lines of its caption.
+
+    The roots of a row stand on one line. ``width`` is that of the sheet in px.
+
+    >>> from orderconds.explain.diagram import plain
+    >>> document = sheet([(plain(b"\0\1\1"), ["[..]"])])
+    >>> document.count("<circle"), document.count("<path"), "[..]" in document
+    (3, 2, True)
+    """
+    body: list[str] = []
+    y, widest = MARGIN, 0.0
+    for row in _rows([_Block(diagram, tuple(caption)) for diagram, caption in entries], width):
+        x, ground = MARGIN, y + max(block.levels for block in row) * STEP
+        for block in row:
+            body += block.drawn(x, ground)
+            x += block.width + 2 * MARGIN
+        widest = max(widest, x - MARGIN)
+        y = ground + max(block.under for block in row) + 2 * MARGIN
+    height = max(y - MARGIN, 0.0)
+    size = f'width="{_number(widest)}" height="{_number(height)}"'
+    view = f'viewBox="0 0 {_number(widest)} {_number(height)}"'
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" {size} {view} fill="none" stroke="currentColor">'
+    return "\n".join([head, *body, "</svg>", ""])
+
+
+def _rows(blocks: Iterable[_Block], width: float) -> Iterator[list[_Block]]:
+    row: list[_Block] = []
+    taken = MARGIN
+    for block in blocks:
+        if row and taken + block.width > width - MARGIN:
+            yield row
+            row, taken = [], MARGIN
+        row.append(block)
+        taken += block.width + 2 * MARGIN
+    if row:
+        yield row
+
+
+class _Block:
+    """One diagram and its caption, measured in px."""
+
+    def __init__(self, diagram: Diagram, caption: tuple[str, ...]) -> None:
+        self.caption = caption
+        self.trees = [lay_out(vertex) for vertex in diagram]
+        self.spans = [(min(tree.left), max(tree.right)) for tree in self.trees]
+        self.levels = max((len(tree.left) for tree in self.trees), default=0)
+        self.drawing = sum(right - left + 1 for left, right in self.spans) * STEP
+        self.width = max([self.drawing, *(0.6 * SIZE * len(line) for line in caption)])
+        self.under = 1.4 * SIZE * len(caption)
+
+    def drawn(self, x: float, ground: float) -> Iterator[str]:
+        """Draw at x, the roots half a step above the ground and the caption under it."""
+        at = x + (self.width - self.drawing) / 2
+        for tree, (left, right) in zip(self.trees, self.spans, strict=True):
+            yield from _drawn(tree, at + (0.5 - left) * STEP, ground - STEP / 2)
+            at += (right - left + 1) * STEP
+        for line, text in enumerate(self.caption, start=1):
+            baseline = ground + 1.4 * SIZE * line - 0.4 * SIZE
+            yield _text(x + self.width / 2, baseline, text, SIZE, "middle")
+
+
+def _drawn(tree: Layout, x: float, y: float) -> Iterator[str]:
+    """Draw a tree whose root is at (x, y), edges first."""
+    for branch, child in zip(tree.vertex.branches, tree.below, strict=True):
+        far = x + child.x * STEP
+        yield _edge(branch, x, y, far, y - STEP)
+        yield from _drawn(child, far, y - STEP)
+    yield _vertex(tree.vertex, x, y)
+    if tree.vertex.legs is not None:
+        before, letters = tree.vertex.legs
+        place = "›" * before + "*" + "›" * (letters - before)
+        yield _text(x + 1.6 * RADIUS, y + RADIUS, place, 0.8 * SIZE, "start")
+
+
+def _vertex(vertex: Vertex, x: float, y: float) -> str:
+    if vertex.sign == "transport":
+        corners = [(x, y - RADIUS), (x + RADIUS, y), (x, y + RADIUS), (x - RADIUS, y)]
+        path = " L".join(f"{_number(a)} {_number(b)}" for a, b in corners)
+        return f'<path d="M{path} Z"/>'
+    filled = "" if vertex.sign == "white" else ' fill="currentColor"'
+    return f'<circle cx="{_number(x)}" cy="{_number(y)}" r="{_number(RADIUS)}"{filled}/>'
+
+
+def _edge(branch: Branch, x: float, y: float, far: float, high: float) -> str:
+    """Draw a line from rim to rim, with an arrow head in its middle if it has a direction."""
+    length = ((far - x) ** 2 + (high - y) ** 2) ** 0.5
+    along = ((far - x) / length, (high - y) / length)
+    start = (x + RADIUS * along[0], y + RADIUS * along[1])
+    end = (far - RADIUS * along[0], high - RADIUS * along[1])
+    return f'<path d="M{_pair(start)} L{_pair(end)}{_head(branch.edge, start, end, along)}"/>'
+
+
+def _head(
+    edge: Edge, start: tuple[float, float], end: tuple[float, float], along: tuple[float, float]
+) -> str:
+    if edge == "plain":
+        return ""
+    forward = 1.0 if edge == "outward" else -1.0
+    u, v = forward * along[0], forward * along[1]
+    tip = ((start[0] + end[0]) / 2 + 2 * u, (start[1] + end[1]) / 2 + 2 * v)
+    barbs = [(tip[0] - 4 * u + side * 3 * v, tip[1] - 4 * v - side * 3 * u) for side in (1, -1)]
+    return f" M{_pair(barbs[0])} L{_pair(tip)} L{_pair(barbs[1])}"
+
+
+def _text(x: float, y: float, text: str, size: float, anchor: str) -> str:
+    font = f'font-family="monospace" font-size="{_number(size)}" text-anchor="{anchor}"'
+    place = f'x="{_number(x)}" y="{_number(y)}"'
+    return f'<text {place} {font} fill="currentColor" stroke="none">{escape(text)}</text>'
+
+
+def _pair(point: tuple[float, float]) -> str:
+    return f"{_number(point[0])} {_number(point[1])}"
+
+
+def _number(value: float) -> str:
+    return f"{round(value, 2) + 0.0:.2f}".rstrip("0").rstrip(".")

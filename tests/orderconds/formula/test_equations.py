@@ -1,0 +1,61 @@
+"""LaTeX of conditions: it is what a TeX engine accepts, and breaking lines loses nothing."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from orderconds import families
+from orderconds.derive import derive
+from orderconds.formula.equations import LINE, aligned, broken
+from orderconds.written_out import write_out
+
+
+def formulas(family: str) -> list[str]:
+    found = [condition.latex_equation for condition in derive(family, order=3).conditions]
+    if families.get(family).formats[0] == "rk":
+        written = write_out(derive(family, order=3), 3)
+        found += [condition.latex_equation for condition in written.conditions]
+    return found
+
+
+@pytest.mark.parametrize("family", families.names())
+def test_conditions_are_mathematics_that_a_tex_engine_reads(family: str) -> None:
+    mathtext = pytest.importorskip("matplotlib.mathtext")
+    parser = mathtext.MathTextParser("path")
+    for latex in formulas(family):
+        # Matplotlib knows neither \tfrac nor \Bigl, which differ from \frac and \left in size alone.
+        known = latex.replace("tfrac", "frac").replace("Bigl", "left").replace("Bigr", "right")
+        parser.parse(f"${known}$")
+
+
+def test_a_wrong_formula_is_refused() -> None:
+    mathtext = pytest.importorskip("matplotlib.mathtext")
+    with pytest.raises(ValueError, match="sumx"):
+        mathtext.MathTextParser("path").parse(r"$\sumx b_{i}$")
+
+
+@pytest.mark.parametrize("family", families.names())
+@pytest.mark.parametrize("line", [20, LINE])
+def test_broken_lines_are_the_formula(family: str, line: int) -> None:
+    for latex in formulas(family):
+        lines = broken(latex, line)
+        assert " ".join(lines).replace(" ", "") == latex.replace(" ", "")
+        # Braces never stand open at the end of a line; sized brackets may.
+        assert all(part.count("{") == part.count("}") for part in lines)
+        assert all(re.match(r"[+-] ", part) for part in lines[1:])
+
+
+def test_a_line_is_broken_outside_brackets_where_that_will_do() -> None:
+    latex = r"\sum_{i} \Bigl(b_{i} + c_{i}\Bigr) + \sum_{i} b_{i}"
+    assert broken(latex, 12) == [r"\sum_{i} \Bigl(b_{i} + c_{i}\Bigr)", r"+ \sum_{i} b_{i}"]
+
+
+def test_rows_are_parted_by_two_backslashes() -> None:
+    rows = [("", "x", "1"), ("", " + ".join(["a_{1} b_{2}"] * 40), "1/2")]
+    lines = aligned(rows).splitlines()
+    assert lines[1] == r"  & x = 1 \\"
+    assert all(line.startswith("  & ") for line in lines[1:-1])
+    assert all(line.endswith(r" \\") for line in lines[1:-2])
+    assert lines[-2].endswith("= 1/2")
