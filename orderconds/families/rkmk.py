@@ -18,6 +18,7 @@ from orderconds.families.ordered_forests import OrderedForestFamily, lyndon_fore
 from orderconds.formula import Formula, Total, coefficient, fresh, index_sum, one, product, total, zero
 from orderconds.ring.protocol import Ring
 from orderconds.series.dexpinv import DexpinvSeries, dexpinv_terms
+from orderconds.trees.counts import rooted_tree_count
 from orderconds.trees.levels import Forest, branches, trees_of
 
 if TYPE_CHECKING:
@@ -59,6 +60,20 @@ class MuntheKaasFamily(OrderedForestFamily):
         (imports NumPy).
         """
         return self._of(_essential(self.cutoff, order)[-1])
+
+    def highest_order(self, limit: int) -> int:
+        """Return the order that this cut of dexpinv allows at most, or ``limit``: R + 2.
+
+        Beyond it the values of every tableau obey a relation that the exact flow's do not: there is one
+        essential condition more than there are rooted trees. Computed by ranks (imports NumPy).
+
+        >>> [MuntheKaasFamily(cutoff).highest_order(5) for cutoff in (0, 1, 2)]
+        [2, 3, 5]
+        """
+        for n in range(1, limit + 1):
+            if len(self.essential_conditions(n)) > rooted_tree_count(n):
+                return n - 1
+        return limit
 
     def formula(self, forest: Forest) -> Formula:
         """Return the index sum of the scaled value on a forest."""

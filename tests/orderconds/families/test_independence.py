@@ -102,3 +102,15 @@ def test_the_condition_that_rkmk_zero_cannot_meet_is_that_of_a_commutator():
     assert text(extra.key) == "[.] ."
     # The left-hand side is 1/2 for every tableau of order two.
     assert str(extra) == "(sum_i b_i c_i) (sum_i b_i) = 1/3"
+
+
+@pytest.mark.parametrize(("cutoff", "order"), [(0, 2), (1, 3), (2, 5), (3, 5), (4, 7), (5, 7)])
+def test_cutting_dexpinv_allows_no_higher_order_than_r_plus_two(cutoff, order):
+    assert families.get("rkmk", cutoff=cutoff).highest_order(min(order + 1, 7)) == order
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("cutoff", [4, 5])
+def test_cutting_dexpinv_after_the_fourth_or_fifth_power_leaves_order_seven(cutoff):
+    assert families.get("rkmk", cutoff=cutoff).highest_order(8) == 7
+    assert families.get("rkmk", cutoff=6).highest_order(8) == 8

@@ -1,5 +1,7 @@
 """Exact orders of published methods, and of the mistakes people make with them."""
 
+from fractions import Fraction
+
 import pytest
 
 from orderconds import families
@@ -150,3 +152,30 @@ def test_owren_and_marthinsens_method_has_order_four_and_its_misreadings_less():
 def test_attaching_each_row_of_cg3_in_reverse_leaves_order_two():
     method, ring = library_method("cg3")
     assert order("cg", with_each_row_reversed(method), ring) == 2
+
+
+def collocation(nodes):
+    """The collocation tableau of rational nodes: integrals of Lagrange's polynomials (HLW II.1, Theorem 1.4)."""
+    lagrange = []
+    for node in nodes:
+        polynomial = [Fraction(1)]
+        for other in nodes:
+            if other != node:
+                raised, lowered = [Fraction(0), *polynomial], [*polynomial, Fraction(0)]
+                polynomial = [(x - other * y) / (node - other) for x, y in zip(raised, lowered, strict=True)]
+        lagrange.append(polynomial)
+
+    def integral(polynomial, end):
+        value = sum(x * end ** (k + 1) / (k + 1) for k, x in enumerate(polynomial))
+        return QQ.rational(value.numerator, value.denominator)
+
+    A = tuple(tuple(integral(p, node) for p in lagrange) for node in nodes)
+    return RungeKutta(A, tuple(integral(p, Fraction(1)) for p in lagrange))
+
+
+def test_munthe_kaas_order_of_a_tableau_of_order_eight_is_r_plus_two():
+    # Seven equidistant nodes are symmetric, so that collocation has order 8, exactly over Q.
+    method = collocation([Fraction(k, 6) for k in range(7)])
+    found = {r: order(f"rkmk({r})", method, limit=8) for r in range(6)}
+    assert found == {0: 2, 1: 3, 2: 5, 3: 5, 4: 7, 5: 7}
+    assert order("rk", method, limit=9) == 8
