@@ -155,7 +155,7 @@ def test_attaching_each_row_of_cg3_in_reverse_leaves_order_two():
 
 
 def collocation(nodes):
-    """The collocation tableau of rational nodes: integrals of Lagrange's polynomials (HLW II.1, Theorem 1.4)."""
+    """The collocation tableau of rational nodes: Lagrange polynomials integrated (HLW II.1, Theorem 1.4)."""
     lagrange = []
     for node in nodes:
         polynomial = [Fraction(1)]
