@@ -31,6 +31,14 @@ MODULES = {
     "vrkmk": "orderconds.families.vrkmk",
     "vcg": "orderconds.families.vcg",
     "vcf": "orderconds.families.vcf",
+    "composition": "orderconds.families.composition",
+    "symmetric_composition": "orderconds.families.symmetric_composition",
+    "splitting": "orderconds.families.splitting",
+    "rkn": "orderconds.families.rkn",
+    "magnus": "orderconds.families.magnus",
+    "cf_magnus": "orderconds.families.cf_magnus",
+    "fer": "orderconds.families.fer",
+    "cayley": "orderconds.families.cayley",
 }
 """Family name to module, in the order in which ``orderconds list families`` shows them."""
 
@@ -73,13 +81,14 @@ def names() -> tuple[str, ...]:
 
 
 def get(name: str, **options: Any) -> Family:
-    """Return a family by name, ``get("rkmk", cutoff=1)`` or ``get("rkmk(1)")``.
+    """Return a family by name, ``get("rkmk", cutoff=1)`` or ``get("rkmk(1)")``; ``-`` reads as ``_``.
 
     Raises :class:`~orderconds.errors.UnknownName` for a name that is not registered and
     :class:`~orderconds.errors.InputError` for an option the family does not have.
     """
-    called = re.fullmatch(r"\s*([a-z_]+)\s*(?:\(\s*(\d{1,3})\s*\))?\s*", name)
+    called = re.fullmatch(r"\s*([a-z_-]+)\s*(?:\(\s*(\d{1,3})\s*\))?\s*", name)
     base, argument = called.groups() if called else (name, None)
+    base = base.replace("-", "_")
     if base not in MODULES:
         close = difflib.get_close_matches(base, MODULES, n=1)
         raise UnknownName(

@@ -12,23 +12,26 @@ if TYPE_CHECKING:
         CommutatorFree,
         Composition,
         Embedded,
-        Method,
         PartitionedRungeKutta,
         RungeKutta,
         Stage,
     )
-    from orderconds.tableau.record import Claims, OrderClaim, Tableau
+    from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
+    from orderconds.tableau.record import Claims, Method, OrderClaim, Tableau
     from orderconds.tableau.write import dumps
 
 _HOME = {
+    "AdjointComposition": "products",
     "Claims": "record",
     "CommutatorFree": "methods",
     "Composition": "methods",
     "Embedded": "methods",
-    "Method": "methods",
+    "Magnus": "products",
+    "Method": "record",
     "OrderClaim": "record",
     "PartitionedRungeKutta": "methods",
     "RungeKutta": "methods",
+    "Splitting": "products",
     "Stage": "methods",
     "Tableau": "record",
     "available": "library",
@@ -39,14 +42,17 @@ _HOME = {
 }
 
 __all__ = [
+    "AdjointComposition",
     "Claims",
     "CommutatorFree",
     "Composition",
     "Embedded",
+    "Magnus",
     "Method",
     "OrderClaim",
     "PartitionedRungeKutta",
     "RungeKutta",
+    "Splitting",
     "Stage",
     "Tableau",
     "available",

@@ -167,9 +167,6 @@ class Composition:
         return RungeKutta(A, self.gamma)
 
 
-Method = RungeKutta | PartitionedRungeKutta | CommutatorFree | Composition
-
-
 @dataclass(frozen=True)
 class Embedded:
     """A second row of weights of lower ``order``, for estimating the local error."""

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable
 
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.methods import CommutatorFree, Composition, PartitionedRungeKutta, RungeKutta
+from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
 from orderconds.tableau.record import Tableau
 
 Verdict = bool | None
@@ -31,6 +32,8 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
         return _of_composition(method, ring)
     if isinstance(method, PartitionedRungeKutta):
         return {"symplectic": symplectic_pair(method, ring)}
+    if isinstance(method, AdjointComposition | Splitting | Magnus):
+        return {"symmetric": symmetric_product(method, ring)}
     return {name: holds(method, ring) for name, holds in PROPERTIES.items()}
 
 
@@ -116,6 +119,28 @@ def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
     verdicts = {name: holds(method.as_runge_kutta(ring), ring) for name, holds in PROPERTIES.items()}
     palindrome = _all(_equal(gamma[i], gamma[s - 1 - i], ring) for i in range(s // 2))
     return {**verdicts, "diagonally_implicit": True, "symplectic": True, "symmetric": palindrome}
+
+
+def symmetric_product(method: AdjointComposition | Splitting | Magnus, ring: Ring) -> Verdict:
+    """Whether a step of length -h undoes one of length h (HLW V.3).
+
+    Of an adjoint pair alpha_{s+1-i} = beta_i; a splitting reads the same backwards; for a Magnus method nodes
+    lie symmetric about 1/2 and exponents, taken in reverse at reversed nodes, change their words' signs.
+    """
+    if isinstance(method, AdjointComposition):
+        pairs = zip(method.alpha, method.beta[::-1], strict=True)
+        return _all(_equal(x, y, ring) for x, y in pairs)
+    if isinstance(method, Splitting):
+        mirrored = zip(method.steps, method.steps[::-1], strict=True)
+        return _all(p == q and _equal(x, y, ring) for (p, x), (q, y) in mirrored)
+    c, series, last = method.c, method.words(ring), method.s - 1
+    verdicts = [ring.is_zero(x + y - 1) for x, y in zip(c, c[::-1], strict=True)]
+    for one, other in zip(series, series[::-1], strict=True):
+        for word in sorted({*one, *(tuple(last - i for i in word) for word in other)}):
+            x = one.get(word, ring.zero)
+            y = other.get(tuple(last - i for i in word), ring.zero)
+            verdicts.append(ring.is_zero(x - y if len(word) % 2 else x + y))
+    return _all(verdicts)
 
 
 def _commutator_free_explicit(method: CommutatorFree, ring: Ring) -> Iterable[bool]:

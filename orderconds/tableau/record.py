@@ -6,16 +6,27 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from orderconds.errors import TableauError
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.methods import (
     CommutatorFree,
     Composition,
     Embedded,
-    Method,
     PartitionedRungeKutta,
     RungeKutta,
 )
+from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
 from orderconds.tableau.unknowns import Proof
+
+Method = (
+    RungeKutta
+    | PartitionedRungeKutta
+    | CommutatorFree
+    | Composition
+    | AdjointComposition
+    | Splitting
+    | Magnus
+)
 
 
 @dataclass(frozen=True)
@@ -95,21 +106,33 @@ class Tableau:
     def read_as(self, formats: tuple[str, ...]) -> Method | None:
         """Return the method in the first of these formats that it can be read in, or None.
 
-        An ``rk`` tableau reads as ``rk``, a commutator-free one as ``cf``, a composition as itself or,
-        through composed midpoints, as ``rk``. How an ``rk`` tableau serves other families is for the family
-        to say.
+        A tableau reads as what its file says; a composition also as ``rk`` (composed midpoints, or Euler
+        methods for an adjoint pair), one of an adjoint pair as ``splitting`` too. How an ``rk`` tableau
+        serves other families is for the family to say.
         """
+        method = self.method
         for wanted in formats:
             if wanted == self.family:
-                return self.method
-            if wanted == "rk" and isinstance(self.method, Composition):
-                return self.method.as_runge_kutta(self.ring)
+                return method
+            if wanted == "rk" and isinstance(method, Composition | AdjointComposition):
+                return method.as_runge_kutta(self.ring)
+            if wanted == "splitting" and isinstance(method, AdjointComposition):
+                return method.as_splitting()
         return None
 
     def abelian(self) -> RungeKutta:
-        """Return the Runge-Kutta tableau this method is on an abelian group; of a pair, the first part's."""
+        """Return the Runge-Kutta tableau this method is on an abelian group; of a pair, the first part's.
+
+        Raises :class:`TableauError` for a splitting or a Magnus method, which is none.
+        """
         if isinstance(self.method, PartitionedRungeKutta):
             return self.method.first()
-        if isinstance(self.method, CommutatorFree | Composition):
+        if isinstance(self.method, CommutatorFree | Composition | AdjointComposition):
             return self.method.as_runge_kutta(self.ring)
-        return self.method
+        if isinstance(self.method, RungeKutta):
+            return self.method
+        raise TableauError(
+            f"a tableau of format {self.family} is no Runge-Kutta method",
+            where=self.path or self.name,
+            expected="format rk, prk, cf or composition",
+        )

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from orderconds.ring.protocol import Element
+from orderconds.tableau.brackets import Combination, spell
 from orderconds.tableau.methods import CommutatorFree, Composition, PartitionedRungeKutta, Row, Stage
+from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
 from orderconds.tableau.record import Claims, Tableau
 
 
@@ -23,6 +25,8 @@ def dumps(tableau: Tableau) -> str:
     method = tableau.method
     if isinstance(method, Composition):
         lines += [f'base = "{method.base}"', f"gamma = {_full(method.gamma, tableau)}"]
+    elif isinstance(method, AdjointComposition | Splitting | Magnus):
+        lines += _product(method, tableau)
     elif not isinstance(method, CommutatorFree):
         rows = ", ".join(_row(row, tableau) for row in method.A)
         lines += [f"A = [{rows}]", f"b = {_full(method.b, tableau)}"]
@@ -41,13 +45,37 @@ def dumps(tableau: Tableau) -> str:
     return "\n".join(lines + _claims(tableau.claims)) + "\n"
 
 
+def _product(method: AdjointComposition | Splitting | Magnus, tableau: Tableau) -> list[str]:
+    if isinstance(method, AdjointComposition):
+        rows = [("alpha", method.alpha), ("beta", method.beta)]
+        return [f'base = "{method.base}"', *(f"{key} = {_full(row, tableau)}" for key, row in rows)]
+    if isinstance(method, Splitting):
+        parts = ", ".join(map(_quoted, method.parts))
+        steps = ", ".join(_full((x,), tableau, method.parts[part]) for part, x in method.steps)
+        kinetic = [] if method.rkn is None else [f"rkn = {_quoted(method.parts[method.rkn])}"]
+        return [f"parts = [{parts}]", *kinetic, f"step = [{steps}]"]
+    lines = [f"c = {_full(method.c, tableau)}"]
+    if method.transform != "exp":
+        lines.append(f'map = "{method.transform}"')
+    if method.elements:
+        named = ", ".join(f"{name} = {_combination(x, tableau)}" for name, x in method.elements)
+        lines.append(f"elements = {{ {named} }}")
+    exponents = ", ".join(_combination(x, tableau) for x in method.exponents)
+    return [*lines, f"exponents = [{exponents}]"]
+
+
+def _combination(combination: Combination, tableau: Tableau) -> str:
+    terms = (f"{_quoted(spell(term))} = {_quoted(tableau.ring.text(x))}" for term, x in combination)
+    return f"{{ {', '.join(terms)} }}" if combination else "{}"
+
+
 def _quoted(text: str) -> str:
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')
     return '"' + "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in escaped) + '"'
 
 
-def _full(row: Sequence[Element], tableau: Tableau) -> str:
-    return "[" + ", ".join(_quoted(tableau.ring.text(x)) for x in row) + "]"
+def _full(row: Sequence[Element], tableau: Tableau, *before: str) -> str:
+    return "[" + ", ".join(map(_quoted, (*before, *map(tableau.ring.text, row)))) + "]"
 
 
 def _row(row: Row, tableau: Tableau) -> str:

@@ -1,0 +1,182 @@
+"""Elements of a Lie algebra spelled over numbered nodes: ``"[2,1]"``, ``"[a, [1, b]]"``, ``"S*S*S"``.
+
+A number is the field at that node, a name an element defined before, ``[x,y] = x y - y x``. Products stand
+only where a method leaves the Lie algebra of all groups for that of quadratic ones (Cayley).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from orderconds.errors import TableauError
+from orderconds.ring.protocol import Element, Ring
+
+Term = Any
+"""An ``int`` (a node, counted from 0), a ``str`` (a named element), a Bracket or a Product."""
+Nodes = tuple[int, ...]
+NodeSeries = dict[Nodes, Element]
+"""Coefficients of words of nodes in the order of action: (i, j) is the product A_j A_i."""
+Combination = tuple[tuple[Term, Element], ...]
+"""Terms, each with its coefficient."""
+
+MAX_DEPTH = 12
+_TOKEN = re.compile(r"\s*(?:([0-9]{1,3})|([A-Za-z_]\w*)|([\[\],*]))", re.ASCII)
+
+
+@dataclass(frozen=True)
+class Bracket:
+    """The commutator of two terms."""
+
+    left: Term
+    right: Term
+
+
+@dataclass(frozen=True)
+class Product:
+    """The product of two terms or more, the last acting first."""
+
+    factors: tuple[Term, ...]
+
+
+def parse(text: str, where: str) -> Term:
+    """Read a term; raises :class:`TableauError` saying what was found and expected at ``where``.
+
+    >>> parse("[2,1]", "exponents")
+    Bracket(left=1, right=0)
+    """
+    tokens = list(_tokens(text, where))
+    term, rest = _product(tokens, 0, text, where, 0)
+    if rest != len(tokens):
+        raise _error(f"{tokens[rest]!r} after a complete term in {text!r}", where)
+    return term
+
+
+def spell(term: Term) -> str:
+    """Return the text of a term, as :func:`parse` reads it.
+
+    >>> spell(parse("[ 2, [1,a] ]", ""))
+    '[2,[1,a]]'
+    """
+    if isinstance(term, Bracket):
+        return f"[{spell(term.left)},{spell(term.right)}]"
+    if isinstance(term, Product):
+        return "*".join(map(spell, term.factors))
+    return term if isinstance(term, str) else str(term + 1)
+
+
+def leaves(term: Term) -> Iterator[int | str]:
+    """Yield the nodes and the names in a term, from left to right.
+
+    >>> list(leaves(parse("[2,[1,a]]", "")))
+    [1, 0, 'a']
+    """
+    if isinstance(term, Bracket):
+        yield from leaves(term.left)
+        yield from leaves(term.right)
+    elif isinstance(term, Product):
+        for factor in term.factors:
+            yield from leaves(factor)
+    else:
+        yield term
+
+
+def has_product(term: Term) -> bool:
+    """Tell whether a product stands in a term.
+
+    >>> has_product(parse("[1,2]", "")), has_product(parse("[1,2*3]", ""))
+    (False, True)
+    """
+    if isinstance(term, Bracket):
+        return has_product(term.left) or has_product(term.right)
+    return isinstance(term, Product)
+
+
+def expand(combination: Combination, named: Mapping[str, NodeSeries], ring: Ring) -> NodeSeries:
+    """Return a combination of terms as words of nodes in the order of action, zeros left out.
+
+    >>> from orderconds.ring import QQ
+    >>> expand(((parse("[2,1]", ""), QQ.one),), {}, QQ)
+    {(0, 1): 1, (1, 0): -1}
+    """
+    result: NodeSeries = {}
+    for term, scale in combination:
+        for word, value in _expanded(term, named, ring).items():
+            result[word] = result.get(word, ring.zero) + scale * value
+    return {word: value for word, value in result.items() if ring.is_zero(value) is not True}
+
+
+def _expanded(term: Term, named: Mapping[str, NodeSeries], ring: Ring) -> NodeSeries:
+    if isinstance(term, int):
+        return {(term,): ring.one}
+    if isinstance(term, str):
+        return dict(named[term])
+    if isinstance(term, Product):
+        result = _expanded(term.factors[0], named, ring)
+        for factor in term.factors[1:]:
+            result = _times(result, _expanded(factor, named, ring), ring)
+        return result
+    x, y = _expanded(term.left, named, ring), _expanded(term.right, named, ring)
+    result = _times(x, y, ring)
+    for word, value in _times(y, x, ring).items():
+        result[word] = result.get(word, ring.zero) - value
+    return result
+
+
+def _times(x: NodeSeries, y: NodeSeries, ring: Ring) -> NodeSeries:
+    """Return the product xy, in which y acts first."""
+    result: NodeSeries = {}
+    for u, a in x.items():
+        for v, b in y.items():
+            result[v + u] = result.get(v + u, ring.zero) + a * b
+    return result
+
+
+def _tokens(text: str, where: str) -> Iterator[str]:
+    place = 0
+    while text[place:].strip():
+        match = _TOKEN.match(text, place)
+        if match is None:
+            raise _error(f"{text[place:].strip()[:1]!r} in {text[:80]!r}", where)
+        yield match[0].strip()
+        place = match.end()
+
+
+def _product(tokens: list[str], place: int, text: str, where: str, depth: int) -> tuple[Term, int]:
+    factors = []
+    while True:
+        factor, place = _factor(tokens, place, text, where, depth)
+        factors.append(factor)
+        if place == len(tokens) or tokens[place] != "*":
+            return (factors[0] if len(factors) == 1 else Product(tuple(factors))), place
+        place += 1
+
+
+def _factor(tokens: list[str], place: int, text: str, where: str, depth: int) -> tuple[Term, int]:
+    if place == len(tokens):
+        raise _error(f"an incomplete term {text[:80]!r}", where)
+    token = tokens[place]
+    if token == "[":
+        if depth == MAX_DEPTH:
+            raise _error(f"brackets nested deeper than {MAX_DEPTH}", where)
+        left, place = _product(tokens, place + 1, text, where, depth + 1)
+        place = _expect(",", tokens, place, text, where)
+        right, place = _product(tokens, place, text, where, depth + 1)
+        return Bracket(left, right), _expect("]", tokens, place, text, where)
+    if token.isdigit():
+        return int(token) - 1, place + 1
+    if token in ",]*":
+        raise _error(f"{token!r} where a term begins in {text[:80]!r}", where)
+    return token, place + 1
+
+
+def _expect(token: str, tokens: list[str], place: int, text: str, where: str) -> int:
+    if place == len(tokens) or tokens[place] != token:
+        raise _error(f"no {token!r} where it is due in {text[:80]!r}", where)
+    return place + 1
+
+
+def _error(found: str, where: str) -> TableauError:
+    return TableauError(found, where=where, expected='a node ("1"), a name, or a bracket ("[2,1]")')

@@ -1,0 +1,124 @@
+"""Methods that are products of flows or of exponentials of Lie elements: splittings, compositions, Magnus.
+
+In every product the first factor acts first.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.brackets import Combination, NodeSeries, expand
+from orderconds.tableau.methods import Convert, Row, RungeKutta
+
+
+@dataclass(frozen=True)
+class Splitting:
+    """A product of the flows of the parts of a field: step (k, x) is the flow of part k over the time x h.
+
+    ``parts`` name the parts; ``rkn`` is the part V with [V,[V,[V,T]]] = 0 (Runge-Kutta-Nystroem), or None.
+    """
+
+    parts: tuple[str, ...]
+    steps: tuple[tuple[int, Element], ...]
+    rkn: int | None = None
+
+    @property
+    def s(self) -> int:
+        """The number of flows in a step."""
+        return len(self.steps)
+
+    def map(self, convert: Convert) -> Splitting:
+        """Return the same splitting with every coefficient converted."""
+        return Splitting(self.parts, tuple((part, convert(x)) for part, x in self.steps), self.rkn)
+
+
+@dataclass(frozen=True)
+class AdjointComposition:
+    """A composition of any basic method Phi and its adjoint Phi*: beta_1, alpha_1, ..., alpha_s.
+
+    One step is Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h}, Phi*_{beta_1 h} acting
+    first (HLW (II.4.6)).
+    """
+
+    alpha: Row
+    beta: Row
+
+    base = "adjoint-pair"
+
+    @property
+    def s(self) -> int:
+        """The number of pairs."""
+        return len(self.alpha)
+
+    def map(self, convert: Convert) -> AdjointComposition:
+        """Return the same composition with every coefficient converted."""
+        alpha, beta = (tuple(convert(x) for x in row) for row in (self.alpha, self.beta))
+        return AdjointComposition(alpha, beta)
+
+    def as_runge_kutta(self, ring: Ring) -> RungeKutta:
+        """Return the tableau with the explicit Euler method as Phi, the implicit one as Phi*.
+
+        Phi_{alpha h} Phi*_{beta h} evaluates f once: b_i = beta_i + alpha_i, a_ii = beta_i, a_ij = b_j for
+        j < i (HLW II.4, Example 4.1 for alpha = beta).
+        """
+        b = tuple(y + x for x, y in zip(self.alpha, self.beta, strict=True))
+        A = tuple((*b[:i], y, *((ring.zero,) * (self.s - i - 1))) for i, y in enumerate(self.beta))
+        return RungeKutta(A, b)
+
+    def as_splitting(self) -> Splitting:
+        """Return the splitting with Phi the flow of part 0 then that of part 1, Phi* the reverse.
+
+        Neighbouring flows of one part are joined. It has the order of the composition (McLachlan, SIAM J.
+        Sci. Comput. 16 (1995) 151).
+        """
+        steps: list[tuple[int, Element]] = []
+        for x, y in zip(self.alpha, self.beta, strict=True):
+            for part, step in ((1, y), (0, y), (0, x), (1, x)):
+                if steps and steps[-1][0] == part:
+                    step = steps.pop()[1] + step
+                steps.append((part, step))
+        return Splitting(("A", "B"), tuple(steps))
+
+
+@dataclass(frozen=True)
+class Magnus:
+    """A method for Y' = A(t) Y: a product of exp (or cay) of combinations of brackets of the A_i = h A(c_i h).
+
+    ``exponents`` hold one combination each, the first acting first; ``elements`` name Lie elements that
+    later ones refer to. ``transform`` is ``"exp"``, or ``"cay"`` for cay(x) = (1 - x/2)^-1 (1 + x/2).
+    """
+
+    c: Row
+    exponents: tuple[Combination, ...]
+    elements: tuple[tuple[str, Combination], ...] = ()
+    transform: str = "exp"
+
+    @property
+    def s(self) -> int:
+        """The number of nodes."""
+        return len(self.c)
+
+    def map(self, convert: Convert) -> Magnus:
+        """Return the same method with every coefficient converted."""
+
+        def converted(combination: Combination) -> Combination:
+            return tuple((term, convert(x)) for term, x in combination)
+
+        return Magnus(
+            tuple(convert(x) for x in self.c),
+            tuple(map(converted, self.exponents)),
+            tuple((name, converted(combination)) for name, combination in self.elements),
+            self.transform,
+        )
+
+    def words(self, ring: Ring) -> tuple[NodeSeries, ...]:
+        """Return each exponent as words of nodes in the order of action, nodes counted from 0."""
+        named: dict[str, NodeSeries] = {}
+        for name, combination in self.elements:
+            named[name] = expand(combination, named, ring)
+        return tuple(expand(combination, named, ring) for combination in self.exponents)
+
+    def is_commutator_free(self, ring: Ring) -> bool:
+        """Tell whether every exponent is a combination of the A_i alone."""
+        return all(len(word) == 1 for series in self.words(ring) for word in series)
