@@ -26,7 +26,7 @@ from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
 from orderconds.families import Family
 from orderconds.ring import Element, Ring
-from orderconds.tableau import Tableau, find
+from orderconds.tableau import Magnus, Splitting, Tableau, find
 from orderconds.tableau.properties import properties
 
 if TYPE_CHECKING:
@@ -43,9 +43,6 @@ SEARCH_LIMIT = 8
 EXHAUSTIVE = 2000
 """An order with more conditions than this is evaluated in batches, the simplest trees first, up to the first
 batch in which one fails; those that fail in it are named, and the error norm is left out."""
-
-FORMAT_FAMILY = {"composition": "rk"}
-"""The family in which a tableau without claims is checked, where it is not named as the format is."""
 
 
 @dataclass(frozen=True)
@@ -288,7 +285,15 @@ def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int 
     for label, order in claims.items():
         yield families.get(label), order
     if not claims:
-        yield families.get(FORMAT_FAMILY.get(tableau.family, tableau.family)), None
+        yield families.get(_family_of_format(tableau)), None
+
+
+def _family_of_format(tableau: Tableau) -> str:
+    """Return the family in which a tableau without claims is checked."""
+    method = tableau.method
+    if isinstance(method, Splitting) and len(method.parts) > 2:
+        return f"splitting({len(method.parts)})"
+    return "cayley" if isinstance(method, Magnus) and method.transform == "cay" else tableau.family
 
 
 def _method(tableau: Tableau, family: Family) -> Any:

@@ -12,20 +12,21 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache, reduce
 from math import factorial, prod
+from typing import Any
 
 from orderconds.conditions import OrderCondition
 from orderconds.trees.levels import Forest, Tree, trees_of
 from orderconds.words.lyndon import lyndon_factors
 from orderconds.words.shuffle import shuffle
 
-Polynomial = dict[tuple[bytes, ...], Fraction]
+Polynomial = dict[tuple[Any, ...], Fraction]
 """Monomials in conditions, each the sorted encodings of its factors, with their coefficients."""
 
 Moves = Callable[[bytes], Iterable[tuple[bytes, bytes, bytes]]]
 """For each edge at the root of a tree u o v: u, v and v o u."""
 
 
-def spell(polynomial: Polynomial, text: Callable[[bytes], str]) -> str:
+def spell(polynomial: Polynomial, text: Callable[[Any], str]) -> str:
     r"""Write a polynomial, ``<tree>`` standing for a condition's left-hand side, products last.
 
     >>> spell({(b"\0", b"\0"): Fraction(1, 2), (b"\0\1",): Fraction(-1)}, str)
@@ -97,8 +98,8 @@ class RootSwitching:
 
 def with_relations(
     conditions: Iterable[OrderCondition],
-    polynomial: Callable[[bytes], Polynomial],
-    text: Callable[[bytes], str],
+    polynomial: Callable[[Any], Polynomial],
+    text: Callable[[Any], str],
 ) -> tuple[OrderCondition, ...]:
     """Give each condition that its ``polynomial`` does not name itself the relation it obeys."""
     found = []

@@ -372,7 +372,7 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
 class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
     """``family = "magnus"``: nodes c and exponents, tables of brackets over nodes counted from 1.
 
-    ``elements`` names Lie elements for those after it and for the exponents; ``map`` is ``"exp"`` or ``"cay"``.
+    ``elements`` names Lie elements for those after it and for the exponents; ``map`` is ``exp`` or ``cay``.
     """
 
     c: list[Coefficient]

@@ -83,7 +83,7 @@ class AdjointComposition:
 
 @dataclass(frozen=True)
 class Magnus:
-    """A method for Y' = A(t) Y: a product of exp (or cay) of combinations of brackets of the A_i = h A(c_i h).
+    """A method for Y' = A(t) Y: a product of exponentials of combinations of brackets of A_i = h A(c_i h).
 
     ``exponents`` hold one combination each, the first acting first; ``elements`` name Lie elements that
     later ones refer to. ``transform`` is ``"exp"``, or ``"cay"`` for cay(x) = (1 - x/2)^-1 (1 + x/2).

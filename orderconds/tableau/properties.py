@@ -136,10 +136,11 @@ def symmetric_product(method: AdjointComposition | Splitting | Magnus, ring: Rin
     c, series, last = method.c, method.words(ring), method.s - 1
     verdicts = [ring.is_zero(x + y - 1) for x, y in zip(c, c[::-1], strict=True)]
     for one, other in zip(series, series[::-1], strict=True):
-        for word in sorted({*one, *(tuple(last - i for i in word) for word in other)}):
-            x = one.get(word, ring.zero)
-            y = other.get(tuple(last - i for i in word), ring.zero)
-            verdicts.append(ring.is_zero(x - y if len(word) % 2 else x + y))
+        mirror = {tuple(last - i for i in word): value for word, value in other.items()}
+        for word in sorted({*one, *mirror}):
+            u: Element = one.get(word, ring.zero)
+            v: Element = mirror.get(word, ring.zero)
+            verdicts.append(ring.is_zero(u - v if len(word) % 2 else u + v))
     return _all(verdicts)
 
 

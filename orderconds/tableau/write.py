@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from orderconds.ring.protocol import Element
@@ -111,5 +112,6 @@ def _claims(claims: Claims) -> list[str]:
             before = spelled[claim.family][1:-1] + ", " if claim.family in spelled else ""
             spelled[claim.family] = f"[{before}{{ cutoff = {claim.cutoff}, order = {claim.order} }}]"
     spelled |= {name: str(value).lower() for name, value in claims.properties.items()}
-    lines = [f"{key} = {value}" for key, value in spelled.items()]
+    bare = re.compile(r"[A-Za-z0-9_-]+")
+    lines = [f"{k if bare.fullmatch(k) else _quoted(k)} = {value}" for k, value in spelled.items()]
     return ["[claims]", *lines] if lines else []

@@ -1,0 +1,73 @@
+"""Cayley methods for Y' = A(t) Y on quadratic groups: Y_1 = cay(Omega) Y_0, cay(x) = (1 - x/2)^-1 (1 + x/2).
+
+Omega is made of brackets and of products that pair up with their reverses, as A_i A_j A_k + A_k A_j A_i:
+they lie in the algebra {X: X^T P + P X = 0}. Its coefficients at a word and at the reversed word differ by
+the sign (-1)^(n+1), and nothing else relates them: a condition for each pair, and for each word of odd length
+that reads the same backwards (Iserles, Found. Comput. Math. 1 (2001) 129; Diele, Lopez and Peluso, Adv.
+Comput. Math. 8 (1998) 317).
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from orderconds.families.magnus import MagnusFamily
+from orderconds.families.relations import Polynomial
+from orderconds.tableau.brackets import Product
+from orderconds.tableau.products import Magnus
+from orderconds.words import expansions
+from orderconds.words.shuffle import Word
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from orderconds.ring.residues import Residues
+
+
+class CayleyFamily(MagnusFamily):
+    """Methods cay(Omega), or products of Cayley transforms; omega_{ij...} is the coefficient of ... A_j A_i.
+
+    >>> for condition in create().conditions(3):
+    ...     print(condition.tree, condition)
+    3 sum_i omega_i c_i^2 = 1/3
+    1 2 sum_{i,j} omega_ij c_j = 1/12
+    1 1 1 sum_{i,j,k} omega_ijk = -1/12
+    """
+
+    name = "cayley"
+    transform = "cay"
+
+    def independent(self, order: int) -> tuple[Word, ...]:
+        """Return the lesser of each word and its reverse, without words of even length that equal it."""
+        return tuple(
+            word
+            for word in self.words(order)
+            if word < word[::-1] or (word == word[::-1] and len(word) % 2 == 1)
+        )
+
+    def exact(self, word: Word) -> Fraction:
+        """Return the coefficient in the expansion of Omega for the flow."""
+        return expansions.cayley(word)
+
+    def polynomial(self, word: Word) -> Polynomial:
+        """Write the value on a word by that on its reverse."""
+        if word == word[::-1]:
+            return {(word,): Fraction(1)} if len(word) % 2 else {}
+        return {(min(word, word[::-1]),): Fraction(1 if word < word[::-1] or len(word) % 2 else -1)}
+
+    def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
+        """Return one Cayley transform of random products, paired with their reverses, at random nodes."""
+        terms = []
+        for length in range(1, order + 1):
+            for _ in range(2**order):
+                nodes = tuple(int(i) for i in generator.integers(0, order, length))
+                x = ring.random(generator)
+                paired = x if length % 2 else -x
+                terms += [(Product(nodes), x), (Product(nodes[::-1]), paired)]
+        return Magnus(tuple(ring.random(generator) for _ in range(order)), (tuple(terms),), (), "cay")
+
+
+def create() -> CayleyFamily:
+    """Return the family."""
+    return CayleyFamily()

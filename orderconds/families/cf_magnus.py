@@ -1,0 +1,93 @@
+"""Commutator-free Magnus methods: exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i), A_i = h A(c_i h).
+
+Letter k stands for X_k in A(t) = X_1 + t X_2 + ... and weighs k; the exact values are iterated integrals
+(Blanes and Moan, Appl. Numer. Math. 56 (2006) 1519; Alvermann and Fehske, J. Comput. Phys. 230 (2011) 5930).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from math import factorial
+from typing import TYPE_CHECKING
+
+from orderconds.errors import InputError
+from orderconds.families.composition import composition_formula
+from orderconds.families.magnus import random_product
+from orderconds.families.word_family import WordFamily
+from orderconds.formula import Formula, coefficient, fresh, index_sum, product
+from orderconds.ring.protocol import Element, Ring
+from orderconds.series.exponentials import ProductOfExponentials
+from orderconds.series.linear_flow import exponent_values
+from orderconds.tableau.products import Magnus
+from orderconds.words.expansions import iterated_integral, words_of_weight
+from orderconds.words.shuffle import Word
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from orderconds.ring.residues import Residues
+
+
+class CommutatorFreeMagnusFamily(WordFamily):
+    """Products of exponentials of combinations of A at nodes.
+
+    >>> for condition in create().conditions(3):
+    ...     print(condition.tree, condition)
+    1 2 sum_{I,i,j} beta_Ii beta_Ij c_j + 2 sum_{I<J,i,j} beta_Ii beta_Jj c_j = 2/3
+    3 sum_{I,i} beta_Ii c_i^2 = 1/3
+    """
+
+    name = "cf_magnus"
+    formats: tuple[str, ...] = ("magnus",)
+
+    def require(self, method: Magnus, ring: Ring) -> None:
+        """Raise :class:`~orderconds.errors.InputError` for a method with commutators or with another map."""
+        if method.transform != "exp" or not method.is_commutator_free(ring):
+            raise InputError(
+                f'map = "{method.transform}"'
+                if method.transform != "exp"
+                else "an exponent with commutators",
+                where=f"family {self.name}",
+                expected="exponentials of combinations of nodes",
+                hint=f"ask for the family {'cayley' if method.transform != 'exp' else 'magnus'!r}",
+            )
+
+    def words(self, order: int) -> tuple[Word, ...]:
+        """Return every word of this weight."""
+        return tuple(words_of_weight(order))
+
+    def exact(self, word: Word) -> Fraction:
+        """Return the iterated integral."""
+        return iterated_integral(word)
+
+    def scale(self, word: Word) -> int:
+        """Return the factorial of the length."""
+        return factorial(len(word))
+
+    def formula(self, word: Word) -> Formula:
+        """Return the index sum of the scaled value over exponentials I, J, ... and nodes i, j, ...."""
+        return composition_formula(word, _exponential, "J")
+
+    def series(self, method: Magnus, ring: Ring) -> Callable[[Word], Element]:
+        """Return the values of a step on words."""
+        rows = [exponent_values(ring, method.c, series) for series in method.words(ring)]
+        return ProductOfExponentials(ring, len(rows), lambda J, k: rows[J]((k,)))
+
+    def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
+        """Return products of random exponentials over random nodes, ``order`` of each."""
+        return random_product(ring, generator, order, "exp")
+
+
+def create() -> CommutatorFreeMagnusFamily:
+    """Return the family."""
+    return CommutatorFreeMagnusFamily()
+
+
+def _exponential(letters: Word, J: str) -> tuple[Formula, int]:
+    factors = []
+    for k in letters:
+        i = fresh()
+        powers = [coefficient("c", i)] * (k - 1)
+        factors.append(index_sum((i,), (), product(coefficient("beta", J, i), *powers)))
+    return product(*factors), factorial(len(letters))

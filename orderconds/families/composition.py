@@ -1,0 +1,145 @@
+"""Compositions of a method Phi and its adjoint, or of symmetric methods: words over the fields of Phi.
+
+Phi_h = exp(h X_1 + h^2 X_2 + ...), X_1 the field itself, so that letter k weighs k; in Phi_{alpha h} it has
+the value alpha^k, in the adjoint Phi*_{beta h} the value -(-beta)^k. The exact flow has 1/n! on the word of n
+letters 1, and zero on all others (HLW III.3.1; Murua and Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from itertools import pairwise
+from math import factorial, prod
+from typing import TYPE_CHECKING
+
+from orderconds.families.word_family import WordFamily
+from orderconds.formula import Formula, coefficient, fresh, index_sum, product, total
+from orderconds.ring.protocol import Element, Ring
+from orderconds.series.exponentials import ProductOfExponentials
+from orderconds.tableau.methods import Composition
+from orderconds.tableau.products import AdjointComposition
+from orderconds.words.compositions import compositions
+from orderconds.words.expansions import words_of_weight
+from orderconds.words.shuffle import Word
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from orderconds.ring.residues import Residues
+
+
+class CompositionFamily(WordFamily):
+    """Compositions Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h} of any basic method.
+
+    A composition of symmetric methods reads as one whose fields X_2, X_4, ... vanish.
+
+    >>> for condition in create().conditions(2):
+    ...     print(condition.tree, condition)
+    2 sum_i (alpha_i^2 - beta_i^2) = 0
+    """
+
+    name = "composition"
+    formats: tuple[str, ...] = ("composition",)
+
+    def words(self, order: int) -> tuple[Word, ...]:
+        """Return every word of this weight."""
+        return tuple(words_of_weight(order))
+
+    def exact(self, word: Word) -> Fraction:
+        """Return 1/n! where every letter is 1, else 0."""
+        return Fraction(1, factorial(len(word))) if set(word) == {1} else Fraction(0)
+
+    def scale(self, word: Word) -> int:
+        """Return the factorial of the length."""
+        return factorial(len(word))
+
+    def formula(self, word: Word) -> Formula:
+        """Return the index sum of the scaled value over pairs (alpha_i, beta_i)."""
+        return composition_formula(word, _pair)
+
+    def series(self, method: Composition | AdjointComposition, ring: Ring) -> ProductOfExponentials:
+        """Return the values of a step on words."""
+        if isinstance(method, Composition):
+            steps = method.gamma
+            return ProductOfExponentials(
+                ring, len(steps), lambda J, k: power(steps[J], k, ring) if k % 2 else None
+            )
+        both = [step for pair in zip(method.beta, method.alpha, strict=True) for step in pair]
+
+        def letter(J: int, k: int) -> Element:
+            value = power(both[J], k, ring)
+            return value if J % 2 or k % 2 else -value
+
+        return ProductOfExponentials(ring, len(both), letter)
+
+    def random_method(
+        self, ring: Residues, generator: np.random.Generator, order: int
+    ) -> Composition | AdjointComposition:
+        """Return compositions with random steps, half as many pairs as conditions up to ``order``."""
+        pairs = 1 + sum(len(self.independent(n)) for n in range(1, order + 1))
+        alpha, beta = (tuple(ring.random(generator) for _ in range(pairs)) for _ in range(2))
+        return AdjointComposition(alpha, beta)
+
+
+def create() -> CompositionFamily:
+    """Return the family."""
+    return CompositionFamily()
+
+
+def power(x: Element, n: int, ring: Ring) -> Element:
+    """Return x^n by repeated multiplication, over any ring.
+
+    >>> from orderconds.ring import QQ
+    >>> power(QQ.rational(2, 3), 2, QQ)
+    4/9
+    """
+    result = ring.one
+    for _ in range(n):
+        result = result * x
+    return result
+
+
+BlockFormula = Callable[[Word, str], tuple[Formula, int]]
+"""What r letters in one stage i give: a formula times 1/repeats."""
+
+
+def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> Formula:
+    """Return the index sum of n! times the value on a word of n letters; ``block`` is what one stage adds.
+
+    ``kind`` is lower-case for indices of stages, upper-case for indices of exponentials.
+
+    >>> from orderconds.formula import named
+    >>> step = lambda letters, i: (coefficient("gamma", i), factorial(len(letters)))
+    >>> named(composition_formula((1, 3), step)).text()
+    'sum_i gamma_i + 2 sum_{i<j} gamma_i gamma_j'
+    """
+    terms = []
+    for lengths in compositions(len(word)):
+        indices = [fresh(kind) for _ in lengths]
+        factors, weight = [], Fraction(factorial(len(word)))
+        for i, letters in zip(indices, _cut(word, lengths), strict=True):
+            factor, repeats = block(letters, i)
+            factors.append(factor)
+            weight /= repeats
+        relations = [(i, "<", j) for i, j in pairwise(indices)]
+        terms.append((weight, index_sum(indices, relations, product(*factors))))
+    return total(*terms)
+
+
+def _pair(letters: Word, i: str) -> tuple[Formula, int]:
+    """Return r! times the value of r letters in Phi_{alpha h} Phi*_{beta h}, and r!."""
+    r, terms = len(letters), []
+    for m in range(r, -1, -1):
+        late, early = sum(letters[r - m :]), letters[: r - m]
+        sign = prod((-1) ** (k + 1) for k in early)
+        factors = [coefficient("beta", i)] * sum(early) + [coefficient("alpha", i)] * late
+        terms.append((sign * factorial(r) // factorial(m) // factorial(r - m), product(*factors)))
+    return total(*terms), factorial(r)
+
+
+def _cut(word: Word, lengths: tuple[int, ...]) -> Iterator[Word]:
+    start = 0
+    for length in lengths:
+        yield word[start : start + length]
+        start += length

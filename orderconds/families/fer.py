@@ -1,0 +1,85 @@
+"""Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), F_1 = sum_i b_i A_i acting last and F_2 made of brackets.
+
+Letters are judged on F_1, whose values are those of a quadrature; Lyndon words of two letters and more on the
+logarithm of what acts before it, F_2 = sum_{ij} phi_ij A_j A_i + ..., to be that of exp(-F_1) Y (Fer 1958;
+Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 4.3; Blanes, Casas, Oteo and
+Ros, J. Phys. A 31 (1998) 259). Up to order six that is Fer's F_2; F_3 begins with weight seven.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from orderconds.errors import InputError
+from orderconds.families.magnus import MagnusFamily, node_sum
+from orderconds.formula import Formula
+from orderconds.ring.protocol import Element, Ring
+from orderconds.series.linear_flow import exponent_values, product_logarithm
+from orderconds.tableau.brackets import Bracket
+from orderconds.tableau.products import Magnus
+from orderconds.words.expansions import fer_remainder
+from orderconds.words.shuffle import Word
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from orderconds.ring.residues import Residues
+
+
+class FerFamily(MagnusFamily):
+    """Methods whose last exponential is free of commutators and whose others hold nothing else.
+
+    >>> for condition in create().conditions(3):
+    ...     print(condition.tree, condition)
+    1 2 sum_{i,j} phi_ij c_j = 1/12
+    3 sum_i b_i c_i^2 = 1/3
+    """
+
+    name = "fer"
+
+    def require(self, method: Magnus, ring: Ring) -> None:
+        """Raise :class:`~orderconds.errors.InputError` for a method that is no product of Fer's kind."""
+        super().require(method, ring)
+        *others, last = method.words(ring)
+        if any(len(word) > 1 for word in last) or any(len(word) == 1 for x in others for word in x):
+            raise InputError(
+                "commutators in the last exponent, or nodes alone in another",
+                where=f"family {self.name}",
+                expected="brackets in all exponents but the last, none in the last, F_1",
+                hint="ask for the family 'magnus'",
+            )
+
+    def exact(self, word: Word) -> Fraction:
+        """Return 1/k for the letter k, else the coefficient of log(exp(-F_1) Y)."""
+        return Fraction(1, word[0]) if len(word) == 1 else fer_remainder(word)
+
+    def formula(self, word: Word) -> Formula:
+        """Return the sum of b_i c_i^(k-1) for a letter, else of phi_{ij...} c_i^(k_1-1) ... over nodes."""
+        return node_sum("b" if len(word) == 1 else "phi", word)
+
+    def series(self, method: Magnus, ring: Ring) -> Callable[[Word], Element]:
+        """Return the values of F_1 on letters and of the logarithm of the rest on longer words."""
+        *others, last = (exponent_values(ring, method.c, series) for series in method.words(ring))
+        rest = product_logarithm(ring, others)
+        return lambda word: last(word) if len(word) == 1 else rest(word)
+
+    def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
+        """Return random quadratures with random brackets, nested to the left, at random nodes before them."""
+        c = tuple(ring.random(generator) for _ in range(order))
+        terms = []
+        for depth in range(2, order + 1):
+            for _ in range(2**order):
+                nodes = [int(i) for i in generator.integers(0, order, depth)]
+                term: object = nodes[0]
+                for i in nodes[1:]:
+                    term = Bracket(term, i)
+                terms.append((term, ring.random(generator)))
+        b = tuple((i, ring.random(generator)) for i in range(order))
+        return Magnus(c, (tuple(terms), b))
+
+
+def create() -> FerFamily:
+    """Return the family."""
+    return FerFamily()

@@ -1,0 +1,111 @@
+"""Magnus methods for Y' = A(t) Y: one exponential of a Lie element Omega in the A_i = h A(c_i h).
+
+Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + ...; in print omega_{ij...} is the coefficient of the
+product in which A_i acts first. Expanded in X_k, A(t) = X_1 + t X_2 + ..., it must agree with the Magnus
+expansion at every Lyndon word over letters k of weight k (Iserles, Munthe-Kaas, Noersett and Zanna, Acta
+Numerica 9 (2000) 215, Section 5). A product of exponentials is judged by its logarithm.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from orderconds.errors import InputError
+from orderconds.families.relations import Polynomial
+from orderconds.families.word_family import WordFamily
+from orderconds.formula import Formula, coefficient, fresh, index_sum, product
+from orderconds.ring.protocol import Element, Ring
+from orderconds.series.linear_flow import exponent_values, product_logarithm
+from orderconds.tableau.products import Magnus
+from orderconds.words import expansions
+from orderconds.words.radford import in_lyndon_words
+from orderconds.words.shuffle import Word
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from orderconds.ring.residues import Residues
+
+
+class MagnusFamily(WordFamily):
+    """Methods exp(Omega), or products of exponentials of Lie elements.
+
+    >>> for condition in create().conditions(3):
+    ...     print(condition.tree, condition)
+    1 2 sum_{i,j} omega_ij c_j = 1/12
+    3 sum_i omega_i c_i^2 = 1/3
+    """
+
+    name = "magnus"
+    formats: tuple[str, ...] = ("magnus",)
+    transform = "exp"
+
+    def require(self, method: Magnus, ring: Ring) -> None:
+        """Raise :class:`~orderconds.errors.InputError` for a method that uses another map."""
+        if method.transform != self.transform:
+            other = "cayley" if method.transform == "cay" else "magnus"
+            raise InputError(
+                f'map = "{method.transform}"',
+                where=f"family {self.name}",
+                expected=f'map = "{self.transform}"',
+                hint=f"ask for the family {other!r}",
+            )
+
+    def words(self, order: int) -> tuple[Word, ...]:
+        """Return every word of this weight."""
+        return tuple(expansions.words_of_weight(order))
+
+    def exact(self, word: Word) -> Fraction:
+        """Return the coefficient in the Magnus expansion."""
+        return expansions.magnus(word)
+
+    def formula(self, word: Word) -> Formula:
+        """Return the sum of omega_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ... over nodes."""
+        return node_sum("omega", word)
+
+    def polynomial(self, word: Word) -> Polynomial:
+        """Write the value of a Lie element on a word by those on Lyndon words, linearly: shuffles vanish."""
+        return linear_in_lyndon_words(word)
+
+    def series(self, method: Magnus, ring: Ring) -> Callable[[Word], Element]:
+        """Return the values of Omega on words."""
+        exponents = [exponent_values(ring, method.c, series) for series in method.words(ring)]
+        return product_logarithm(ring, exponents, self.transform)
+
+    def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
+        """Return products of random exponentials over random nodes, ``order`` of each."""
+        return random_product(ring, generator, order, self.transform)
+
+
+def create() -> MagnusFamily:
+    """Return the family."""
+    return MagnusFamily()
+
+
+def node_sum(name: str, word: Word) -> Formula:
+    """Return the sum over nodes of ``name``_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ....
+
+    >>> from orderconds.formula import named
+    >>> named(node_sum("omega", (2, 1, 3))).text()
+    'sum_{i,j,k} omega_ijk c_i c_k^2'
+    """
+    indices = [fresh() for _ in word]
+    powers = [coefficient("c", i) for i, k in zip(indices, word, strict=True) for _ in range(k - 1)]
+    return index_sum(indices, (), product(coefficient(name, *indices), *powers))
+
+
+def linear_in_lyndon_words(word: Word) -> Polynomial:
+    """Return the linear part of a word's polynomial in Lyndon words: its value on a Lie element.
+
+    >>> linear_in_lyndon_words((2, 1))
+    {((1, 2),): Fraction(-1, 1)}
+    """
+    return {monomial: value for monomial, value in in_lyndon_words(word).items() if len(monomial) == 1}
+
+
+def random_product(ring: Residues, generator: np.random.Generator, size: int, transform: str) -> Magnus:
+    """Return the product of ``size`` exponentials of random combinations of A at as many random nodes."""
+    rows = [tuple((i, ring.random(generator)) for i in range(size)) for _ in range(size)]
+    return Magnus(tuple(ring.random(generator) for _ in range(size)), tuple(rows), (), transform)

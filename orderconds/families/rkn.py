@@ -1,0 +1,251 @@
+"""Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q) with T quadratic in p, where brackets vanish.
+
+The bracket of functions of degrees i and j in p has degree i + j - 1, so that functions of q alone commute:
+V, [V,[T,V]] and what else x o y = [x,[T,y]] makes of V. The lightest consequence is [V,[V,[V,T]]] = 0.
+Conditions are the combinations of words over T and V that vanish on the ideal of these commutators: 2, 1, 2,
+2, 4, 5, 10, 14, 25, ... of them at order 1, 2, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151; McLachlan
+and Murua, J. Comput. Dyn. 6 (2019) 345).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from functools import lru_cache
+from itertools import combinations
+from math import lcm, prod
+from typing import TYPE_CHECKING, Any
+
+from flint import fmpq, fmpq_mat
+
+from orderconds.conditions import OrderCondition
+from orderconds.errors import InputError
+from orderconds.families.relations import Polynomial, with_relations
+from orderconds.families.splitting import SplittingFamily, splitting_formula
+from orderconds.formula import Formula, total
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.products import Splitting
+from orderconds.words.lie import expand
+from orderconds.words.quotient import Functional, independent_on_lie, orthogonal
+from orderconds.words.shuffle import Series, Word, add, shuffle
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from orderconds.ring.residues import Residues
+
+T, V = 0, 1
+
+
+class NystroemFamily:
+    """Splittings T + V for which ``rkn`` names V; a condition is a combination of words over T and V.
+
+    >>> [len(create().conditions(n)) for n in range(1, 6)]
+    [2, 1, 2, 2, 4]
+    >>> print(create().conditions(3)[0].tree, create().conditions(3)[0])
+    TTV sum_{i<=j} a_i^2 b_j + 2 sum_{i<j<=k} a_i a_j b_k = 1/3
+    """
+
+    name = "rkn"
+    formats: tuple[str, ...] = ("splitting",)
+    needs_nonzero_weights = False
+    search_limit = 8
+
+    def label(self) -> str:
+        """Return ``rkn``."""
+        return self.name
+
+    def require(self, method: Splitting, ring: Ring) -> None:
+        """Raise :class:`~orderconds.errors.InputError` for a splitting that does not say which part is V."""
+        if method.rkn is None:
+            raise InputError(
+                "a splitting without rkn",
+                where=f"family {self.name}",
+                expected='rkn = "V", V the part with [V,[V,[V,T]]] = 0',
+                hint="ask for the family 'splitting'",
+            )
+
+    def conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return the independent conditions of exactly this order."""
+        return tuple(map(self._condition, independent(order)))
+
+    def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return those of a basis of all combinations, dependent ones with their relations."""
+        return with_relations(map(self._condition, functionals(order)), relation, text)
+
+    def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
+        """Return the step's values on combinations of words, each times its scale."""
+        self.require(method, ring)
+        swap = method.rkn == T
+        steps = [(1 - part if swap else part, x) for part, x in method.steps]
+        values = SplittingFamily().series(Splitting(("T", "V"), tuple(steps)), ring)
+        found = []
+        for condition in conditions:
+            value = ring.zero
+            for word, scale in condition.key:
+                value = value + values(word) * scale
+            found.append(value * _scale(condition.key))
+        return tuple(found)
+
+    def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Splitting:
+        """Return splittings with random steps."""
+        made = SplittingFamily().random_method(ring, generator, order)
+        return Splitting(("T", "V"), made.steps, V)
+
+    def _condition(self, functional: Functional) -> OrderCondition:
+        splitting, scale = SplittingFamily(), _scale(functional)
+        rhs = sum((splitting.exact(word) * x for word, x in functional), Fraction(0))
+        return OrderCondition(
+            self.name,
+            len(functional[0][0]),
+            text(functional),
+            lambda: formula(functional),
+            rhs * scale,
+            functional,
+        )
+
+
+def create() -> NystroemFamily:
+    """Return the family."""
+    return NystroemFamily()
+
+
+def text(functional: Functional) -> str:
+    """Spell a combination of words.
+
+    >>> text((((0, 1, 1, 1), 1), ((1, 1, 1, 0), 1)))
+    'TVVV + VVVT'
+    """
+    written = ""
+    for word, scale in functional:
+        sign = (" - " if scale < 0 else " + ") if written else ("-" if scale < 0 else "")
+        size = "" if abs(scale) == 1 else f"{abs(scale)} "
+        written += sign + size + "".join("TV"[letter] for letter in word)
+    return written
+
+
+def formula(functional: Functional) -> Formula:
+    """Return the index sum of the scaled combination; a_i and b_i are the steps of T and V in stage i.
+
+    >>> from orderconds.formula import named
+    >>> named(formula((((0, 1), 1), ((1, 0), 1)))).text()
+    'sum_{i<=j} a_i b_j + sum_{i<j} b_i a_j'
+    """
+    splitting, scale = SplittingFamily(), _scale(functional)
+    return total(*((Fraction(scale * x, splitting.scale(w)), splitting_formula(w)) for w, x in functional))
+
+
+def _scale(functional: Functional) -> int:
+    """Return the least factor that clears the denominators of the words' formulas."""
+    splitting = SplittingFamily()
+    return lcm(*(Fraction(x, splitting.scale(word)).denominator for word, x in functional))
+
+
+@lru_cache(maxsize=32)
+def functionals(order: int) -> tuple[Functional, ...]:
+    """Return a basis of the combinations of words of this length that vanish on the ideal.
+
+    >>> [len(functionals(n)) for n in (1, 2, 3, 4)]
+    [2, 4, 8, 15]
+    """
+    return orthogonal(_ideal(order), (T, V), order)
+
+
+@lru_cache(maxsize=32)
+def independent(order: int) -> tuple[Functional, ...]:
+    """Return the combinations that are independent modulo products of lower ones."""
+    return independent_on_lie(functionals(order), order)
+
+
+@lru_cache(maxsize=32)
+def _potentials(weight: int) -> tuple[Series, ...]:
+    """Return what x o y = [x,[T,y]] makes of V, with this weight, as words."""
+    if weight == 1:
+        return (expand(V),)
+    found = []
+    for left in range(1, weight // 2 + 1):
+        right = weight - 1 - left
+        for i, x in enumerate(_potentials(left)):
+            for y in _potentials(right)[i if left == right else 0 :] if right >= left else ():
+                found.append(_commutator(x, _commutator(expand(T), y)))
+    return tuple(found)
+
+
+@lru_cache(maxsize=32)
+def _ideal(order: int) -> tuple[Series, ...]:
+    """Return the commutators of functions of q alone, to this weight."""
+    known = [(n, x) for n in range(1, order) for x in _potentials(n)]
+    return tuple(
+        bracket
+        for (m, x), (n, y) in combinations(known, 2)
+        if m + n <= order and (bracket := _commutator(x, y))
+    )
+
+
+def _commutator(x: Series, y: Series) -> Series:
+    forth = {u + v: a * b for u, a in x.items() for v, b in y.items()}
+    back: Series = {}
+    for v, b in y.items():
+        for u, a in x.items():
+            back[v + u] = back.get(v + u, Fraction(0)) + a * b
+    return add((1, forth), (-1, back))
+
+
+@lru_cache(maxsize=1 << 12)
+def _relation(functional: Functional) -> tuple[tuple[tuple[Functional, ...], Fraction], ...]:
+    n, content = len(functional[0][0]), sorted(functional[0][0])
+    own: list[tuple[Functional, ...]] = [(f,) for f in independent(n) if sorted(f[0][0]) == content]
+    monomials = own + [m for m in _monomials(n, n - 1) if sorted(w for f in m for w in f[0][0]) == content]
+    columns = [_shuffled(monomial) for monomial in monomials] + [dict(functional)]
+    words = sorted({word for column in columns for word in column})
+    matrix = fmpq_mat([[fmpq(column.get(word, 0)) for column in columns] for word in words])
+    reduced, rank = matrix.rref()
+    result = []
+    for r in range(rank):
+        pivot = next(k for k in range(len(columns)) if reduced[r, k] != 0)
+        value = reduced[r, len(columns) - 1]
+        if value != 0:
+            result.append((monomials[pivot], Fraction(int(value.p), int(value.q))))
+    return tuple(result)
+
+
+def relation(functional: Functional) -> Polynomial:
+    """Write a scaled combination as a polynomial in independent ones, themselves scaled, by linear algebra.
+
+    >>> relation((((1, 0), 1),))
+    {((((0,), 1),), (((1,), 1),)): Fraction(1, 1), ((((0, 1), 1),),): Fraction(-1, 1)}
+    """
+    scaled = {
+        tuple(sorted(monomial)): value * _scale(functional) / prod(map(_scale, monomial))
+        for monomial, value in _relation(functional)
+    }
+    return dict(sorted(scaled.items(), key=lambda term: (-len(term[0]), term[0])))
+
+
+def _monomials(order: int, heaviest: int) -> list[tuple[Functional, ...]]:
+    """Return the products of two independent combinations or more of this weight in all."""
+    known = [f for n in range(heaviest, 0, -1) for f in independent(n)]
+
+    def extend(left: int, start: int) -> list[tuple[Functional, ...]]:
+        if left == 0:
+            return [()]
+        found = []
+        for place in range(start, len(known)):
+            n = len(known[place][0][0])
+            if n <= left:
+                found += [(known[place], *rest) for rest in extend(left - n, place)]
+        return found
+
+    return extend(order, 0)
+
+
+def _shuffled(monomial: tuple[Functional, ...]) -> dict[Word, int]:
+    result: dict[Word, int] = {(): 1}
+    for functional in monomial:
+        product: dict[Word, int] = {}
+        for u, a in result.items():
+            for v, b in functional:
+                for word, times in shuffle(u, v).items():
+                    product[word] = product.get(word, 0) + times * a * b
+        result = product
+    return result

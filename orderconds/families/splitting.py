@@ -1,0 +1,158 @@
+"""Splittings: products of the flows of A, B, ... whose sum is the field; conditions are words over A, B, ...
+
+One step is ... exp(b_1 h B) exp(a_1 h A), A acting first in each stage; the exact flow exp(h (A + B)) has the
+value 1/n! on every word of n letters (HLW III.5; McLachlan and Quispel, Acta Numerica 11 (2002) 341).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import groupby, pairwise
+from itertools import product as tuples
+from math import factorial, prod
+from typing import TYPE_CHECKING, Any
+
+from orderconds.errors import InputError
+from orderconds.families.word_family import WordFamily
+from orderconds.formula import Formula, coefficient, fresh, index_sum, product, total
+from orderconds.ring.protocol import Element, Ring
+from orderconds.series.exponentials import ProductOfExponentials
+from orderconds.tableau.products import Splitting
+from orderconds.words.compositions import compositions
+from orderconds.words.shuffle import Word
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from orderconds.ring.residues import Residues
+
+MAX_PARTS = 6
+
+
+@dataclass(frozen=True)
+class SplittingFamily(WordFamily):
+    """Splittings in ``parts`` parts; letters 0, 1, ... are the parts in the order of the file, A, B, ....
+
+    >>> for condition in create().conditions(3):
+    ...     print(condition.tree, condition)
+    AAB sum_{i<=j} a_i^2 b_j + 2 sum_{i<j<=k} a_i a_j b_k = 1/3
+    ABB sum_{i<=j} a_i b_j^2 + 2 sum_{i<=j<k} a_i b_j b_k = 1/3
+    """
+
+    parts: int = 2
+    name = "splitting"
+    formats = ("splitting",)
+
+    def label(self) -> str:
+        """Return ``splitting``, with the number of parts where it is not two."""
+        return self.name if self.parts == 2 else f"{self.name}({self.parts})"
+
+    def require(self, method: Splitting, ring: Ring) -> None:
+        """Raise :class:`~orderconds.errors.InputError` for a splitting in another number of parts."""
+        if len(method.parts) != self.parts:
+            right = SplittingFamily(len(method.parts)).label()
+            raise InputError(
+                f"a splitting in {len(method.parts)} parts: {', '.join(method.parts)}",
+                where=f"family {self.label()}",
+                expected=f"{self.parts} parts",
+                hint=f"ask for the family {right!r}",
+            )
+
+    def weigh(self, letter: int) -> int:
+        """Return 1: every part is a field of weight one."""
+        return 1
+
+    def words(self, order: int) -> tuple[Word, ...]:
+        """Return every word of this length."""
+        return tuple(tuples(range(self.parts), repeat=order))
+
+    def text(self, word: Word) -> str:
+        """Spell a word as ``AAB``."""
+        return "".join(chr(ord("A") + letter) for letter in word)
+
+    def exact(self, word: Word) -> Fraction:
+        """Return 1/n!."""
+        return Fraction(1, factorial(len(word)))
+
+    def scale(self, word: Word) -> int:
+        """Return the product of the factorials of the lengths of runs of one letter."""
+        return prod(factorial(len(list(run))) for _, run in groupby(word))
+
+    def formula(self, word: Word) -> Formula:
+        """Return the index sum of the scaled value; a_i, b_i, ... are the steps of A, B, ... in stage i."""
+        return splitting_formula(word)
+
+    def series(self, method: Splitting, ring: Ring) -> ProductOfExponentials:
+        """Return the values of a step on words."""
+        steps = method.steps
+        return ProductOfExponentials(ring, len(steps), lambda J, k: steps[J][1] if steps[J][0] == k else None)
+
+    def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Splitting:
+        """Return splittings with random steps, a stage more than the conditions of ``order``."""
+        stages = 1 + sum(len(self.independent(n)) for n in range(1, order + 1)) // self.parts
+        steps = [(part, ring.random(generator)) for _ in range(stages) for part in range(self.parts)]
+        return Splitting(tuple(map(self.text, self.words(1))), tuple(steps))
+
+
+def create(parts: int = 2) -> SplittingFamily:
+    """Return the family of splittings in so many parts.
+
+    Raises :class:`~orderconds.errors.InputError` for fewer than two parts or more than six.
+
+    >>> create(3).label()
+    'splitting(3)'
+    """
+    if not 2 <= parts <= MAX_PARTS:
+        raise InputError(f"{parts} parts", where="family splitting", expected=f"2 to {MAX_PARTS} parts")
+    return SplittingFamily(parts)
+
+
+def splitting_formula(word: Word) -> Formula:
+    """Return the index sum of the value on a word, times the factorials of its runs.
+
+    >>> from orderconds.formula import named
+    >>> named(splitting_formula((0, 1, 0))).text()
+    'sum_{i<=j<k} a_i b_j a_k'
+    """
+    runs = [(letter, len(list(run))) for letter, run in groupby(word)]
+    terms = []
+    for weight, blocks in _blocks(runs):
+        indices = [fresh() for _ in blocks]
+        relations = []
+        for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
+            # In a stage A acts before B, so that A and B after it may come from the same stage.
+            relations.append((i, "<=" if one < two else "<", j))
+        factors = [
+            coefficient("abcdef"[letter], i)
+            for i, (letter, length) in zip(indices, blocks, strict=True)
+            for _ in range(length)
+        ]
+        terms.append((weight, index_sum(indices, relations, product(*factors))))
+    return total(*terms)
+
+
+def _blocks(runs: list[tuple[int, int]]) -> Iterator[tuple[int, list[tuple[int, int]]]]:
+    """Yield the ways in which runs fall into blocks (letter, length) of one stage, with multinomials."""
+    for split in tuples(*(tuple(compositions(length)) for _, length in runs)):
+        weight = prod(factorial(sum(parts)) // prod(map(factorial, parts)) for parts in split)
+        yield weight, [(letter, n) for (letter, _), parts in zip(runs, split, strict=True) for n in parts]
+
+
+def stage_tables(method: Splitting, ring: Ring) -> dict[str, list[Element]]:
+    """Return the tables a, b, ... that the formulas name, with zeros where a stage lacks a part.
+
+    >>> from orderconds.ring import QQ
+    >>> strang = Splitting(("T", "V"), ((1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))))
+    >>> stage_tables(strang, QQ)
+    {'a': [0, 1], 'b': [1/2, 1/2]}
+    """
+    stages: list[list[Any]] = []
+    last = len(method.parts)
+    for part, step in method.steps:
+        if part <= last:
+            stages.append([ring.zero] * len(method.parts))
+        stages[-1][part] = step
+        last = part
+    return {"abcdef"[part]: [stage[part] for stage in stages] for part in range(len(method.parts))}

@@ -1,0 +1,113 @@
+"""Symmetric compositions of a symmetric method of order two: words over letters 1, 3, 5, ... of odd weight.
+
+A step and its adjoint agree, so that the logarithm of a step holds odd weights only: conditions of even order
+follow from those before (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from math import factorial
+from typing import TYPE_CHECKING, Any
+
+from orderconds.errors import InputError
+from orderconds.families.composition import CompositionFamily, composition_formula
+from orderconds.families.relations import Polynomial, add, multiply
+from orderconds.formula import Formula, coefficient, product
+from orderconds.ring.protocol import Ring
+from orderconds.tableau.methods import Composition
+from orderconds.words.compositions import compositions
+from orderconds.words.convolution import logarithm_scales
+from orderconds.words.expansions import words_of_weight
+from orderconds.words.lyndon import lyndon_words
+from orderconds.words.radford import in_lyndon_words
+from orderconds.words.shuffle import Word
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from orderconds.ring.residues import Residues
+
+
+class SymmetricCompositionFamily(CompositionFamily):
+    """Compositions with steps gamma_1, ..., gamma_s that read the same backwards, of a symmetric method.
+
+    >>> for n in (1, 2, 3, 4):
+    ...     for condition in create().conditions(n):
+    ...         print(condition.tree, condition)
+    1 sum_i gamma_i = 1
+    3 sum_i gamma_i^3 = 0
+    """
+
+    name = "symmetric_composition"
+
+    def require(self, method: Any, ring: Ring) -> None:
+        """Raise :class:`~orderconds.errors.InputError` unless steps of a symmetric base are symmetric."""
+        expected = "base symmetric-2 and steps that read the same backwards"
+        if not isinstance(method, Composition):
+            raise InputError("base adjoint-pair", where=f"family {self.name}", expected=expected)
+        for i, (x, y) in enumerate(zip(method.gamma, method.gamma[::-1], strict=True)):
+            if x is not y and ring.is_zero(x - y) is False:
+                raise InputError(
+                    f"gamma[{i + 1}] and gamma[{method.s - i}] differ",
+                    where=f"family {self.name}",
+                    expected=expected,
+                    hint="ask for the family 'composition'",
+                )
+
+    def words(self, order: int) -> tuple[Word, ...]:
+        """Return every word over odd letters of this weight."""
+        return tuple(word for word in words_of_weight(order) if all(letter % 2 for letter in word))
+
+    def independent(self, order: int) -> tuple[Word, ...]:
+        """Return the Lyndon words over odd letters; none where the order is even."""
+        return tuple(lyndon_words(range(1, order + 1, 2), order, int)) if order % 2 else ()
+
+    def polynomial(self, word: Word) -> Polynomial:
+        """Write the value on a word as a polynomial in those on Lyndon words of odd weight."""
+        return dict(_polynomial(word))
+
+    def formula(self, word: Word) -> Formula:
+        """Return the index sum of the scaled value over steps gamma_i."""
+        return composition_formula(word, _step)
+
+    def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Composition:
+        """Return symmetric compositions with random steps, as many as conditions up to ``order`` and more."""
+        steps = 1 + sum(len(self.independent(n)) for n in range(1, order + 1))
+        half = [ring.random(generator) for _ in range(steps)]
+        return Composition("symmetric-2", (*half, *half[:-1][::-1]))
+
+
+def create() -> SymmetricCompositionFamily:
+    """Return the family."""
+    return SymmetricCompositionFamily()
+
+
+def _step(letters: Word, i: str) -> tuple[Formula, int]:
+    return product(*[coefficient("gamma", i)] * sum(letters)), factorial(len(letters))
+
+
+@lru_cache(maxsize=1 << 12)
+def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Any], ...]:
+    factors = in_lyndon_words(word)
+    if set(factors) != {(word,)}:
+        result: Polynomial = {}
+        for monomial, value in factors.items():
+            product_of_values: Polynomial = {(): value}
+            for factor in monomial:
+                product_of_values = multiply(product_of_values, dict(_polynomial(factor)))
+            result = add(result, product_of_values)
+        return tuple(result.items())
+    if sum(word) % 2:
+        return (((word,), 1),)
+    # At even weight the logarithm vanishes: sum over cuts of (-1)^(m+1)/m prod of values = 0.
+    result = {}
+    for lengths in compositions(len(word)):
+        if len(lengths) > 1:
+            values: Polynomial = {(): logarithm_scales(len(lengths))[-1]}
+            start = 0
+            for length in lengths:
+                values = multiply(values, dict(_polynomial(word[start : start + length])))
+                start += length
+            result = add(result, values, -1)
+    return tuple(result.items())

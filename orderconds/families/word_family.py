@@ -1,0 +1,111 @@
+"""What families have in common whose conditions are values on words over a graded alphabet.
+
+Values of a group-like series multiply over shuffles, so that those on Lyndon words determine all and are
+independent (Radford 1979; Reutenauer, Free Lie Algebras, Thm 6.1). Words are written in the order of action.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from functools import partial
+from math import prod
+from typing import TYPE_CHECKING, Any
+
+from orderconds.conditions import OrderCondition
+from orderconds.families.relations import Polynomial, with_relations
+from orderconds.formula import Formula
+from orderconds.ring.protocol import Element, Ring
+from orderconds.words.lyndon import lyndon_words
+from orderconds.words.radford import in_lyndon_words
+from orderconds.words.shuffle import Word
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from orderconds.ring.residues import Residues
+
+
+class WordFamily(ABC):
+    """A family with one condition a word over letters of positive weight."""
+
+    name: str
+    formats: tuple[str, ...]
+    needs_nonzero_weights = False
+    search_limit = 8
+
+    def label(self) -> str:
+        """Return the name with its options."""
+        return self.name
+
+    @abstractmethod
+    def words(self, order: int) -> tuple[Word, ...]:
+        """Return every word of this weight."""
+
+    @abstractmethod
+    def exact(self, word: Word) -> Fraction:
+        """Return the exact flow's value on a word."""
+
+    @abstractmethod
+    def formula(self, word: Word) -> Formula:
+        """Return the index sum of ``scale(word)`` times the method's value on a word."""
+
+    @abstractmethod
+    def series(self, method: Any, ring: Ring) -> Callable[[Word], Element]:
+        """Return the values of one step of ``method`` on words, elements of ``ring``."""
+
+    @abstractmethod
+    def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Any:
+        """Return random members, one a sample, free enough to tell conditions up to ``order`` apart."""
+
+    def independent(self, order: int) -> tuple[Word, ...]:
+        """Return the words of this weight whose conditions are independent and imply all of it."""
+        letters = sorted({letter for word in self.words(order) for letter in word})
+        return tuple(lyndon_words(letters, order, self.weigh))
+
+    def weigh(self, letter: int) -> int:
+        """Return the weight of a letter: letter k stands for a field of weight k."""
+        return letter
+
+    def scale(self, word: Word) -> int:
+        """Return the factor by which the printed condition is multiplied."""
+        return 1
+
+    def text(self, word: Word) -> str:
+        """Spell a word."""
+        return " ".join(map(str, word))
+
+    def polynomial(self, word: Word) -> Polynomial:
+        """Write the value on a word as a polynomial in those on independent words."""
+        return {tuple(sorted(monomial)): value for monomial, value in in_lyndon_words(word).items()}
+
+    def conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return the independent conditions of exactly this order."""
+        return tuple(map(self._condition, self.independent(order)))
+
+    def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return every word's condition of exactly this order, dependent ones with their relations."""
+        return with_relations(map(self._condition, self.words(order)), self._scaled, self.text)
+
+    def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
+        """Return the step's values on the words of ``conditions``, each times its scale."""
+        series = self.series(method, ring)
+        return tuple(series(c.key) * self.scale(c.key) for c in conditions)
+
+    def _scaled(self, word: Word) -> Polynomial:
+        """Return the same polynomial between left-hand sides, which carry their scales."""
+        return {
+            monomial: value * self.scale(word) / prod(map(self.scale, monomial))
+            for monomial, value in self.polynomial(word).items()
+        }
+
+    def _condition(self, word: Word) -> OrderCondition:
+        return OrderCondition(
+            self.label(),
+            sum(map(self.weigh, word)),
+            self.text(word),
+            partial(self.formula, word),
+            self.exact(word) * self.scale(word),
+            word,
+        )

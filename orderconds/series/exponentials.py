@@ -1,0 +1,56 @@
+"""Words of letters in a product of exponentials: one sweep over the factors, over any ring.
+
+In exp(X_m) ... exp(X_1) with X_J = sum_k x_J(k) k the word k_1 ... k_n, k_1 acting first, has the coefficient
+
+    sum over J_1 <= ... <= J_n of prod x_{J_l}(k_l) / prod (run lengths)!
+
+(Reutenauer, Free Lie Algebras, Section 3.1; HLW III.5.3 for splittings).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import factorial
+
+from orderconds.ring.protocol import Element, Ring
+from orderconds.words.shuffle import Word
+
+
+class ProductOfExponentials:
+    """Values on words of ``count`` exponentials; ``letter(J, k)`` is the coefficient of letter k in X_J.
+
+    None stands for a coefficient that is zero by construction.
+
+    >>> from orderconds.ring import QQ
+    >>> strang = [(1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))]
+    >>> values = ProductOfExponentials(QQ, 3, lambda J, k: strang[J][1] if strang[J][0] == k else None)
+    >>> values((0, 1)), values((0, 0, 1))
+    (1/2, 1/4)
+    """
+
+    def __init__(self, ring: Ring, count: int, letter: Callable[[int, int], Element | None]) -> None:
+        self._ring, self._count, self._letter = ring, count, letter
+        self._partial: dict[Word, list[Element]] = {(): [ring.one] * (count + 1)}
+
+    def __call__(self, word: Word) -> Element:
+        """Return the coefficient of a word."""
+        return self._sweep(word)[-1]
+
+    def _sweep(self, word: Word) -> list[Element]:
+        """Return the coefficients of ``word`` in the products of the first 0, 1, ... exponentials."""
+        if word not in self._partial:
+            found = [self._ring.zero]
+            heads = [self._sweep(word[:end]) for end in range(len(word))]
+            for J in range(self._count):
+                value, run = found[-1], self._ring.one
+                # The last r letters come from this exponential, those before from earlier ones.
+                for r in range(1, len(word) + 1):
+                    x = self._letter(J, word[-r])
+                    if x is None:
+                        break
+                    run = run * x
+                    share = heads[-r][J] * run
+                    value = value + (share if r == 1 else share * self._ring.rational(1, factorial(r)))
+                found.append(value)
+            self._partial[word] = found
+        return self._partial[word]

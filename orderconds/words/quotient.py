@@ -1,0 +1,113 @@
+"""The functionals on words that vanish on a two-sided ideal: coordinates of the quotient's group.
+
+A homomorphism of a free algebra onto a quotient by an ideal J is seen by those combinations of words alone
+that are orthogonal to J. Modulo products of lighter ones they are the dual of the quotient's Lie algebra
+(Reutenauer, Free Lie Algebras, Sections 1.5 and 6.1; Milnor and Moore, Ann. Math. 81 (1965) 211).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+from itertools import product as tuples
+from math import lcm
+
+from flint import fmpq, fmpq_mat
+
+from orderconds.words.lie import expand, standard_bracketing
+from orderconds.words.lyndon import is_lyndon
+from orderconds.words.shuffle import Series, Word
+
+Functional = tuple[tuple[Word, int], ...]
+"""Words with integer coefficients, without common factor, the word it is named after first."""
+
+
+def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int) -> tuple[Functional, ...]:
+    """Return a basis of the functionals on words of this length that vanish on the ideal of ``generators``.
+
+    Each is named after a word of its own, Lyndon words where that is possible, and holds few others.
+
+    >>> commuting = {(0, 1): Fraction(1), (1, 0): Fraction(-1)}
+    >>> orthogonal([commuting], (0, 1), 2)
+    ((((0, 0), 1),), (((0, 1), 1), ((1, 0), 1)), (((1, 1), 1),))
+    """
+    found: list[Functional] = []
+    for content, words in sorted(_by_content(letters, length).items()):
+        # Pivots are taken from the left: what stands at the right stays free, and names a functional.
+        columns = sorted(words, key=lambda word: (is_lyndon(word), word))
+        rows = list(_ideal(generators, letters, length, content))
+        found += _kernel(rows, columns)
+    return tuple(sorted(found))
+
+
+def independent_on_lie(functionals: Sequence[Functional], length: int) -> tuple[Functional, ...]:
+    """Return those that are independent of the ones before on Lie elements, Lyndon words' first.
+
+    >>> independent_on_lie([(((0, 1), 1),), (((1, 0), 1),)], 2)
+    ((((0, 1), 1),),)
+    """
+    chosen: list[Functional] = []
+    contents = {tuple(sorted(f[0][0])): None for f in functionals}
+    for content in sorted(contents):
+        of_content = [f for f in functionals if tuple(sorted(f[0][0])) == content]
+        brackets = [expand(standard_bracketing(word)) for word in _lyndon(content, length)]
+        kept: list[list[fmpq]] = []
+        for functional in sorted(of_content, key=lambda f: (not is_lyndon(f[0][0]), f)):
+            value = [_at(functional, bracket) for bracket in brackets]
+            if value and fmpq_mat([*kept, value]).rank() > len(kept):
+                kept.append(value)
+                chosen.append(functional)
+    return tuple(sorted(chosen))
+
+
+def _at(functional: Functional, series: Mapping[Word, Fraction]) -> fmpq:
+    value = sum((scale * series.get(word, Fraction(0)) for word, scale in functional), Fraction(0))
+    return fmpq(value.numerator, value.denominator)
+
+
+def _lyndon(content: Word, length: int) -> Iterator[Word]:
+    letters = sorted(set(content))
+    return (w for w in tuples(letters, repeat=length) if tuple(sorted(w)) == content and is_lyndon(w))
+
+
+def _by_content(letters: Sequence[int], length: int) -> dict[Word, list[Word]]:
+    found: dict[Word, list[Word]] = {}
+    for word in tuples(letters, repeat=length):
+        found.setdefault(tuple(sorted(word)), []).append(word)
+    return found
+
+
+def _ideal(
+    generators: Sequence[Series], letters: Sequence[int], length: int, content: Word
+) -> Iterator[Series]:
+    """Yield u g v for every generator g and all words u, v that give this content."""
+    for generator in generators:
+        some = next(iter(generator))
+        left = list(content)
+        for letter in some:
+            if letter not in left:
+                break
+            left.remove(letter)
+        else:
+            for around in sorted(w for w in tuples(letters, repeat=len(left)) if sorted(w) == left):
+                for cut in range(len(around) + 1):
+                    u, v = around[:cut], around[cut:]
+                    yield {u + word + v: value for word, value in generator.items()}
+
+
+def _kernel(rows: Sequence[Series], columns: Sequence[Word]) -> Iterator[Functional]:
+    place = {word: k for k, word in enumerate(columns)}
+    if not rows:
+        yield from (((word, 1),) for word in columns)
+        return
+    entries = [[fmpq(0)] * len(columns) for _ in rows]
+    for row, series in zip(entries, rows, strict=True):
+        for word, value in series.items():
+            row[place[word]] = fmpq(value.numerator, value.denominator)
+    reduced, rank = fmpq_mat(entries).rref()
+    pivots = [next(k for k in range(len(columns)) if reduced[r, k] != 0) for r in range(rank)]
+    for free in (k for k in range(len(columns)) if k not in pivots):
+        terms = [(columns[free], fmpq(1))]
+        terms += [(columns[p], -reduced[r, free]) for r, p in enumerate(pivots) if reduced[r, free] != 0]
+        clear = lcm(*(int(x.q) for _, x in terms))
+        yield tuple((word, int(x.p) * (clear // int(x.q))) for word, x in terms)
