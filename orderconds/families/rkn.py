@@ -21,7 +21,7 @@ from flint import fmpq, fmpq_mat
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
 from orderconds.families.relations import Polynomial, with_relations
-from orderconds.families.splitting import SplittingFamily, splitting_formula
+from orderconds.families.splitting import SplittingFamily, two_part_formula
 from orderconds.formula import Formula, total
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.products import Splitting
@@ -43,7 +43,7 @@ class NystroemFamily:
     >>> [len(create().conditions(n)) for n in range(1, 6)]
     [2, 1, 2, 2, 4]
     >>> print(create().conditions(3)[0].tree, create().conditions(3)[0])
-    TTV sum_{i<=j} a_i^2 b_j + 2 sum_{i<j<=k} a_i a_j b_k = 1/3
+    TTV sum_i c_i^2 b_i = 1/3
     """
 
     name = "rkn"
@@ -125,14 +125,14 @@ def text(functional: Functional) -> str:
 
 
 def formula(functional: Functional) -> Formula:
-    """Return the index sum of the scaled combination; a_i and b_i are the steps of T and V in stage i.
+    """Return the index sum of the scaled combination: a_i, b_i the steps of T, V, c_i = a_1 + ... + a_i.
 
     >>> from orderconds.formula import named
     >>> named(formula((((0, 1), 1), ((1, 0), 1)))).text()
-    'sum_{i<=j} a_i b_j + sum_{i<j} b_i a_j'
+    'sum_i c_i b_i + sum_i b_i (sum_j a_j - c_i)'
     """
     splitting, scale = SplittingFamily(), _scale(functional)
-    return total(*((Fraction(scale * x, splitting.scale(w)), splitting_formula(w)) for w, x in functional))
+    return total(*((Fraction(scale * x, splitting.scale(w)), two_part_formula(w)) for w, x in functional))
 
 
 def _scale(functional: Functional) -> int:

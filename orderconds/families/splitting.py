@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import groupby, pairwise
+from itertools import accumulate, groupby, pairwise
 from itertools import product as tuples
 from math import factorial, prod
 from typing import TYPE_CHECKING, Any
@@ -37,8 +37,8 @@ class SplittingFamily(WordFamily):
 
     >>> for condition in create().conditions(3):
     ...     print(condition.tree, condition)
-    AAB sum_{i<=j} a_i^2 b_j + 2 sum_{i<j<=k} a_i a_j b_k = 1/3
-    ABB sum_{i<=j} a_i b_j^2 + 2 sum_{i<=j<k} a_i b_j b_k = 1/3
+    AAB sum_i c_i^2 b_i = 1/3
+    ABB sum_i c_i b_i^2 + 2 sum_{i<j} c_i b_i b_j = 1/3
     """
 
     parts: int = 2
@@ -81,8 +81,11 @@ class SplittingFamily(WordFamily):
         return prod(factorial(len(list(run))) for _, run in groupby(word))
 
     def formula(self, word: Word) -> Formula:
-        """Return the index sum of the scaled value; a_i, b_i, ... are the steps of A, B, ... in stage i."""
-        return splitting_formula(word)
+        """Return the index sum of the scaled value; a_i, b_i, ... are the steps of A, B, ... in stage i.
+
+        In two parts c_i = a_1 + ... + a_i takes the place of sums over a.
+        """
+        return two_part_formula(word) if self.parts == 2 else splitting_formula(word)
 
     def series(self, method: Splitting, ring: Ring) -> ProductOfExponentials:
         """Return the values of a step on words."""
@@ -118,7 +121,8 @@ def splitting_formula(word: Word) -> Formula:
     """
     runs = [(letter, len(list(run))) for letter, run in groupby(word)]
     terms = []
-    for weight, blocks in _blocks(runs):
+    for weight, split in _splits([length for _, length in runs]):
+        blocks = [(letter, n) for (letter, _), parts in zip(runs, split, strict=True) for n in parts]
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
@@ -133,20 +137,62 @@ def splitting_formula(word: Word) -> Formula:
     return total(*terms)
 
 
-def _blocks(runs: list[tuple[int, int]]) -> Iterator[tuple[int, list[tuple[int, int]]]]:
-    """Yield the ways in which runs fall into blocks (letter, length) of one stage, with multinomials."""
-    for split in tuples(*(tuple(compositions(length)) for _, length in runs)):
-        weight = prod(factorial(sum(parts)) // prod(map(factorial, parts)) for parts in split)
-        yield weight, [(letter, n) for (letter, _), parts in zip(runs, split, strict=True) for n in parts]
+def two_part_formula(word: Word) -> Formula:
+    """Return the same for two parts, with c_i = a_1 + ... + a_i: a run of A between b_i and b_j is c_j - c_i.
+
+    >>> from orderconds.formula import named
+    >>> named(two_part_formula((0, 0, 1, 0, 1))).text()
+    'sum_{i<j} c_i^2 b_i (c_j - c_i) b_j'
+    """
+    if 1 not in word:
+        i = fresh()
+        return product(*[index_sum((i,), (), coefficient("a", i))] * len(word))
+    *gaps, tail = "".join("AB"[letter] for letter in word).split("B")
+    runs: list[tuple[int, int]] = []  # A^gap before B^length
+    for gap in map(len, gaps):
+        if gap or not runs:
+            runs.append((gap, 1))
+        else:
+            runs[-1] = (runs[-1][0], runs[-1][1] + 1)
+    terms = []
+    for weight, split in _splits([length for _, length in runs]):
+        factors, indices, before = [], [], None
+        # A run of B has A before its first block alone.
+        blocks = [
+            (0 if k else gap, n)
+            for (gap, _), parts in zip(runs, split, strict=True)
+            for k, n in enumerate(parts)
+        ]
+        for gap, length in blocks:
+            indices.append(fresh())
+            here = coefficient("c", indices[-1])
+            between = here if before is None else total((1, here), (-1, before))
+            factors += [between] * gap + [coefficient("b", indices[-1])] * length
+            before = here
+        if tail and before is not None:
+            i = fresh()
+            after = total((1, index_sum((i,), (), coefficient("a", i))), (-1, before))
+            factors += [after] * len(tail)
+        relations = [(i, "<", j) for i, j in pairwise(indices)]
+        terms.append((weight, index_sum(indices, relations, product(*factors))))
+    return total(*terms)
+
+
+def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ...]]]:
+    """Yield the ways in which runs of these lengths fall into blocks of one stage, with multinomials."""
+    for split in tuples(*(tuple(compositions(length)) for length in lengths)):
+        yield prod(factorial(sum(parts)) // prod(map(factorial, parts)) for parts in split), split
 
 
 def stage_tables(method: Splitting, ring: Ring) -> dict[str, list[Element]]:
     """Return the tables a, b, ... that the formulas name, with zeros where a stage lacks a part.
 
+    Of a splitting in two parts ``c`` holds the sums a_1 + ... + a_i.
+
     >>> from orderconds.ring import QQ
     >>> strang = Splitting(("T", "V"), ((1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))))
     >>> stage_tables(strang, QQ)
-    {'a': [0, 1], 'b': [1/2, 1/2]}
+    {'a': [0, 1], 'b': [1/2, 1/2], 'c': [0, 1]}
     """
     stages: list[list[Any]] = []
     last = len(method.parts)
@@ -155,4 +201,5 @@ def stage_tables(method: Splitting, ring: Ring) -> dict[str, list[Element]]:
             stages.append([ring.zero] * len(method.parts))
         stages[-1][part] = step
         last = part
-    return {"abcdef"[part]: [stage[part] for stage in stages] for part in range(len(method.parts))}
+    tables = {"abcdef"[part]: [stage[part] for stage in stages] for part in range(len(method.parts))}
+    return tables if len(method.parts) > 2 else {**tables, "c": list(accumulate(tables["a"]))}

@@ -9,6 +9,7 @@ from fractions import Fraction
 from orderconds.formula.nodes import Coefficient, Formula, IndexSum, Power, Product, Relation, Total
 
 HATS = {"ahat": r"\hat{a}", "bhat": r"\hat{b}", "chat": r"\hat{c}", "alpha": r"\alpha", "beta": r"\beta"}
+HATS |= {name: f"\\{name}" for name in ("gamma", "omega", "phi")}
 
 
 @dataclass(frozen=True)

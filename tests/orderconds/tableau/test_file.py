@@ -121,8 +121,16 @@ MALFORMED = {
     "no TOML": ("name = ", "Invalid value", "TOML"),
     "no name": ('family = "rk"\nA = [[]]\nb = ["1"]\n', "no name", "the key name"),
     "bad name": ('name = "a b"\nfamily = "rk"\nA = [[]]\nb = ["1"]\n', "name = 'a b'", "letters"),
-    "no family": ('name = "t"\nA = [[]]\nb = ["1"]\n', "no family", "one of cf, composition, prk, rk"),
-    "unknown family": ('name = "t"\nfamily = "rkk"\n', "family = 'rkk'", "one of cf, composition, prk, rk"),
+    "no family": (
+        'name = "t"\nA = [[]]\nb = ["1"]\n',
+        "no family",
+        "one of cf, composition, magnus, prk, rk, splitting",
+    ),
+    "unknown family": (
+        'name = "t"\nfamily = "rkk"\n',
+        "family = 'rkk'",
+        "one of cf, composition, magnus, prk, rk, splitting",
+    ),
     "no weights": (HEAD + "A = [[]]\n", "no b", "the key b"),
     "no stages": (HEAD + "A = []\nb = []\n", "0 stages", "1 to 200"),
     "too few rows": (HEAD + 'A = [[]]\nb = ["1", "0"]\n', "A: 1 rows for 2 weights", "a square A"),
