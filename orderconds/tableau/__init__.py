@@ -16,8 +16,8 @@ if TYPE_CHECKING:
         RungeKutta,
         Stage,
     )
-    from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
-    from orderconds.tableau.record import Claims, Method, OrderClaim, Tableau
+    from orderconds.tableau.products import AdjointComposition, Magnus, Method, Splitting
+    from orderconds.tableau.record import Claims, OrderClaim, Tableau
     from orderconds.tableau.write import dumps
 
 _HOME = {
@@ -27,7 +27,7 @@ _HOME = {
     "Composition": "methods",
     "Embedded": "methods",
     "Magnus": "products",
-    "Method": "record",
+    "Method": "products",
     "OrderClaim": "record",
     "PartitionedRungeKutta": "methods",
     "RungeKutta": "methods",

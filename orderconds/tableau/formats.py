@@ -26,8 +26,7 @@ from orderconds.tableau.methods import (
     RungeKutta,
     Stage,
 )
-from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
-from orderconds.tableau.record import Method
+from orderconds.tableau.products import AdjointComposition, Magnus, Method, Splitting
 
 Coefficient = str | int
 Places = Iterator[tuple[str, Coefficient]]

@@ -9,7 +9,14 @@ from dataclasses import dataclass
 
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.brackets import Combination, NodeSeries, expand
-from orderconds.tableau.methods import Convert, Row, RungeKutta
+from orderconds.tableau.methods import (
+    CommutatorFree,
+    Composition,
+    Convert,
+    PartitionedRungeKutta,
+    Row,
+    RungeKutta,
+)
 
 
 @dataclass(frozen=True)
@@ -122,3 +129,15 @@ class Magnus:
     def is_commutator_free(self, ring: Ring) -> bool:
         """Tell whether every exponent is a combination of the A_i alone."""
         return all(len(word) == 1 for series in self.words(ring) for word in series)
+
+
+Method = (
+    RungeKutta
+    | PartitionedRungeKutta
+    | CommutatorFree
+    | Composition
+    | AdjointComposition
+    | Splitting
+    | Magnus
+)
+"""What a tableau may hold."""

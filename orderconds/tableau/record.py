@@ -15,18 +15,8 @@ from orderconds.tableau.methods import (
     PartitionedRungeKutta,
     RungeKutta,
 )
-from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
+from orderconds.tableau.products import AdjointComposition, Method
 from orderconds.tableau.unknowns import Proof
-
-Method = (
-    RungeKutta
-    | PartitionedRungeKutta
-    | CommutatorFree
-    | Composition
-    | AdjointComposition
-    | Splitting
-    | Magnus
-)
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,8 @@ from typing import Any, Protocol
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.evaluate import Definition, evaluate_in, rounded_and_exact
 from orderconds.tableau.grammar import Constant, Expression, Name
-from orderconds.tableau.methods import Embedded, Method
+from orderconds.tableau.methods import Embedded
+from orderconds.tableau.products import Method
 
 
 class RootedRing(Ring, Protocol):

@@ -144,7 +144,7 @@ def test_a_format_the_family_cannot_read_is_an_input_error() -> None:
 def test_every_family_that_takes_it_finds_order_1_of_the_euler_method() -> None:
     euler = rk("[[]]", '["1"]')
     for name in families.names():
-        if name == "symplectic_rk":
+        if name == "symplectic_rk" or "rk" not in families.get(name).formats:
             continue
         assert order(euler, name) == 1, name
 
