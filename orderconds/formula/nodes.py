@@ -7,7 +7,7 @@ Bound indices must have names of their own while a formula is being built (:func
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -114,16 +114,24 @@ def product(*factors: Formula) -> Formula:
     Factors are equal when they differ by the names of bound indices only; a zero factor gives zero.
     """
     scale = Fraction(1)
-    collected: dict[Formula, tuple[Formula, int]] = {}
+    parts: list[tuple[Formula, int]] = []
     for base, exponent in _powers(factors):
         if isinstance(base, Total) and len(base.terms) <= 1 and exponent > 0:
             if not base.terms:
                 return zero()
             number, base = base.terms[0]
             scale *= number**exponent
-        for inner, power in _powers((base,)):
-            first, seen = collected.get(named(inner), (inner, 0))
-            collected[named(inner)] = (first, seen + exponent * power)
+        if isinstance(base, Coefficient | IndexSum):
+            parts.append((base, exponent))
+        else:
+            parts += [(inner, exponent * power) for inner, power in _powers((base,))]
+    # Only sums can be equal up to names, and one alone has nothing to be equal to.
+    alone = sum(not isinstance(inner, Coefficient) for inner, _ in parts) <= 1
+    collected: dict[Formula | None, tuple[Formula, int]] = {}
+    for inner, exponent in parts:
+        key = inner if isinstance(inner, Coefficient) else None if alone else named(inner)
+        first, seen = collected.get(key, (inner, 0))
+        collected[key] = (first, seen + exponent)
     powers = tuple(b if e == 1 else Power(b, e) for b, e in collected.values() if e)
     plain = powers[0] if len(powers) == 1 else Product(powers)
     return plain if scale == 1 else Total(((scale, plain),))
@@ -170,23 +178,28 @@ def named(formula: Formula, names: Mapping[str, str] | None = None) -> Formula:
     indices only become identical.
     """
     names = names or {}
+    # Free indices that keep their names must not be captured.
+    return _named(formula, names, tuple(x for x in free_indices(formula) if x not in names))
+
+
+def _named(formula: Formula, names: Mapping[str, str], free: tuple[str, ...]) -> Formula:
     match formula:
         case Coefficient(name, indices):
             return Coefficient(name, tuple(names.get(index, index) for index in indices))
         case Product(factors):
-            return Product(tuple(named(factor, names) for factor in factors))
+            return Product(tuple(_named(factor, names, free) for factor in factors))
         case Power(base, exponent):
-            return Power(named(base, names), exponent)
+            return Power(_named(base, names, free), exponent)
         case Total(terms):
-            return Total(tuple((scale, named(term, names)) for scale, term in terms))
+            return Total(tuple((scale, _named(term, names, free)) for scale, term in terms))
         case IndexSum(indices, relations, body):
             inner = dict(names)
-            # Free indices that keep their names must not be captured.
-            free = [x for x in free_indices(formula) if x not in names]
+            used = {*free, *inner.values()}
             for index in indices:
-                inner[index] = _next_name(index, [*free, *inner.values()])
+                inner[index] = _next_name(index, used)
+                used.add(inner[index])
             new = tuple((inner.get(i, i), sign, inner.get(j, j)) for i, sign, j in relations)
-            return IndexSum(tuple(inner[index] for index in indices), new, named(body, inner))
+            return IndexSum(tuple(inner[index] for index in indices), new, _named(body, inner, free))
     raise TypeError(f"not a formula: {formula!r}")
 
 
@@ -224,14 +237,17 @@ def free_indices(formula: Formula) -> tuple[str, ...]:
     return tuple(dict.fromkeys(found))
 
 
-def _powers(factors: Iterable[Formula]) -> Iterator[tuple[Formula, int]]:
+def _powers(factors: Iterable[Formula]) -> list[tuple[Formula, int]]:
+    found: list[tuple[Formula, int]] = []
     for factor in factors:
         for part in factor.factors if isinstance(factor, Product) else (factor,):
-            yield (part.base, part.exponent) if isinstance(part, Power) else (part, 1)
+            found.append((part.base, part.exponent) if isinstance(part, Power) else (part, 1))
+    return found
 
 
-def _next_name(index: str, taken: Iterable[str]) -> str:
-    used = set(taken)
+def _next_name(index: str, used: Container[str]) -> str:
     pool = EXPONENTIAL_NAMES if index[0].isupper() else STAGE_NAMES
-    endless = itertools.chain(pool, (f"{pool[0]}{n}" for n in itertools.count(1)))
-    return next(name for name in endless if name not in used)
+    for name in pool:
+        if name not in used:
+            return name
+    return next(name for name in (f"{pool[0]}{n}" for n in itertools.count(1)) if name not in used)
