@@ -5,15 +5,18 @@ A tree with directed edges or coloured vertices has edges of two kinds, which st
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from functools import lru_cache, partial
+from typing import TypeVar
 
 from orderconds.conditions import OrderCondition
 from orderconds.families.relations import RootSwitching, with_relations
-from orderconds.formula import Formula, coefficient, fresh, index_sum, product
+from orderconds.formula import Formula, IndexSum, Power, Product, coefficient, fresh
 from orderconds.ring.protocol import Element
 from orderconds.trees.directed import DirectedTree, branches, density
+
+TreeT = TypeVar("TreeT", bound=bytes)
 
 ROW_SUMS = ("c", "chat")
 MATRICES = ("a", "ahat")
@@ -36,8 +39,21 @@ def weight(tree: DirectedTree, weights: str = "b") -> Formula:
     >>> named(weight(b"\0\2\3")).text()
     'sum_i b_i c_i chat_i'
     """
+    return elementary_weight(tree, branches, weights)
+
+
+def elementary_weight(
+    tree: TreeT, below: Callable[[TreeT], Iterable[tuple[int, TreeT]]], weights: str
+) -> Formula:
+    r"""Return the same for a tree of any encoding with ``len``; ``below`` gives edge kinds and subtrees.
+
+    >>> from orderconds.formula import named
+    >>> from orderconds.trees.levels import children
+    >>> named(elementary_weight(b"\0\1\2\1\2", lambda tree: [(0, t) for t in children(tree)], "b")).text()
+    'sum_i b_i (sum_j a_ij c_j)^2'
+    """
     i = fresh()
-    return index_sum((i,), (), product(coefficient(weights, i), _stage(tree, i)))
+    return _summed((i,), [coefficient(weights, i)], tree, below)
 
 
 def weight_conditions(
@@ -57,13 +73,42 @@ def weight_conditions(
     return tuple(found) if switching is None else with_relations(found, switching, text)
 
 
-def _stage(tree: DirectedTree, i: str) -> Formula:
+def _summed(
+    indices: tuple[str, ...],
+    factors: list[Formula],
+    tree: TreeT,
+    below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
+) -> Formula:
+    """Sum ``factors`` times the stage value of a tree, at the last index, over the indices.
+
+    Built without the smart constructors: equal factors are known from equal subtrees.
+    """
+    bound = list(indices)
+    _multiply(bound, factors, bound[-1], tree, below)
+    return IndexSum(tuple(bound), (), factors[0] if len(factors) == 1 else Product(tuple(factors)))
+
+
+def _multiply(
+    bound: list[str],
+    factors: list[Formula],
+    i: str,
+    tree: TreeT,
+    below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
+) -> None:
+    counted: dict[tuple[int, TreeT], int] = {}
     # Leaves first, as people write: b_i c_i a_ij c_j.
-    return product(*(_branch(*branch, i) for branch in sorted(branches(tree), key=lambda x: len(x[1]) > 1)))
-
-
-def _branch(kind: int, child: DirectedTree, i: str) -> Formula:
-    if len(child) == 1:
-        return coefficient(ROW_SUMS[kind], i)
-    j = fresh()
-    return index_sum((j,), (), product(coefficient(MATRICES[kind], i, j), _stage(child, j)))
+    for branch in sorted(below(tree), key=lambda x: len(x[1]) > 1):
+        counted[branch] = counted.get(branch, 0) + 1
+    for (kind, child), times in counted.items():
+        if len(child) == 1:
+            row_sum = coefficient(ROW_SUMS[kind], i)
+            factors.append(row_sum if times == 1 else Power(row_sum, times))
+            continue
+        j = fresh()
+        entry = coefficient(MATRICES[kind], i, j)
+        if times == 1:
+            bound.append(j)
+            factors.append(entry)
+            _multiply(bound, factors, j, child, below)
+        else:
+            factors.append(Power(_summed((j,), [entry], child, below), times))

@@ -8,7 +8,8 @@ from functools import lru_cache, partial
 from typing import Any
 
 from orderconds.conditions import OrderCondition
-from orderconds.formula import Formula, coefficient, fresh, index_sum, product
+from orderconds.families.elementary_weights import elementary_weight
+from orderconds.formula import Formula
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.b_series import runge_kutta_series
 from orderconds.trees.levels import Tree, children, density, text
@@ -69,17 +70,9 @@ def tree_conditions(trees: Sequence[Tree]) -> tuple[OrderCondition, ...]:
 
 
 def _weight(tree: Tree) -> Formula:
-    i = fresh()
-    return index_sum((i,), (), product(coefficient("b", i), _stage(tree, i)))
+    return elementary_weight(tree, _branches, "b")
 
 
-def _stage(tree: Tree, i: str) -> Formula:
-    # Leaves first, as people write: b_i c_i a_ij c_j.
-    return product(*(_branch(child, i) for child in sorted(children(tree), key=lambda child: len(child) > 1)))
-
-
-def _branch(child: Tree, i: str) -> Formula:
-    if len(child) == 1:
-        return coefficient("c", i)
-    j = fresh()
-    return index_sum((j,), (), product(coefficient("a", i, j), _stage(child, j)))
+@lru_cache(maxsize=1 << 16)
+def _branches(tree: Tree) -> tuple[tuple[int, Tree], ...]:
+    return tuple((0, child) for child in children(tree))
