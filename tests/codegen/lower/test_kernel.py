@@ -120,6 +120,15 @@ def test_a_loop_holds_only_what_depends_on_its_unknowns(kernel):
             varying.add(x.name)
 
 
+def test_no_part_of_an_expression_in_a_loop_stands_still(kernel):
+    """What does not depend on the unknowns is computed before the loop, down to single operations."""
+    for loop in (s for s in kernel.body if isinstance(s, Loop)):
+        varying = set(loop.unknowns) | {x.name for x in loop.body}
+        for node in walk([*(x.value for x in loop.body), *loop.images]):
+            if node.args and not (node.op == "neg" and not node.args[0].args):
+                assert {n.payload for n in walk([node]) if n.op == "sym"} & varying, node
+
+
 def test_everything_assigned_is_read(kernel):
     read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}
     assert [x.name for x in kernel.lets() if x.name not in read] == []
