@@ -25,8 +25,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
-from math import factorial
 from typing import Any
 
 from orderconds import families
@@ -37,10 +35,12 @@ from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau import Composition, Tableau
 from orderconds.tableau.properties import properties
 from orderconds.tableau.unknowns import Proof
-from orderconds.words.lyndon import lyndon_words
 
 COMPOSITION = "composition"
 """The fact that a composition of a symmetric method of order 2 has an order, whatever the method."""
+
+SYMMETRIC = "symmetric_composition"
+"""The family whose conditions are then the equations."""
 
 LOW_STORAGE_ORDER = 5
 """Up to here the tests compute that 2N schemes have no conditions but those of rooted trees."""
@@ -58,11 +58,10 @@ class Equations:
         """Return left-hand sides less right-hand sides; ``point`` are the unknowns' values in ``ring``."""
         values = {u.name: x for u, x in zip(self.proof.unknowns, point, strict=True)}
         method, _ = self.proof.over(ring, values)
-        if self.proof.reduction == "symmetric" and isinstance(method, Composition):
-            return list(symmetric_composition(method.gamma, ring, self.proof.order))
         if self.proof.reduction == "simplifying":
             return list(simplifying(method, ring, self.proof.assumptions))
-        family = families.get(self.proof.conditions)
+        composed = self.proof.reduction == "symmetric" and isinstance(method, Composition)
+        family = families.get(SYMMETRIC if composed else self.proof.conditions)
         read = replace(self.tableau, ring=ring, method=method).read_as(family.formats)
         if read is None and family.name == "rk":
             read = replace(self.tableau, ring=ring, method=method).abelian()
@@ -112,46 +111,6 @@ def _reached(proof: Proof, order: int) -> int:
     if proof.order > order:
         raise NotProved(f"reduction: it implies order {order}, the file says {proof.order}")
     return proof.order
-
-
-@lru_cache(maxsize=16)
-def symmetric_words(order: int) -> tuple[tuple[int, ...], ...]:
-    """Return the Lyndon words of odd weight below ``order`` in the letters 1, 3, 5, ...
-
-    >>> symmetric_words(6)
-    ((1,), (3,), (1, 1, 3), (5,))
-    """
-    return tuple(
-        word for n in range(1, order, 2) for word in lyndon_words(tuple(range(1, n + 1, 2)), n, weigh=int)
-    )
-
-
-def symmetric_composition(gamma: Sequence[Element], ring: Ring, order: int) -> Iterator[Element]:
-    """Yield the conditions of a symmetric composition of a symmetric method of order 2 (HLW V.3.2).
-
-    The basic method is exp(h E_1 + h^3 E_3 + ...); the coefficient of a word in the E is sum over i_1 <=
-    ... <= i_k of prod gamma_i^(letter) / (run lengths)!, and that of the exact flow exp(h E_1) is 0 where
-    a letter is not 1.
-    """
-    powers: dict[int, list[Element]] = {1: list(gamma)}
-    for n in range(2, order):
-        powers[n] = [x * g for x, g in zip(powers[n - 1], gamma, strict=True)]
-    known: dict[tuple[int, ...], list[Element]] = {(): [ring.one] * (len(gamma) + 1)}
-
-    def partial(word: tuple[int, ...]) -> list[Element]:
-        if word not in known:
-            found = [ring.zero]
-            for i in range(len(gamma)):
-                value, run = found[-1], ring.one
-                for r, letter in enumerate(reversed(word), start=1):
-                    run = run * powers[letter][i]
-                    value = value + partial(word[: len(word) - r])[i] * run * ring.rational(1, factorial(r))
-                found.append(value)
-            known[word] = found
-        return known[word]
-
-    for word in symmetric_words(order):
-        yield partial(word)[-1] - (1 if word == (1,) else 0)
 
 
 def simplifying_order(B: int, C: int, D: int) -> int:

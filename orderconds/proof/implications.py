@@ -21,7 +21,7 @@ ABELIAN = {
     "prk": ("rk",),
     "vcg": ("cg", "sprk", "vcf"),
     "vcf": ("cf",),
-    "composition": ("rk", "symplectic_rk", "sprk", "cg", "cf", "vcg", "vcf"),
+    "composition": ("symmetric_composition", "rk", "symplectic_rk", "sprk", "cg", "cf", "vcg", "vcf"),
 }
 """A family to those whose conditions are among its own, at every order.
 

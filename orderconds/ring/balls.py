@@ -87,6 +87,12 @@ class Balls:
             return False
         return True if x.value.is_zero() else None
 
+    def sign(self, x: Ball) -> int | None:
+        """Return -1 or 1 where the whole ball has that sign, 0 for the exact point zero, else None."""
+        if x.value.contains(0):
+            return 0 if x.value.is_zero() else None
+        return 1 if x.value > 0 else -1
+
     def text(self, x: Ball) -> str:
         """Spell x as a tableau coefficient: points exactly, others with ``~`` (one unit in the last digit).
 

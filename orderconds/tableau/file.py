@@ -86,7 +86,11 @@ def loads(text: str, where: str = "<text>", path: str | None = None) -> Tableau:
     expressions = {place: _parsed(x, f"{where}: {place}") for place, x in entry.coefficients()}
     numbers = _numbers(entry, where)
     ring, values = evaluate(expressions, numbers, where)
-    method, embedded = entry.build(values, ring)
+    try:
+        method, embedded = entry.build(values, ring)
+    except TableauError as problem:  # which names the tableau and the key, not the file
+        problem.where = problem.where.replace(entry.name, where, 1)
+        raise
     return Tableau(
         name=entry.name,
         family=entry.family,

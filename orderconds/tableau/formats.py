@@ -96,10 +96,11 @@ class EmbeddedEntry(Struct, forbid_unknown_fields=True):
 
 
 class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "rk"``: A by rows, zeros at the end of a row may be left out, and b."""
+    """``family = "rk"``: A by rows, zeros at their ends may be left out, and b; c, if given, is verified."""
 
     A: list[list[Coefficient]]
     b: list[Coefficient]
+    c: list[Coefficient] = []
     embedded: EmbeddedEntry | None = None
 
     def verify(self, where: str) -> None:
@@ -113,6 +114,10 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
             )
         for i, row in enumerate(self.A):
             _short_enough(row, s, f"{where}: A[{i + 1}]")
+        if self.c and len(self.c) != s:
+            raise TableauError(
+                f"{len(self.c)} entries for {s} weights b", where=f"{where}: c", expected="c as long as b"
+            )
         if self.embedded:
             _short_enough(self.embedded.b, s, f"{where}: embedded.b")
 
@@ -121,6 +126,7 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
         for i, row in enumerate(self.A):
             yield from _row(row, f"A[{i + 1}]")
         yield from _row(self.b, "b")
+        yield from _row(self.c, "c")
         if self.embedded:
             yield from _row(self.embedded.b, "embedded.b")
 
@@ -128,10 +134,29 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
         """Return the Runge-Kutta method."""
         s = len(self.b)
         A = tuple(_filled(values, f"A[{i + 1}]", s, ring) for i in range(s))
-        embedded = None
+        method, embedded = RungeKutta(A, _filled(values, "b", s, ring)), None
+        if self.c:
+            self._compare(method, _filled(values, "c", s, ring), ring)
         if self.embedded:
             embedded = Embedded(_filled(values, "embedded.b", s, ring), self.embedded.order)
-        return RungeKutta(A, _filled(values, "b", s, ring)), embedded
+            if all(ring.is_zero(x - y) for x, y in zip(method.b, embedded.b, strict=True)):
+                raise TableauError(
+                    "an embedded row equal to the main one: its error estimate is identically zero",
+                    where=f"{self.name}: embedded.b",
+                    expected="other weights than b",
+                )
+        return method, embedded
+
+    def _compare(self, method: RungeKutta, c: Row, ring: Ring) -> None:
+        """Refuse a c that is not the row sums."""
+        for i, (given, total) in enumerate(zip(c, method.c, strict=True)):
+            if ring.is_zero(given - total) is False:
+                raise TableauError(
+                    f"c_{i + 1} = {ring.text(given)} beside a row of A that sums to {ring.text(total)}",
+                    where=f"{self.name}: c[{i + 1}]",
+                    expected="c_i = sum_j a_ij",
+                    hint="correct the row, or leave c out: it is computed",
+                )
 
 
 class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):

@@ -11,6 +11,7 @@ from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.methods import CommutatorFree, Composition, PartitionedRungeKutta, RungeKutta
 from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
 from orderconds.tableau.record import Tableau
+from orderconds.tableau.stability import stability, stability_of_midpoints
 
 Verdict = bool | None
 
@@ -23,7 +24,7 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
     >>> from orderconds.tableau import Tableau
     >>> midpoint = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["1/2"]]\\nb = ["1"]')
     >>> [name for name, holds in properties(midpoint).items() if holds]
-    ['diagonally_implicit', 'symplectic', 'symmetric']
+    ['diagonally_implicit', 'symplectic', 'symmetric', 'a_stable']
     """
     ring, method = tableau.ring, tableau.method
     if isinstance(method, CommutatorFree):
@@ -34,7 +35,11 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
         return {"symplectic": symplectic_pair(method, ring)}
     if isinstance(method, AdjointComposition | Splitting | Magnus):
         return {"symmetric": symmetric_product(method, ring)}
-    return {name: holds(method, ring) for name, holds in PROPERTIES.items()}
+    return {**_of_tableau(method, ring), **stability(method, ring)}
+
+
+def _of_tableau(method: RungeKutta, ring: Ring) -> dict[str, Verdict]:
+    return {name: holds(method, ring) for name, holds in DEFINITIONS.items()}
 
 
 def _all(verdicts: Iterable[Verdict]) -> Verdict:
@@ -100,7 +105,7 @@ def fsal(method: RungeKutta, ring: Ring) -> Verdict:
     return _all([method.s > 1, stiffly_accurate(method, ring), first])
 
 
-PROPERTIES: dict[str, Callable[[RungeKutta, Ring], Verdict]] = {
+DEFINITIONS: dict[str, Callable[[RungeKutta, Ring], Verdict]] = {
     "explicit": explicit,
     "diagonally_implicit": diagonally_implicit,
     "symplectic": symplectic,
@@ -109,6 +114,9 @@ PROPERTIES: dict[str, Callable[[RungeKutta, Ring], Verdict]] = {
     "stiffly_accurate": stiffly_accurate,
 }
 
+PROPERTIES = (*DEFINITIONS, "a_stable", "l_stable")
+"""Every property that a file may claim."""
+
 
 def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
     """Composed midpoints are symplectic and diagonally implicit by construction, whatever the steps are.
@@ -116,7 +124,10 @@ def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
     The composition is symmetric where the steps read the same backwards.
     """
     gamma, s = method.gamma, method.s
-    verdicts = {name: holds(method.as_runge_kutta(ring), ring) for name, holds in PROPERTIES.items()}
+    verdicts = {
+        **_of_tableau(method.as_runge_kutta(ring), ring),
+        **stability_of_midpoints(gamma, ring),
+    }
     palindrome = _all(_equal(gamma[i], gamma[s - 1 - i], ring) for i in range(s // 2))
     return {**verdicts, "diagonally_implicit": True, "symplectic": True, "symmetric": palindrome}
 

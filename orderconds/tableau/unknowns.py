@@ -28,6 +28,9 @@ from orderconds.tableau.grammar import Constant, Expression, Name
 from orderconds.tableau.methods import Embedded
 from orderconds.tableau.products import Method
 
+Built = tuple[Method, Embedded | None]
+"""A method and its embedded weights."""
+
 
 class RootedRing(Ring, Protocol):
     """A ring in which radicals can be taken: balls, jets."""
@@ -60,7 +63,7 @@ class Proof:
     pinned: tuple[Unknown, ...]
     spelled: Spelled = field(repr=False)
 
-    def over(self, ring: RootedRing, values: Mapping[str, Element]) -> tuple[Method, Embedded | None]:
+    def over(self, ring: RootedRing, values: Mapping[str, Element]) -> Built:
         """Return the method with ``values`` for the unknowns and the pinned decimals as exact numbers."""
         return self.spelled.method(ring, self._known(ring, values))
 
@@ -82,9 +85,9 @@ class Spelled:
     expressions: Mapping[str, Expression]
     numbers: Mapping[str, Definition]
     where: str
-    build: Callable[[Mapping[str, Element], Ring], tuple[Method, Embedded | None]]
+    build: Callable[[Mapping[str, Element], Ring], Built]
 
-    def method(self, ring: RootedRing, known: Mapping[Constant, Element]) -> tuple[Method, Embedded | None]:
+    def method(self, ring: RootedRing, known: Mapping[Constant, Element]) -> Built:
         """Return the method with the given values for its decimals."""
         values = evaluate_in(_Substituted(ring, known), self.expressions, self.numbers, self.where)
         return self.build(values, ring)

@@ -12,7 +12,7 @@ import pytest
 from orderconds import Tableau, check, families
 from orderconds.families.ordered_forests import lyndon_forests
 from orderconds.proof.certificate import certify
-from orderconds.proof.equations import LOW_STORAGE_ORDER, symmetric_words
+from orderconds.proof.equations import LOW_STORAGE_ORDER
 from orderconds.proof.implications import implied
 from orderconds.proof.krawczyk import NotProved
 from orderconds.proof.refine import refine
@@ -172,10 +172,6 @@ def test_low_storage_schemes_have_no_conditions_but_those_of_rooted_trees() -> N
     candidates = [lyndon_forests(n) for n in range(1, LOW_STORAGE_ORDER + 1)]
     found = independent_forests(random_low_storage(9), candidates)
     assert [len(of_order) for of_order in found] == [1, 1, 2, 4, 9]
-
-
-def test_conditions_of_symmetric_compositions_count_1_2_4_8() -> None:
-    assert [len(symmetric_words(order)) for order in (2, 4, 6, 8, 10)] == [1, 2, 4, 8, 16]
 
 
 @pytest.mark.parametrize(

@@ -100,7 +100,18 @@ def test_a_stage_may_start_from_an_earlier_one() -> None:
 
 
 MALFORMED = {
-    "unknown key": (EULER + "c = [0]\n", "unknown key 'c'", "one of A, b, bibtex"),
+    "unknown key": (EULER + "d = [0]\n", "unknown key 'd'", "one of A, b, bibtex"),
+    "row sums other than c": (
+        EULER + 'c = ["1/2"]\n',
+        "c_1 = 1/2 beside a row of A that sums to 0",
+        "c_i = sum",
+    ),
+    "c of another length": (EULER + "c = [0, 1]\n", "c: 2 entries for 1 weights", "as long as b"),
+    "embedded row equal to b": (
+        EULER + 'embedded = { b = ["1"], order = 1 }',
+        "embedded.b: an embedded row equal to the main one",
+        "other weights",
+    ),
     "unknown key in embedded": (
         EULER + 'embedded = { b = ["1"], order = 1, x = 2 }',
         "embedded: unknown",

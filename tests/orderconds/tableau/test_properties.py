@@ -10,9 +10,9 @@ from orderconds.tableau.properties import PROPERTIES, properties
 HOLDING = {
     "euler": {"explicit"},
     "rk4": {"explicit"},
-    "gauss1": {"diagonally_implicit", "symplectic", "symmetric"},
-    "gauss2": {"symplectic", "symmetric"},
-    "gauss3": {"symplectic", "symmetric"},
+    "gauss1": {"diagonally_implicit", "symplectic", "symmetric", "a_stable"},
+    "gauss2": {"symplectic", "symmetric", "a_stable"},
+    "gauss3": {"symplectic", "symmetric", "a_stable"},
     "cg4": {"explicit"},
     "triple_jump": {"diagonally_implicit", "symplectic", "symmetric"},
     "triple_jump6": {"diagonally_implicit", "symplectic", "symmetric"},
@@ -22,18 +22,30 @@ INLINE = {
     "lobatto3a": (
         '[[], ["1/2", "1/2"]]',
         '["1/2", "1/2"]',
-        {"diagonally_implicit", "symmetric", "fsal", "stiffly_accurate"},
+        {"diagonally_implicit", "symmetric", "fsal", "stiffly_accurate", "a_stable"},
     ),
-    "radau2a": ('[["5/12", "-1/12"], ["3/4", "1/4"]]', '["3/4", "1/4"]', {"stiffly_accurate"}),
-    "backward euler": ('[["1"]]', '["1"]', {"diagonally_implicit", "stiffly_accurate"}),
+    "radau2a": (
+        '[["5/12", "-1/12"], ["3/4", "1/4"]]',
+        '["3/4", "1/4"]',
+        {"stiffly_accurate", "a_stable", "l_stable"},
+    ),
+    "backward euler": (
+        '[["1"]]',
+        '["1"]',
+        {"diagonally_implicit", "stiffly_accurate", "a_stable", "l_stable"},
+    ),
     "bogacki-shampine": (
         '[[], ["1/2"], ["0", "3/4"], ["2/9", "1/3", "4/9"]]',
         '["2/9", "1/3", "4/9", "0"]',
         {"explicit", "fsal", "stiffly_accurate"},
     ),
-    "symplectic only": ('[["1/8"], ["1/4", "3/8"]]', '["1/4", "3/4"]', {"diagonally_implicit", "symplectic"}),
+    "symplectic only": (
+        '[["1/8"], ["1/4", "3/8"]]',
+        '["1/4", "3/4"]',
+        {"diagonally_implicit", "symplectic", "a_stable"},
+    ),
     "halved steps": ('[["1/4"], ["1/4", "1/4"]]', '["1/2", "1/2"]', {"diagonally_implicit"}),
-    "midpoint off by 5e-11": ('[["0.50000000005"]]', '["1"]', {"diagonally_implicit"}),
+    "midpoint off by 5e-11": ('[["0.50000000005"]]', '["1"]', {"diagonally_implicit", "a_stable"}),
 }
 
 

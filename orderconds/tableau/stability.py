@@ -1,0 +1,261 @@
+"""A- and L-stability of a Runge-Kutta tableau, decided from its stability function in exact arithmetic.
+
+R(z) = P(z)/Q(z) with Q = det(I - zA) and P = det(I - z(A - 1 b^T)), common factors removed. The method is
+A-stable iff every zero of Q has positive real part (Routh) and E(y) = |Q(iy)|^2 - |P(iy)|^2, a polynomial
+in y^2, is nowhere negative (Sturm); L-stable iff deg P < deg Q besides (Hairer and Wanner, *Solving
+Ordinary Differential Equations II*, Sections IV.3 and IV.5). Signs are decided in the field of the
+coefficients; of balls nothing is decided.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.methods import RungeKutta
+
+Polynomial = list[Element]
+"""Ascending coefficients, the last one not zero; the zero polynomial is empty."""
+
+
+@dataclass(frozen=True)
+class StabilityFunction:
+    """R = numerator/denominator in lowest terms, over an exact field with signs."""
+
+    numerator: tuple[Element, ...]
+    denominator: tuple[Element, ...]
+
+
+def stability(method: RungeKutta, ring: Ring) -> dict[str, bool | None]:
+    """Return ``a_stable`` and ``l_stable``; None where the ring has no signs (balls).
+
+    >>> from orderconds.ring import QQ
+    >>> half, one = QQ.rational(1, 2), QQ.one
+    >>> stability(RungeKutta(((half,),), (one,)), QQ)
+    {'a_stable': True, 'l_stable': False}
+    >>> stability(RungeKutta(((one,),), (one,)), QQ)
+    {'a_stable': True, 'l_stable': True}
+    """
+    if all(ring.is_zero(x) is True for i, row in enumerate(method.A) for x in row[i:]):
+        return {"a_stable": False, "l_stable": False}  # a polynomial, unbounded
+    if any(ring.is_zero(x) is None for row in (*method.A, method.b) for x in row):
+        return {"a_stable": None, "l_stable": None}
+    try:
+        R = stability_function(method, ring)
+        a_stable = poles_right(R.denominator, ring) and bounded_on_axis(R, ring)
+    except _Undecided:
+        return {"a_stable": None, "l_stable": None}
+    return {"a_stable": a_stable, "l_stable": a_stable and len(R.numerator) < len(R.denominator)}
+
+
+def stability_of_midpoints(gamma: Sequence[Element], ring: Any) -> dict[str, bool | None]:
+    """Return the same of composed midpoints, R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
+
+    |R| = 1 on the axis and at infinity. A negative step is a pole on the left, unless a positive one
+    cancels it.
+
+    >>> from orderconds.ring import QQ
+    >>> stability_of_midpoints([QQ.rational(1, 2), QQ.rational(1, 2)], QQ)
+    {'a_stable': True, 'l_stable': False}
+    """
+    signs = [ring.sign(x) for x in gamma]
+    if all(sign in (0, 1) for sign in signs):
+        return {"a_stable": True, "l_stable": False}
+    for x, sign in zip(gamma, signs, strict=True):
+        if sign == -1 and all(ring.is_zero(x + y) is False for y in gamma):
+            return {"a_stable": False, "l_stable": False}
+    if None in signs:
+        return {"a_stable": None, "l_stable": False}
+    left = list(gamma)
+    for x, sign in zip(gamma, signs, strict=True):
+        partner = next((i for i, y in enumerate(left) if ring.is_zero(x + y)), None)
+        if sign == -1 and partner is not None:
+            left.pop(partner)
+            left.pop(next(i for i, y in enumerate(left) if y is x))
+    return {"a_stable": all(ring.sign(x) >= 0 for x in left), "l_stable": False}
+
+
+class _Undecided(Exception):
+    """A ball that contains zero stands where a sign is needed."""
+
+
+def _sign(x: Element, ring: Any) -> int:
+    sign = ring.sign(x)
+    if sign is None:
+        raise _Undecided
+    return int(sign)
+
+
+def stability_function(method: RungeKutta, ring: Ring) -> StabilityFunction:
+    """Return R in lowest terms, over an exact field (HW (IV.3.2), (IV.3.3)).
+
+    >>> from orderconds.ring import QQ
+    >>> R = stability_function(RungeKutta(((QQ.rational(1, 2),),), (QQ.one,)), QQ)
+    >>> [str(x) for x in R.numerator], [str(x) for x in R.denominator]
+    (['1', '1/2'], ['1', '-1/2'])
+    """
+    A, b = method.A, method.b
+    Q = _determinant(A, ring)
+    P = _determinant([[a - w for a, w in zip(row, b, strict=True)] for row in A], ring)
+    common = _gcd(P, Q, ring)
+    return StabilityFunction(tuple(_quotient(P, common, ring)), tuple(_quotient(Q, common, ring)))
+
+
+def _determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial:
+    """Return det(I - zA) by Faddeev and LeVerrier, lower blocks first where A is block triangular."""
+    result = [ring.one]
+    start = 0
+    for end in range(1, len(A) + 1):
+        if all(ring.is_zero(x) is True for row in A[:end] for x in row[end:]):
+            block = [row[start:end] for row in A[start:end]]
+            result = _product(result, _block_determinant(block, ring), ring)
+            start = end
+    return result
+
+
+def _block_determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial:
+    stages = range(len(A))
+    coefficients = [ring.one]
+    M = [[ring.zero for _ in stages] for _ in stages]
+    for k in range(1, len(A) + 1):
+        last = coefficients[-1]
+        M = [
+            [
+                sum((A[i][m] * M[m][j] for m in stages), ring.zero) + (last if i == j else ring.zero)
+                for j in stages
+            ]
+            for i in stages
+        ]
+        trace = sum((A[i][m] * M[m][i] for i in stages for m in stages), ring.zero)
+        coefficients.append(trace * ring.rational(-1, k))
+    return _trimmed(coefficients, ring)
+
+
+def poles_right(Q: Sequence[Element], ring: Any) -> bool:
+    """Say whether every zero of Q has positive real part: Routh's scheme of Q(-z) has no change of sign.
+
+    >>> from orderconds.ring import QQ
+    >>> [poles_right([QQ.rational(x) for x in Q], QQ) for Q in ((2, -3, 1), (1, 0, 1))]
+    [True, False]
+    """
+    p = [x if k % 2 == 0 else -x for k, x in enumerate(Q)][::-1]
+    even, odd = list(p[0::2]), list(p[1::2])
+    sign = _sign(p[0], ring)
+    while odd:
+        if _sign(odd[0], ring) != sign:
+            return False
+        ratio = even[0] / odd[0]
+        below = [*odd[1:], *[ring.zero] * (len(even) - len(odd))]
+        even, odd = odd, [x - ratio * y for x, y in zip(even[1:], below, strict=True)]
+    return True
+
+
+def bounded_on_axis(R: StabilityFunction, ring: Any) -> bool:
+    """Say whether |R(iy)| <= 1 for all real y: E(y^2) has no zero of odd multiplicity at a positive y^2."""
+    moduli = _padded(_modulus(R.denominator, ring), _modulus(R.numerator, ring), ring)
+    E = _trimmed([q - p for q, p in zip(*moduli, strict=True)], ring)
+    if not E:
+        return True
+    if _sign(E[-1], ring) < 0:
+        return False
+    return not any(
+        multiplicity % 2 and positive_roots(factor, ring)
+        for multiplicity, factor in enumerate(_squarefree(E, ring), start=1)
+    )
+
+
+def _modulus(p: Sequence[Element], ring: Ring) -> Polynomial:
+    """Return |p(iy)|^2 as a polynomial in y^2: the square of the real part, y^2 times that of the rest."""
+    real = [x if k % 2 == 0 else -x for k, x in enumerate(p[0::2])]
+    imaginary = [x if k % 2 == 0 else -x for k, x in enumerate(p[1::2])]
+    square, rest = _product(real, real, ring), [ring.zero, *_product(imaginary, imaginary, ring)]
+    return [x + y for x, y in zip(*_padded(square, rest, ring), strict=True)]
+
+
+def positive_roots(p: Sequence[Element], ring: Any) -> int:
+    """Return how many different zeros p has beyond 0, by Sturm's chain.
+
+    >>> from orderconds.ring import QQ
+    >>> positive_roots([QQ.rational(x) for x in (2, -3, 1)], QQ)
+    2
+    """
+    chain = [list(p), _derivative(p, ring)]
+    while chain[-1]:
+        chain.append([-x for x in _remainder(chain[-2], chain[-1], ring)])
+    chain.pop()
+    return _changes([q[0] for q in chain], ring) - _changes([q[-1] for q in chain], ring)
+
+
+def _changes(values: Sequence[Element], ring: Any) -> int:
+    signs = [sign for x in values if (sign := _sign(x, ring))]
+    return sum(x != y for x, y in pairwise(signs))
+
+
+def _squarefree(p: Polynomial, ring: Ring) -> list[Polynomial]:
+    """Return f_1, f_2, ... with p = f_1 f_2^2 f_3^3 ..., up to constants (Yun 1976)."""
+    common = _gcd(p, _derivative(p, ring), ring)
+    rest = _quotient(p, common, ring)
+    factors = []
+    while len(rest) > 1:
+        shared = _gcd(rest, common, ring)
+        factors.append(_quotient(rest, shared, ring))
+        rest, common = shared, _quotient(common, shared, ring)
+    return factors
+
+
+def _derivative(p: Sequence[Element], ring: Ring) -> Polynomial:
+    return _trimmed([x * k for k, x in enumerate(p)][1:], ring)
+
+
+def _gcd(p: Sequence[Element], q: Sequence[Element], ring: Ring) -> Polynomial:
+    a, b = list(p), list(q)
+    while b:
+        a, b = b, _remainder(a, b, ring)
+    lead = a[-1]
+    return [x / lead for x in a]
+
+
+def _remainder(p: Sequence[Element], q: Sequence[Element], ring: Ring) -> Polynomial:
+    return _divided(p, q, ring)[1]
+
+
+def _quotient(p: Sequence[Element], q: Sequence[Element], ring: Ring) -> Polynomial:
+    return _divided(p, q, ring)[0]
+
+
+def _divided(p: Sequence[Element], q: Sequence[Element], ring: Ring) -> tuple[Polynomial, Polynomial]:
+    rest, quotient = list(p), [ring.zero] * max(len(p) - len(q) + 1, 0)
+    inverse = ring.one / q[-1]
+    for shift in range(len(p) - len(q), -1, -1):
+        factor = rest[shift + len(q) - 1] * inverse
+        quotient[shift] = factor
+        for k, x in enumerate(q):
+            rest[shift + k] = rest[shift + k] - factor * x
+    return _trimmed(quotient, ring), _trimmed(rest[: len(q) - 1], ring)
+
+
+def _product(p: Sequence[Element], q: Sequence[Element], ring: Ring) -> Polynomial:
+    result = [ring.zero] * max(len(p) + len(q) - 1, 0)
+    for i, x in enumerate(p):
+        for j, y in enumerate(q):
+            result[i + j] = result[i + j] + x * y
+    return result
+
+
+def _trimmed(p: Polynomial, ring: Ring) -> Polynomial:
+    while p:
+        vanishes = ring.is_zero(p[-1])
+        if vanishes is None:
+            raise _Undecided
+        if not vanishes:
+            break
+        p = p[:-1]
+    return p
+
+
+def _padded(p: Sequence[Element], q: Sequence[Element], ring: Ring) -> tuple[Polynomial, Polynomial]:
+    size = max(len(p), len(q))
+    return [*p, *[ring.zero] * (size - len(p))], [*q, *[ring.zero] * (size - len(q))]
