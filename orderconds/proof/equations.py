@@ -97,7 +97,11 @@ def equations(tableau: Tableau) -> Equations:
         label = (
             COMPOSITION if isinstance(tableau.method, Composition) else families.get(proof.conditions).label()
         )
-        return Equations(tableau, proof, ((label, proof.order),))
+        facts = [(label, proof.order)]
+        if label == "rkn":
+            # [V,[V,[V,T]]] = 0 concerns words of four letters and more; the order is even.
+            facts.append(("splitting", min(proof.order, 4)))
+        return Equations(tableau, proof, tuple(facts))
     if proof.reduction == "low-storage":
         if not any(place.startswith("low_storage.") for place in proof.spelled.expressions):
             raise NotProved("reduction: the file gives no low_storage scheme")
