@@ -39,6 +39,8 @@ def command(
     directed-rooted  rooted trees with such edges              prk_same_weights
     alternating  free trees whose neighbours differ in colour  sprk_separable
     action       action trees of variational methods           vcg, vcf, vrkmk
+    graded       Lyndon words of letters 1, 2, ... of weight 1, 2, ...  composition, magnus
+    letters      Lyndon words of letters A and B               splitting
 
     In drawings the root stands on top. A directed edge leads from a derivative in q to one in p (or mu); a
     diamond (L) is a coadjoint action on mu. (>*>) behind a vertex says where, among its branches, its

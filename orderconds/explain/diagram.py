@@ -1,21 +1,24 @@
 """Diagrams: vertices, edges and ordered branches, what every kind of tree becomes before it is drawn.
 
 A vertex is a *dot* (trees of one colour), *black* or *white*, or a *transport* (the L of the action trees,
-which is no copy of the Hamiltonian). An edge is *plain*, or it leads from a derivative in q to one in p or
-mu, as in :mod:`orderconds.trees.directed`: *outward* where the branch is a velocity (a_ij), *inward* where it
-is a force (ahat_ij).
+which is no copy of the Hamiltonian); in words, a *letter* or the *bracket* of two. An edge is *plain*, or it
+leads from a derivative in q to one in p or mu, as in :mod:`orderconds.trees.directed`: *outward* where the
+branch is a velocity (a_ij), *inward* where it is a force (ahat_ij).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
 from orderconds.series.action_trees import Force, Momentum, Velocity
 from orderconds.trees import bicoloured, directed, levels
+from orderconds.words.lie import Bracket, standard_bracketing
+from orderconds.words.lyndon import is_lyndon
+from orderconds.words.shuffle import Word
 
-Sign = Literal["dot", "black", "white", "transport"]
+Sign = Literal["dot", "black", "white", "transport", "bracket", "letter"]
 Edge = Literal["plain", "inward", "outward"]
 
 
@@ -36,7 +39,8 @@ class Vertex:
     """A vertex with its branches from left to right.
 
     ``legs`` = (before, letters) says that the first so many branches are letters of one word, and that the
-    edge to the parent stands behind ``before`` of them; None where there is no such choice.
+    edge to the parent stands behind ``before`` of them; None where there is no such choice. ``label`` is what
+    a letter looks like.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2
@@ -45,6 +49,7 @@ class Vertex:
     sign: Sign
     branches: tuple[Branch, ...] = ()
     legs: tuple[int, int] | None = None
+    label: str = ""
 
     @property
     def size(self) -> int:
@@ -60,7 +65,7 @@ def plain(forest: levels.Forest) -> Diagram:
     r"""Return the diagram of a rooted or ordered tree or forest, given by its levels.
 
     >>> plain(b"\0\0")[1]
-    Vertex(sign='dot', branches=(), legs=None)
+    Vertex(sign='dot', branches=(), legs=None, label='')
     """
     return tuple(
         Vertex("dot", tuple(Branch("plain", v) for v in plain(levels.branches(tree))))
@@ -72,7 +77,7 @@ def coloured(tree: bicoloured.BicolouredTree) -> Diagram:
     r"""Return the diagram of a tree with vertices of two colours.
 
     >>> coloured(b"\1")
-    (Vertex(sign='white', branches=(), legs=None),)
+    (Vertex(sign='white', branches=(), legs=None, label=''),)
     """
     below = tuple(Branch("plain", coloured(child)[0]) for child in bicoloured.children(tree))
     return (Vertex("white" if tree[0] else "black", below),)
@@ -97,6 +102,23 @@ def action(tree: Velocity) -> Diagram:
     ['outward', 'inward']
     """
     return (Vertex("dot", (*_letters(tree.word), *_covectors(tree.momenta))),)
+
+
+def word(letters: Word, spell: Callable[[int], str]) -> Diagram:
+    """Return the diagram of a word: its standard bracketing if it is a Lyndon word, else its letters.
+
+    >>> [vertex.sign for vertex in word((1, 2), str)], [vertex.label for vertex in word((2, 1), str)]
+    (['bracket'], ['2', '1'])
+    """
+    if is_lyndon(letters):
+        return (_bracketed(standard_bracketing(letters), spell),)
+    return tuple(Vertex("letter", label=spell(letter)) for letter in letters)
+
+
+def _bracketed(bracket: Bracket, spell: Callable[[int], str]) -> Vertex:
+    if not isinstance(bracket, tuple):
+        return Vertex("letter", label=spell(bracket))
+    return Vertex("bracket", tuple(Branch("plain", _bracketed(part, spell)) for part in bracket))
 
 
 def _letters(trees: Iterable[Velocity]) -> Iterator[Branch]:

@@ -1,14 +1,17 @@
 """The elementary differentials and Hamiltonians that trees name, spelled out.
 
 Each function spells one kind of tree. ``f''(x, y)`` is a derivative applied to vectors; subscripts name the
-variables of partial derivatives, one letter each.
+variables of partial derivatives, one letter each. Words name commutators of fields.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from orderconds.trees import bicoloured, directed, levels
+from orderconds.words.lie import Bracket, standard_bracketing
+from orderconds.words.lyndon import is_lyndon
+from orderconds.words.shuffle import Word
 
 
 def differential(tree: levels.Tree) -> str:
@@ -81,6 +84,25 @@ def separable_hamiltonian(tree: bicoloured.BicolouredTree) -> str:
     'T_pp(V_q, V_q)'
     """
     return _separable(tree, "")
+
+
+def bracket(word: Word, spell: Callable[[int], str]) -> str:
+    """Spell the commutator that a Lyndon word names, by its standard bracketing; else the product of letters.
+
+    Letters are Lie derivatives, which multiply in the order of action.
+
+    >>> bracket((1, 1, 2), str), bracket((2, 1), str)
+    ('[1, [1, 2]]', '2 1')
+    """
+    if not is_lyndon(word):
+        return " ".join(map(spell, word))
+    return _bracketed(standard_bracketing(word), spell)
+
+
+def _bracketed(nested: Bracket, spell: Callable[[int], str]) -> str:
+    if not isinstance(nested, tuple):
+        return spell(nested)
+    return f"[{', '.join(_bracketed(part, spell) for part in nested)}]"
 
 
 def _derivative(name: str, inside: Sequence[str]) -> str:

@@ -267,6 +267,38 @@ def _action() -> Kind:
     )
 
 
+def _graded() -> Kind:
+    return _lyndon_words("composition", lambda weight: weight, lambda order: range(1, order + 1), str, " ")
+
+
+def _letters() -> Kind:
+    return _lyndon_words(
+        "splitting", lambda letter: 1, lambda order: range(2), "ABCDEFGHIJKLMNOPQRSTUVWXYZ".__getitem__, ""
+    )
+
+
+def _lyndon_words(
+    family: str,
+    weigh: Callable[[int], int],
+    letters: Callable[[int], Iterable[int]],
+    spell: Callable[[int], str],
+    between: str,
+) -> Kind:
+    from orderconds.explain import diagram, differentials
+    from orderconds.trees.counts import lyndon_word_count
+    from orderconds.words.lyndon import lyndon_words
+
+    return Kind(
+        lambda order: lyndon_words(list(letters(order)), order, weigh),
+        lambda order: lyndon_word_count(order, lambda k: sum(weigh(x) == k for x in letters(order))),
+        lambda word: between.join(map(spell, word)),
+        lambda word: diagram.word(word, spell),
+        lambda word: differentials.bracket(word, spell),
+        family,
+        independent=True,
+    )
+
+
 KINDS: dict[str, Callable[[], Kind]] = {
     "rooted": _rooted,
     "ordered": _ordered,
@@ -279,5 +311,7 @@ KINDS: dict[str, Callable[[], Kind]] = {
     "directed-rooted": _directed_rooted,
     "alternating": _alternating,
     "action": _action,
+    "graded": _graded,
+    "letters": _letters,
 }
 """The kinds, in the order in which messages list them."""

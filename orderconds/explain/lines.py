@@ -27,14 +27,14 @@ class Style:
 
 
 ASCII = Style(
-    {"dot": "o", "black": "*", "white": "o", "transport": "L"},
+    {"dot": "o", "black": "*", "white": "o", "transport": "L", "bracket": "[,]"},
     {"plain": "-", "outward": ">", "inward": "<"},
     fork="+",
     last="+",
     rail="|",
 )
 UNICODE = Style(
-    {"dot": "●", "black": "●", "white": "○", "transport": "◇"},
+    {"dot": "●", "black": "●", "white": "○", "transport": "◇", "bracket": "[,]"},
     {"plain": "─", "outward": "▸", "inward": "◂"},
     fork="├",
     last="└",
@@ -66,7 +66,7 @@ def _lines(vertex: Vertex, style: Style) -> Iterator[str]:
         before, letters = vertex.legs
         letter = style.edges["outward"]
         place = f" ({letter * before}*{letter * (letters - before)})"
-    yield style.signs[vertex.sign] + place
+    yield (vertex.label or style.signs[vertex.sign]) + place
     for number, branch in enumerate(vertex.branches, start=1):
         is_last = number == len(vertex.branches)
         first, *rest = _lines(branch.vertex, style)

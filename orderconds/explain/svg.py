@@ -142,6 +142,10 @@ def _drawn(tree: Layout, x: float, y: float) -> Iterator[str]:
 
 
 def _vertex(vertex: Vertex, x: float, y: float) -> str:
+    if vertex.sign == "letter":
+        return _text(x, y + 0.35 * SIZE, vertex.label, SIZE, "middle")
+    if vertex.sign == "bracket":
+        return f'<circle cx="{_number(x)}" cy="{_number(y)}" r="1"/>'
     if vertex.sign == "transport":
         corners = [(x, y - RADIUS), (x + RADIUS, y), (x, y + RADIUS), (x - RADIUS, y)]
         path = " L".join(f"{_number(a)} {_number(b)}" for a, b in corners)
@@ -154,8 +158,10 @@ def _edge(branch: Branch, x: float, y: float, far: float, high: float) -> str:
     """Draw a line from rim to rim, with an arrow head in its middle if it has a direction."""
     length = ((far - x) ** 2 + (high - y) ** 2) ** 0.5
     along = ((far - x) / length, (high - y) / length)
+    # A letter needs more room than a dot.
+    rim = 2 * RADIUS if branch.vertex.sign == "letter" else RADIUS
     start = (x + RADIUS * along[0], y + RADIUS * along[1])
-    end = (far - RADIUS * along[0], high - RADIUS * along[1])
+    end = (far - rim * along[0], high - rim * along[1])
     return f'<path d="M{_pair(start)} L{_pair(end)}{_head(branch.edge, start, end, along)}"/>'
 
 

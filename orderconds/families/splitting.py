@@ -43,6 +43,7 @@ class SplittingFamily(WordFamily):
 
     parts: int = 2
     name = "splitting"
+    trees = "letters"
     formats = ("splitting",)
 
     def label(self) -> str:

@@ -34,6 +34,7 @@ class WordFamily(ABC):
     formats: tuple[str, ...]
     needs_nonzero_weights = False
     search_limit = 8
+    trees = "graded"
 
     def label(self) -> str:
         """Return the name with its options."""
