@@ -113,7 +113,7 @@ def product(*factors: Formula) -> Formula:
 
     Factors are equal when they differ by the names of bound indices only; a zero factor gives zero.
     """
-    scale = Fraction(1)
+    scale: Fraction | int = 1
     parts: list[tuple[Formula, int]] = []
     for base, exponent in _powers(factors):
         if isinstance(base, Total) and len(base.terms) <= 1 and exponent > 0:
@@ -126,7 +126,7 @@ def product(*factors: Formula) -> Formula:
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
     # Only sums can be equal up to names, and one alone has nothing to be equal to.
-    alone = sum(not isinstance(inner, Coefficient) for inner, _ in parts) <= 1
+    alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Formula | None, tuple[Formula, int]] = {}
     for inner, exponent in parts:
         key = inner if isinstance(inner, Coefficient) else None if alone else named(inner)
@@ -134,7 +134,7 @@ def product(*factors: Formula) -> Formula:
         collected[key] = (first, seen + exponent)
     powers = tuple(b if e == 1 else Power(b, e) for b, e in collected.values() if e)
     plain = powers[0] if len(powers) == 1 else Product(powers)
-    return plain if scale == 1 else Total(((scale, plain),))
+    return plain if scale == 1 else Total(((Fraction(scale), plain),))
 
 
 def total(*terms: tuple[Fraction | int, Formula]) -> Formula:
@@ -155,8 +155,11 @@ def index_sum(indices: Sequence[str], relations: Iterable[Relation], body: Formu
         return body
     if isinstance(body, Total) and len(body.terms) <= 1:
         return total(*((scale, index_sum(indices, relations, inner)) for scale, inner in body.terms))
+    found = body.factors if isinstance(body, Product) else (body,)
+    if not any(isinstance(factor, IndexSum) for factor in found):
+        return IndexSum(tuple(indices), tuple(relations), body)
     all_indices, all_relations, factors = list(indices), list(relations), []
-    for factor in body.factors if isinstance(body, Product) else (body,):
+    for factor in found:
         if isinstance(factor, IndexSum):
             all_indices += factor.indices
             all_relations += factor.relations

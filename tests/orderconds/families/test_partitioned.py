@@ -13,7 +13,7 @@ from orderconds.ring import QQ, PowerSeries, Residues
 from orderconds.ring.rank import pivot_columns
 from orderconds.ring.residues import PRIMES
 from orderconds.series.action_rank import products
-from orderconds.tableau import PartitionedRungeKutta, Tableau, dumps
+from orderconds.tableau import PartitionedRungeKutta, Tableau, dumps, find
 
 COUNTS = {
     "prk": [2, 4, 14, 52, 214, 916],
@@ -21,35 +21,14 @@ COUNTS = {
     "symplectic_rk": [1, 0, 1, 1, 3, 4, 11, 19, 47, 97],
     "sprk": [1, 1, 3, 8, 27, 91, 350, 1376],
     "sprk_separable": [2, 1, 2, 3, 6, 10, 22, 42],
-    "rk": [1, 1, 2, 4, 9, 20, 48, 115, 286, 719],
+    "rk": [1, 1, 2, 4, 9, 20, 48, 115, 286, 719, 1842, 4766],
+    "cg": [1, 1, 3, 8, 25, 75, 245, 800, 2700],
+    "cf": [1, 1, 3, 8, 25, 75, 245, 800, 2700],
+    "rkmk": [1, 1, 3, 8, 25, 75, 245, 800, 2700],
 }
 
-VERLET = """
-name = "verlet"
-family = "prk"
-A = [[], ["1/2", "1/2"]]
-b = ["1/2", "1/2"]
-A_hat = [["1/2"], ["1/2"]]
-b_hat = ["1/2", "1/2"]
-[claims]
-prk = 2
-prk_same_weights = 2
-sprk_separable = 2
-symplectic = true
-"""
-
-# R. D. Ruth, IEEE Trans. Nucl. Sci. 30 (1983) 2669: q += 7/24 h p, p += 2/3 h f, ... as in HLW II.5 (5.6).
-RUTH = """
-name = "ruth3"
-family = "prk"
-A = [["7/24"], ["7/24", "3/4"], ["7/24", "3/4", "-1/24"]]
-b = ["7/24", "3/4", "-1/24"]
-A_hat = [[], ["2/3"], ["2/3", "-2/3"]]
-b_hat = ["2/3", "-2/3", "1"]
-[claims]
-sprk_separable = 3
-symplectic = true
-"""
+VERLET = find("stormer_verlet").read_text(encoding="utf-8")
+RUTH = find("ruth3").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("name", COUNTS)
