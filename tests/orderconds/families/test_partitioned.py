@@ -28,7 +28,7 @@ COUNTS = {
 }
 
 VERLET = find("stormer_verlet").read_text(encoding="utf-8")
-RUTH = find("ruth3").read_text(encoding="utf-8")
+RUTH = find("ruth3_pair").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("name", COUNTS)
