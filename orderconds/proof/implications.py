@@ -21,13 +21,29 @@ ABELIAN = {
     "prk": ("rk",),
     "vcg": ("cg", "sprk", "vcf"),
     "vcf": ("cf",),
-    "composition": ("symmetric_composition", "rk", "symplectic_rk", "sprk", "cg", "cf", "vcg", "vcf"),
+    "composition": (
+        "rk",
+        "symplectic_rk",
+        "sprk",
+        "cg",
+        "cf",
+        "vcg",
+        "vcf",
+        "symmetric_composition",
+        "splitting",
+    ),
+    "symmetric_composition": ("composition",),
+    "splitting": ("rkn",),
+    "magnus": ("cf_magnus", "fer"),
+    "cf_magnus": ("magnus",),
+    "fer": ("magnus",),
 }
 """A family to those whose conditions are among its own, at every order.
 
 Groups contain vector spaces; T*G contains the flow on G of a Hamiltonian linear in the momentum, and T*V
 of a vector space V. Crouch-Grossman methods are commutator-free ones. A composition of midpoints is one in
-each family (Bogfjellmo and Marthinsen, Lemma 3.5.4)."""
+each family (Bogfjellmo and Marthinsen, Lemma 3.5.4), one of an adjoint pair a splitting (McLachlan 1995). Of
+methods for Y' = A(t) Y, which read one step as this or that product of exponentials, the order is one."""
 
 
 ONE_TABLEAU = ("rk", "symplectic_rk", "sprk", "cg", "cf", "rkmk", "vcg", "vcf", "vrkmk")
@@ -55,6 +71,8 @@ def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
             if base in ("rkmk", "vrkmk"):
                 waiting.append(("rk" if base == "rkmk" else "sprk", proved))
     best = known.get(family.label(), 0)
+    if family.name == "splitting":
+        best = max(best, min(3, known.get("rkn", 0)))  # brackets vanish from order four on
     if family.name in ONE_TABLEAU:
         best = max(best, min(2, known.get("rk", 0)))
     if family.name in ("rkmk", "vrkmk"):
