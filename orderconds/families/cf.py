@@ -56,12 +56,21 @@ class CommutatorFreeFamily(OrderedForestFamily):
 
 
 def create() -> CommutatorFreeFamily:
-    """Return the family."""
+    """Return the family.
+
+    >>> create().label()
+    'cf'
+    """
     return CommutatorFreeFamily()
 
 
 def exponentials(method: Any) -> list[Exponentials]:
-    """Return the exponentials from y0 to each stage and, last, to the step; rows over all stages."""
+    """Return the exponentials from y0 to each stage and, last, to the step; rows over all stages.
+
+    >>> from orderconds.tableau import Tableau, find
+    >>> [len(rows) for rows in exponentials(Tableau.load(find("cf4")).method)]
+    [0, 1, 1, 2, 2]
+    """
     found: list[Exponentials] = []
     for stage in (*method.stages, method.update):
         before = found[stage.start] if stage.start is not None else ()
@@ -73,6 +82,11 @@ def coefficient_tables(method: Any, ring: Ring) -> dict[str, Any]:
     """Return the tables that the formulas name, filled up with zeros.
 
     alpha_iJj and beta_Jj, and summed over the exponentials a_ij and b_j; c_i = sum_j a_ij.
+
+    >>> from orderconds.ring import QQ
+    >>> from orderconds.tableau import Tableau, find
+    >>> [str(c) for c in coefficient_tables(Tableau.load(find("cf4")).method, QQ)["c"]]
+    ['0', '1/2', '1/2', '1']
     """
     stages = len(method.stages)
     *rows, update = exponentials(method)

@@ -45,12 +45,23 @@ class CrouchGrossmanFamily(OrderedForestFamily):
 
 
 def create() -> CrouchGrossmanFamily:
-    """Return the family."""
+    """Return the family.
+
+    >>> create().label()
+    'cg'
+    """
     return CrouchGrossmanFamily()
 
 
 def crouch_grossman_series(method: Any, ring: Ring) -> ExponentialsSeries:
-    """Return the series of a Runge-Kutta tableau read as a Crouch-Grossman method."""
+    """Return the series of a Runge-Kutta tableau read as a Crouch-Grossman method.
+
+    >>> from orderconds.ring import QQ
+    >>> from orderconds.tableau import Tableau, find
+    >>> from orderconds.trees.levels import parse
+    >>> str(crouch_grossman_series(Tableau.load(find("cg3")).method, QQ)(parse("[..]")))
+    '1/6'
+    """
     single = [[((j, x),) for j, x in sparse(ring, row)] for row in (*method.A, method.b)]
     return ExponentialsSeries(ring, single[:-1], single[-1])
 

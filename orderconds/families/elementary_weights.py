@@ -27,7 +27,12 @@ kept_branches = lru_cache(maxsize=1 << 16)(branches)
 
 
 def conjugate(A: Sequence[Sequence[Element]], b: Sequence[Element]) -> list[list[Element]]:
-    """Return ahat_ij = b_j - b_j a_ji/b_i, the matrix that makes (A, ahat, b, b) symplectic (HLW VI.4)."""
+    """Return ahat_ij = b_j - b_j a_ji/b_i, the matrix that makes (A, ahat, b, b) symplectic (HLW VI.4).
+
+    >>> from orderconds.ring import QQ
+    >>> str(conjugate([[QQ.zero]], [QQ.one])[0][0])
+    '1'
+    """
     stages = range(len(b))
     return [[b[j] - b[j] * A[j][i] / b[i] for j in stages] for i in stages]
 
@@ -63,7 +68,12 @@ def weight_conditions(
     formula: Callable[[DirectedTree], Formula] = weight,
     switching: RootSwitching | None = None,
 ) -> tuple[OrderCondition, ...]:
-    """Return the condition ``weight = 1/gamma`` of each tree, with its relation where the root may move."""
+    """Return the condition ``weight = 1/gamma`` of each tree, with its relation where the root may move.
+
+    >>> from orderconds.trees.directed import directed_free_trees, text
+    >>> [str(condition) for condition in weight_conditions("sprk", directed_free_trees(2), text)]
+    ['sum_i b_i c_i = 1/2']
+    """
     found = [
         OrderCondition(
             family, len(tree), text(tree), partial(formula, tree), Fraction(1, density(tree)), tree

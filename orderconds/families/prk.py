@@ -52,7 +52,11 @@ class PartitionedFamily:
 
 
 def create() -> PartitionedFamily:
-    """Return the family of general pairs."""
+    """Return the family of general pairs.
+
+    >>> create().label()
+    'prk'
+    """
     return PartitionedFamily()
 
 
@@ -67,7 +71,14 @@ def rooted_weight(tree: BicolouredTree) -> Formula:
 
 
 def rooted_weights(method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
-    """Return the elementary weights of a pair of tableaux on the coloured trees of ``conditions``."""
+    """Return the elementary weights of a pair of tableaux on the coloured trees of ``conditions``.
+
+    >>> from orderconds.ring import QQ
+    >>> from orderconds.tableau import Tableau, find
+    >>> verlet = Tableau.load(find("stormer_verlet")).method
+    >>> [str(x) for x in rooted_weights(verlet, QQ, create().conditions(2))]
+    ['1/2', '1/2', '1/2', '1/2']
+    """
     matrices = (method.A, getattr(method, "A_hat", method.A))
     pair = [
         ElementaryWeights[DirectedTree](ring, matrices, b, kept_branches)

@@ -48,5 +48,9 @@ class SameWeightsFamily(PartitionedFamily):
 
 
 def create() -> SameWeightsFamily:
-    """Return the family."""
+    """Return the family.
+
+    >>> create().label()
+    'prk_same_weights'
+    """
     return SameWeightsFamily()

@@ -43,7 +43,11 @@ def spell(polynomial: Polynomial, text: Callable[[Any], str]) -> str:
 
 
 def add(x: Polynomial, y: Polynomial, scale: Fraction | int = 1) -> Polynomial:
-    """Return x + scale y."""
+    """Return x + scale y.
+
+    >>> add({(b"t",): Fraction(1)}, {(b"t",): Fraction(1)}, -1)
+    {}
+    """
     result = dict(x)
     for factors, value in y.items():
         result[factors] = result.get(factors, Fraction(0)) + scale * value
@@ -51,7 +55,11 @@ def add(x: Polynomial, y: Polynomial, scale: Fraction | int = 1) -> Polynomial:
 
 
 def multiply(x: Polynomial, y: Polynomial) -> Polynomial:
-    """Return x y."""
+    """Return x y.
+
+    >>> multiply({(b"u",): Fraction(2)}, {(b"t",): Fraction(3)})
+    {(b't', b'u'): Fraction(6, 1)}
+    """
     result: Polynomial = {}
     for left, a in x.items():
         for right, b in y.items():
@@ -101,7 +109,13 @@ def with_relations(
     polynomial: Callable[[Any], Polynomial],
     text: Callable[[Any], str],
 ) -> tuple[OrderCondition, ...]:
-    """Give each condition that its ``polynomial`` does not name itself the relation it obeys."""
+    """Give each condition that its ``polynomial`` does not name itself the relation it obeys.
+
+    >>> from orderconds.families.symplectic_rk import SWITCHING, create
+    >>> from orderconds.trees.levels import text
+    >>> [c.relation for c in with_relations(create().all_conditions(2), SWITCHING, text)]
+    ['1/2 <.> <.>']
+    """
     found = []
     for condition in conditions:
         equal = polynomial(condition.key)
@@ -111,7 +125,12 @@ def with_relations(
 
 
 def letter_key(tree: Tree) -> tuple[int, bytes]:
-    """Return the key by which trees are ordered as letters: falling size, then as enumerated."""
+    """Return the key by which trees are ordered as letters: falling size, then as enumerated.
+
+    >>> from orderconds.trees.levels import parse, text
+    >>> [text(tree) for tree in sorted(map(parse, (".", "[..]", "[[.]]")), key=letter_key)]
+    ['[[.]]', '[..]', '.']
+    """
     return -len(tree), bytes(255 - level for level in tree)
 
 

@@ -48,7 +48,11 @@ class RungeKuttaFamily:
 
 
 def create() -> RungeKuttaFamily:
-    """Return the family."""
+    """Return the family.
+
+    >>> create().label()
+    'rk'
+    """
     return RungeKuttaFamily()
 
 

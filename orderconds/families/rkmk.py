@@ -135,6 +135,9 @@ def create(cutoff: int | None = None) -> MuntheKaasFamily:
     """Return the family with dexpinv cut after the power ``cutoff``, or uncut.
 
     Raises :class:`~orderconds.errors.InputError` for a negative cutoff.
+
+    >>> create(cutoff=1).label(), create().label()
+    ('rkmk(1)', 'rkmk')
     """
     if cutoff is not None and not (isinstance(cutoff, int) and cutoff >= 0):
         raise InputError(f"cutoff {cutoff!r}", where="family rkmk", expected="an integer >= 0")

@@ -62,5 +62,9 @@ class SymplecticPartitionedFamily:
 
 
 def create() -> SymplecticPartitionedFamily:
-    """Return the family."""
+    """Return the family.
+
+    >>> create().label()
+    'sprk'
+    """
     return SymplecticPartitionedFamily()

@@ -73,7 +73,11 @@ class SeparableFamily:
 
 
 def create() -> SeparableFamily:
-    """Return the family."""
+    """Return the family.
+
+    >>> create().label()
+    'sprk_separable'
+    """
     return SeparableFamily()
 
 
@@ -81,6 +85,10 @@ def require_symplectic_pair(label: str, method: Any, ring: Ring) -> None:
     """Raise :class:`~orderconds.errors.InputError` unless b_i ahat_ij + bhat_j a_ji = b_i bhat_j.
 
     Balls pass where they contain zero: the conditions are then checked to the digits given.
+
+    >>> from orderconds.ring import QQ
+    >>> from orderconds.tableau import Tableau, find
+    >>> require_symplectic_pair("prk", Tableau.load(find("ruth3_pair")).method, QQ)
     """
     for i, row in enumerate(method.A_hat):
         for j, x in enumerate(row):

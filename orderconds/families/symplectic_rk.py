@@ -61,7 +61,11 @@ class SymplecticFamily:
 
 
 def create() -> SymplecticFamily:
-    """Return the family."""
+    """Return the family.
+
+    >>> create().label()
+    'symplectic_rk'
+    """
     return SymplecticFamily()
 
 

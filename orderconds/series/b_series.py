@@ -21,6 +21,13 @@ class ElementaryWeights(Generic[TreeT]):
 
     ``matrices`` are s x s coefficient matrices, one for each kind of edge, over ``ring``; ``branches``
     gives the branches of a tree, each the kind of its edge and the subtree.
+
+    >>> from orderconds.ring import QQ
+    >>> from orderconds.trees.directed import branches
+    >>> half = QQ.rational(1, 2)
+    >>> pair = ElementaryWeights(QQ, ([[half]], [[QQ.zero]]), [QQ.one], branches)
+    >>> str(pair(bytes((0, 2)))), str(pair(bytes((0, 3))))
+    ('1/2', '0')
     """
 
     def __init__(
@@ -80,5 +87,10 @@ def _uncoloured_branches(tree: Tree) -> tuple[tuple[int, Tree], ...]:
 
 
 def sparse(ring: Ring, row: Sequence[Element]) -> tuple[tuple[int, Element], ...]:
-    """Return the entries of a row that are not known to be zero, each with its place."""
+    """Return the entries of a row that are not known to be zero, each with its place.
+
+    >>> from orderconds.ring import QQ
+    >>> [(place, str(x)) for place, x in sparse(QQ, [QQ.zero, QQ.one])]
+    [(1, '1')]
+    """
     return tuple((place, entry) for place, entry in enumerate(row) if ring.is_zero(entry) is not True)

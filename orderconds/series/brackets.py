@@ -35,6 +35,12 @@ class BracketProgram:
     [x, y], over stage values and earlier brackets; ``stages`` and ``update`` are rows alike, every k standing
     for h k. ``least`` is a lower bound of the number of brackets with which these arguments can be written;
     ``grades[j]`` is the grade of q_j.
+
+    >>> from orderconds.ring import QQ
+    >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
+    >>> print(euler.text(QQ))
+    u1 = 0
+    u = k1
     """
 
     brackets: tuple[tuple[Row, Row], ...]

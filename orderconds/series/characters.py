@@ -21,7 +21,11 @@ Value = Callable[[bytes], Element]
 
 @dataclass(frozen=True)
 class TreeAlgebra:
-    """What trees are cut into, and the exact flow's value on them."""
+    """What trees are cut into, and the exact flow's value on them.
+
+    >>> str(ROOTED.exact(bytes((0, 1, 1)))), len(ORDERED.cuts(bytes((0, 1, 1))))
+    ('1/3', 4)
+    """
 
     cuts: Cuts
     exact: Callable[[bytes], Fraction]
@@ -114,7 +118,12 @@ class Character:
 
 
 def exact_flow(ring: Ring, algebra: TreeAlgebra) -> Character:
-    """Return the exact flow over a time h."""
+    """Return the exact flow over a time h.
+
+    >>> from orderconds.ring import QQ
+    >>> str(exact_flow(QQ, ORDERED)(bytes((0, 1, 2, 1))))
+    '1/24'
+    """
 
     def value(forest: bytes) -> Element:
         exact = algebra.exact(forest)

@@ -23,6 +23,11 @@ class DexpinvSeries:
     """The series of RKMK with the tableau (A, b) over ``ring``; ``cutoff`` None keeps all of dexpinv.
 
     Only words shorter than the one asked for enter its value, so implicit tableaux need no iteration.
+
+    >>> from orderconds.ring import QQ
+    >>> midpoint = DexpinvSeries(QQ, [[QQ.rational(1, 2)]], [QQ.one])
+    >>> str(midpoint(bytes((0, 1, 1))))
+    '1/8'
     """
 
     def __init__(

@@ -37,6 +37,11 @@ class WordCoefficients:
 
     ``letter(J, tree)`` is the coefficient of a tree in the exponent of number J. For each word the partial
     sums over the first exponentials are kept, so that one word more costs one sweep over the exponentials.
+
+    >>> from orderconds.ring import QQ
+    >>> twice = WordCoefficients(QQ, 2, lambda number, tree: QQ.one)
+    >>> str(twice(bytes((0, 0))))  # 1/2 + 1 + 1/2
+    '2'
     """
 
     def __init__(self, ring: Ring, exponentials: int, letter: Callable[[int, Tree], Element]) -> None:
@@ -77,6 +82,12 @@ class ExponentialsSeries:
     ``stages[i]`` are the exponentials that lead from y0 to stage i, ``update`` those of the step, each a
     sparse row of coefficients over the stages; the first acts first. Stages may depend on each other in any
     way (implicit).
+
+    >>> from orderconds.ring import QQ
+    >>> one = ((0, QQ.one),)
+    >>> implicit = ExponentialsSeries(QQ, [[one]], [one])
+    >>> str(implicit(bytes((0, 1)))), str(implicit(bytes((0, 0))))
+    ('1', '1/2')
     """
 
     def __init__(
@@ -137,12 +148,21 @@ def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
     They predict steps: a function phi has phi(y1) = sum_w h^|w| a(w) (X_1 ... X_k phi)(y0) for w = t_1 ...
     t_k, where X_l differentiates along the fixed element F(t_l) of the Lie algebra and F([t_1 ... t_k]) =
     (X_1 ... X_k f)(y0); for matrices g1 = sum_w h^|w| a(w) F(t_k) ... F(t_1).
+
+    >>> {str(x) for x in forest_values(exact_value, 2).values()}
+    {'1/2'}
     """
     return {forest: series(forest) for forest in ordered_forests(order)}
 
 
 def forest_residuals(series: ForestSeries, ring: Ring, order: int) -> dict[Forest, Element]:
-    """Return values less the exact flow's: at order p + 1 the leading coefficients of the local error."""
+    """Return values less the exact flow's: at order p + 1 the leading coefficients of the local error.
+
+    >>> from orderconds.ring import QQ
+    >>> one = ((0, QQ.one),)
+    >>> [str(x) for x in forest_residuals(ExponentialsSeries(QQ, [[]], [one]), QQ, 2).values()]
+    ['-1/2', '0']
+    """
     found = {}
     for forest, value in forest_values(series, order).items():
         exact = exact_value(forest)

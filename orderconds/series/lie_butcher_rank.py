@@ -33,6 +33,14 @@ def independent_forests(
 
     Computed modulo two primes; a rank modulo a prime can only be too small, so the larger set is kept.
     Without the exact flow among the samples the result tells which left-hand sides are independent.
+
+    >>> from orderconds.trees.ordered import ordered_forests
+    >>> from orderconds.series.dexpinv import DexpinvSeries
+    >>> def random_series(ring, generator):
+    ...     A, b = ([ring.random(generator) for _ in range(2)] for _ in range(2))
+    ...     return DexpinvSeries(ring, [A, b], b)
+    >>> independent_forests(random_series, [[*ordered_forests(1)], [*ordered_forests(2)]])
+    ((b'\\x00',), (b'\\x00\\x01',))
     """
     found = [_independent(family, candidates, prime, with_exact_flow) for prime in PRIMES]
     return max(found, key=lambda forests: [len(of_order) for of_order in forests])

@@ -23,6 +23,11 @@ class VectorField:
 
     B-series: f~ = sum h^(|t|-1) b(t)/sigma(t) F(t). Lie-Butcher: f~ = sum h^(|w|-1) b(w) F(t_k) ... F(t_1)
     for matrices, which the law of shuffles makes an element of the Lie algebra.
+
+    >>> from orderconds.ring import QQ
+    >>> f = VectorField(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
+    >>> str(f.flow()(bytes((0, 1, 1, 1))))
+    '1/4'
     """
 
     def __init__(self, ring: Ring, algebra: TreeAlgebra, value: Callable[[bytes], Element]) -> None:

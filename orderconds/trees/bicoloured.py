@@ -57,28 +57,48 @@ def alternating(colour: int, tree: Tree) -> BicolouredTree:
 
 
 def canonical(tree: BicolouredTree) -> BicolouredTree:
-    """Return the encoding whose branches stand in falling order at every vertex."""
+    """Return the encoding whose branches stand in falling order at every vertex.
+
+    >>> canonical(bytes((0, 2, 3))) == canonical(bytes((0, 3, 2)))
+    True
+    """
     below = [(kind, canonical(child)) for kind, child in branches(tree)]
     return coloured(tree[0], joined(below))
 
 
 def coloured(colour: int, tree: bytes) -> BicolouredTree:
-    """Give the root a colour."""
+    """Give the root a colour.
+
+    >>> text(coloured(1, bytes((0, 2))))
+    '(.)'
+    """
     return bytes((colour,)) + tree[1:]
 
 
 def children(tree: BicolouredTree) -> tuple[BicolouredTree, ...]:
-    """Return the subtrees that hang from the root."""
+    """Return the subtrees that hang from the root.
+
+    >>> [text(child) for child in children(bytes((0, 3, 2)))]
+    ['o', '.']
+    """
     return tuple(coloured(colour, child) for colour, child in branches(tree))
 
 
 def rooted(colour: int, below: list[BicolouredTree]) -> BicolouredTree:
-    """Join trees to a new root of a colour, in canonical order."""
+    """Join trees to a new root of a colour, in canonical order.
+
+    >>> text(rooted(1, [bytes((0,)), bytes((1,))]))
+    '(o.)'
+    """
     return coloured(colour, joined([(child[0], coloured(0, child)) for child in below]))
 
 
 def bicoloured_rootings(tree: BicolouredTree) -> Iterator[BicolouredTree]:
-    """Yield the tree rooted at each of its vertices in turn, colours kept."""
+    """Yield the tree rooted at each of its vertices in turn, colours kept.
+
+    >>> [text(tree) for tree in bicoloured_rootings(bytes((0, 3)))]
+    ['[o]', '(.)']
+    """
     yield from _rootings(tree[0], list(children(tree)), [])
 
 
@@ -114,7 +134,11 @@ def symmetry(tree: BicolouredTree) -> int:
 
 
 def text(tree: BicolouredTree) -> str:
-    """Write a tree: ``.`` and ``[..]`` with a black root, ``o`` and ``(..)`` with a white one."""
+    """Write a tree: ``.`` and ``[..]`` with a black root, ``o`` and ``(..)`` with a white one.
+
+    >>> text(bytes((0, 3, 2, 5)))
+    '[o[o]]'
+    """
     below = "".join(map(text, children(tree)))
     if not below:
         return ".o"[tree[0]]

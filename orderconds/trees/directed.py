@@ -36,7 +36,11 @@ def branches(tree: DirectedTree) -> tuple[Branch, ...]:
 
 
 def joined(below: tuple[Branch, ...] | list[Branch]) -> DirectedTree:
-    """Join branches to a root, in canonical order."""
+    """Join branches to a root, in canonical order.
+
+    >>> text(joined([(1, bytes((0,))), (0, bytes((0,)))]))
+    '[^..]'
+    """
     raised = (bytes((2 + kind,)) + bytes(level + 2 for level in child[1:]) for kind, child in below)
     return b"\0" + b"".join(sorted(raised, reverse=True))
 
@@ -111,12 +115,19 @@ def representative(tree: DirectedTree) -> DirectedTree:
     """Return, of all rootings of a tree, the one whose condition reads most simply.
 
     That is: as few edges as can be of the rarer kind, then least height, then fewest ahat.
+
+    >>> text(representative(bytes((0, 3, 5))))
+    '[[.]]'
     """
     return min(rootings(tree), key=lambda rooting: (_simplicity(rooting), rooting))
 
 
 def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
-    """Yield the tree rooted at each of its vertices in turn, edges keeping their directions."""
+    """Yield the tree rooted at each of its vertices in turn, edges keeping their directions.
+
+    >>> [text(tree) for tree in rootings(bytes((0, 2)))]
+    ['[.]', '[^.]']
+    """
     yield joined(list(branches(tree)))
     below = branches(tree)
     for place, (kind, child) in enumerate(below):
