@@ -3,6 +3,7 @@
 #   make demo      derive, check, emit, compile, converge, report: the whole life of a method
 #   make test      the tests that take seconds, doctests and coverage
 #   make test-all  the same with the proofs that take minutes
+#   make gate      check every tableau of the library
 #   make lint      ruff, mypy --strict, import-linter
 #   make bench     time this project (benchmarks/)
 
@@ -15,7 +16,7 @@ REPORT := report
 EMITTED := $(REPORT)/emitted
 PYTEST := $(BIN)/python -m pytest -n 2 -rs --doctest-modules --cov --cov-report=term orderconds codegen tests
 
-.PHONY: demo test test-all bench lint compiler clean
+.PHONY: demo test test-all bench gate lint compiler clean
 .DELETE_ON_ERROR:
 
 # The stamp makes an old environment follow pyproject.toml and constraints.txt. The pins also bind the build backend.
@@ -57,6 +58,10 @@ test-all: $(INSTALLED)
 
 bench: $(INSTALLED) compiler
 	@set -e; for script in benchmarks/*.py; do echo "$$script"; $(BIN)/python $$script; done
+
+# The gate: every claim of the library holds, and nothing that a tableau can serve is left unclaimed.
+gate: $(INSTALLED)
+	$(BIN)/orderconds check --complete tableaux
 
 lint: $(INSTALLED)
 	$(BIN)/ruff check .

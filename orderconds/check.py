@@ -13,8 +13,8 @@ order ``undecided``; one that excludes zero proves that the condition fails.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from decimal import Context, Decimal
 from math import factorial
 from os import PathLike
@@ -26,8 +26,10 @@ from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
 from orderconds.families import Family
 from orderconds.ring import Element, Ring
-from orderconds.tableau import Magnus, Splitting, Tableau, find
+from orderconds.served import unclaimed
+from orderconds.tableau import Magnus, RungeKutta, Splitting, Tableau, find
 from orderconds.tableau.properties import properties
+from orderconds.tableau.work import Work, work
 
 if TYPE_CHECKING:
     from orderconds.proof.certificate import Certificate
@@ -109,6 +111,18 @@ class FamilyOrder:
 
 
 @dataclass(frozen=True)
+class EmbeddedOrder:
+    """The order that the embedded weights were said to have on a vector space, and their order by family."""
+
+    claimed: int
+    orders: dict[str, int]
+
+    def as_json(self) -> dict[str, object]:
+        """Return the JSON object of an embedded row."""
+        return {"claimed": self.claimed, "orders": self.orders}
+
+
+@dataclass(frozen=True)
 class Report:
     """What ``check`` found out about one tableau; ``broken_claims`` are property claims that do not hold."""
 
@@ -119,6 +133,8 @@ class Report:
     properties: dict[str, bool | None]
     broken_claims: tuple[str, ...] = ()
     proof: Certificate | None = None
+    work: dict[str, Work] = field(default_factory=dict)
+    embedded: EmbeddedOrder | None = None
 
     @property
     def verdict(self) -> str:
@@ -137,20 +153,27 @@ class Report:
             "verdict": self.verdict,
             "orders": {family.family: family.as_json() for family in self.orders},
             "properties": self.properties,
+            "work": {label: work.as_json() for label, work in self.work.items()},
         }
+        if self.embedded is not None:
+            record["embedded"] = self.embedded.as_json()
         if self.proof is not None:
             record["proof"] = self.proof.as_json()
         return {**record, "broken_claims": list(self.broken_claims)} if self.broken_claims else record
 
 
 def check(
-    tableau: Tableau | str | PathLike[str], family: str | None = None, order: int | None = None
+    tableau: Tableau | str | PathLike[str],
+    family: str | None = None,
+    order: int | None = None,
+    *,
+    complete: bool = False,
 ) -> Report:
     """Find the exact order of ``tableau`` (or of the file, or the library name) in each family it claims.
 
     With ``family`` (``"vcg"``, ``"rkmk(1)"``) that family alone, claimed or not. With ``order`` the order
-    must be at least that, in place of the claims. A tableau without claims is checked in the family of
-    its format.
+    must be at least that, in place of the claims. With ``complete`` a claim is missing, and fails, for each
+    family that the tableau can serve. A tableau without claims is checked in the family of its format.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family,
     :class:`~orderconds.errors.ZeroWeight` where a family divides by some b_i = 0,
@@ -169,8 +192,11 @@ def check(
     proof, broken = _proof(tableau)
     enclosed = proof.tableau if proof else tableau
     facts = proof.facts if proof else ()
+    embedded = _embedded(enclosed, [f for f, _ in wanted])
     if family is None:
-        broken += _broken_claims(enclosed)
+        broken += _broken_claims(tableau, embedded)
+    if complete:
+        broken += [f"no order is claimed in family {name}, which it can serve" for name in unclaimed(tableau)]
     return Report(
         name=tableau.name,
         file=tableau.path,
@@ -181,7 +207,26 @@ def check(
         properties=properties(tableau),
         broken_claims=tuple(broken),
         proof=proof,
+        work={f.label(): cost for f, _ in wanted if (cost := _work(tableau, f)) is not None},
+        embedded=embedded,
     )
+
+
+def _work(tableau: Tableau, family: Family) -> Work | None:
+    return work(tableau, family.name, getattr(family, "cutoff", None))
+
+
+def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | None:
+    """Return the orders of the embedded weights with the stages of the tableau, always that under ``rk``."""
+    if tableau.embedded is None:
+        return None
+    pair = replace(tableau.abelian(), b=tableau.embedded.b)
+    claimed = tableau.embedded.order
+    found = {"rk": _search(families.get("rk"), pair, tableau.ring, claimed).order}
+    for family in wanted:
+        if family.name in ("cg", "rkmk") and isinstance(tableau.method, RungeKutta):
+            found[family.label()] = _search(family, pair, tableau.ring, claimed).order
+    return EmbeddedOrder(claimed, found)
 
 
 def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
@@ -317,7 +362,7 @@ def _conditions(family: Family, n: int) -> tuple[OrderCondition, ...]:
     return found
 
 
-def _broken_claims(tableau: Tableau) -> Iterator[str]:
+def _broken_claims(tableau: Tableau, embedded: EmbeddedOrder | None) -> Iterator[str]:
     """Yield what the file says of properties and of its embedded row, and what was computed instead."""
     computed = properties(tableau)
     for name, claimed in tableau.claims.properties.items():
@@ -325,11 +370,8 @@ def _broken_claims(tableau: Tableau) -> Iterator[str]:
         if found is not claimed:
             said = "undecided" if found is None else str(found).lower()
             yield f"{name} is {said}, claimed {str(claimed).lower()}"
-    if tableau.embedded is not None:
-        abelian = replace(tableau.abelian(), b=tableau.embedded.b)
-        order = _search(families.get("rk"), abelian, tableau.ring, tableau.embedded.order).order
-        if order != tableau.embedded.order:
-            yield f"the embedded row has order {order}, claimed {tableau.embedded.order}"
+    if embedded is not None and embedded.orders["rk"] != embedded.claimed:
+        yield f"the embedded row has order {embedded.orders['rk']}, claimed {embedded.claimed}"
 
 
 def _judge(ring: Ring, residual: Element, n: int) -> str:

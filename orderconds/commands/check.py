@@ -15,6 +15,8 @@ from orderconds.errors import InputError, TableauError
 
 if TYPE_CHECKING:
     from orderconds.check import FamilyOrder, Report
+    from orderconds.proof.certificate import Certificate
+    from orderconds.tableau.work import Work
 
 SHOWN = 5
 """How many failing conditions the text names where a verdict is not ``holds``; else one. JSON lists all."""
@@ -27,8 +29,11 @@ WIDTH = 200
 @click.argument("tableaux", nargs=-1, required=True, metavar="FILE|DIR|NAME...")
 @click.option("--family", "-f", help="This family alone (vcg, 'rkmk(1)'), claimed or not.")
 @click.option("--order", "-p", type=click.IntRange(1, 20), help="Require at least this order.")
+@click.option("--complete", is_flag=True, help="Demand a claim for every family that a tableau can serve.")
 @click.option("--json", "as_json", is_flag=True, help="One list of records on stdout, nothing else.")
-def command(tableaux: Sequence[str], family: str | None, order: int | None, as_json: bool) -> int:
+def command(
+    tableaux: Sequence[str], family: str | None, order: int | None, complete: bool, as_json: bool
+) -> int:
     """Find the exact order and the properties of each tableau: a file, every file below a directory, or a
     name from the library. A claim is an equality.
 
@@ -44,7 +49,7 @@ def command(tableaux: Sequence[str], family: str | None, order: int | None, as_j
     for path in _files(tableaux):
         try:
             with screen.working(f"checking {path}"):
-                report = check(path, family=family, order=order)
+                report = check(path, family=family, order=order, complete=complete)
         except InputError as error:
             # The other files are still worth checking; the status tells that one was not.
             message = str(error)
@@ -89,8 +94,35 @@ def _print_report(report: Report, *, detailed: bool) -> None:
             _print_failing(family)
     for broken in report.broken_claims:
         click.echo(f"  claim fails: {broken}")
+    if report.embedded is not None:
+        told = ", ".join(f"{order} ({label})" for label, order in report.embedded.orders.items())
+        click.echo(f"  embedded row: order {told}")
+    if report.proof is not None:
+        click.echo(f"  proof: {_proof(report.proof)}")
+    if report.work:
+        click.echo(f"  a step: {_work(report.work)}")
     holding = [name for name, value in report.properties.items() if value]
     click.echo(f"  properties: {', '.join(holding) or 'none'}\n")
+
+
+def _work(work: dict[str, Work]) -> str:
+    """Say what a step costs, in one line: evaluations, then what is told apart by family."""
+    evaluations = max(cost.evaluations for cost in work.values())
+    told = ["1 evaluation" if evaluations == 1 else f"{evaluations} evaluations"]
+    for label, cost in work.items():
+        if cost.exponentials is not None:
+            brackets = f" and {cost.brackets} brackets" if cost.brackets else ""
+            told.append(f"{label} {cost.exponentials} exponentials{brackets}")
+    return "; ".join(told)
+
+
+def _proof(proof: Certificate) -> str:
+    """Say what was proved of the decimals, in one line."""
+    told = f"one solution of {proof.equations} equations within {proof.radius} of the decimals"
+    if not proof.printed:
+        return told
+    furthest = max(proof.printed.values(), key=float)
+    return f"{told}; the source's digits are off by up to {furthest}"
 
 
 def _row(family: FamilyOrder) -> tuple[str, ...]:

@@ -5,7 +5,7 @@ Each is True, False, or None where the coefficients are balls too wide to tell.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.methods import CommutatorFree, Composition, PartitionedRungeKutta, RungeKutta
@@ -118,17 +118,23 @@ PROPERTIES = (*DEFINITIONS, "a_stable", "l_stable")
 """Every property that a file may claim."""
 
 
+def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
+    """Whether a row of numbers is the same from its end."""
+    s = len(row)
+    return _all(_equal(row[i], row[s - 1 - i], ring) for i in range(s // 2))
+
+
 def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
     """Composed midpoints are symplectic and diagonally implicit by construction, whatever the steps are.
 
     The composition is symmetric where the steps read the same backwards.
     """
-    gamma, s = method.gamma, method.s
+    gamma = method.gamma
     verdicts = {
         **_of_tableau(method.as_runge_kutta(ring), ring),
         **stability_of_midpoints(gamma, ring),
     }
-    palindrome = _all(_equal(gamma[i], gamma[s - 1 - i], ring) for i in range(s // 2))
+    palindrome = reads_backwards(gamma, ring)
     return {**verdicts, "diagonally_implicit": True, "symplectic": True, "symmetric": palindrome}
 
 

@@ -1,0 +1,46 @@
+"""Counts of a step against what the sources say."""
+
+from __future__ import annotations
+
+import pytest
+
+from orderconds import check
+from orderconds.check import read
+from orderconds.tableau import Tableau
+from orderconds.tableau.work import Work, work
+
+
+@pytest.mark.parametrize(
+    ("name", "family", "cutoff", "expected"),
+    [
+        ("cf4", "cf", None, Work(4, 5, 0)),  # Celledoni, Marthinsen and Owren 2003: five exponentials
+        ("cf3", "cf", None, Work(3, 3, 0)),  # one saved by reuse
+        ("carpenter_kennedy4", "cf", None, Work(5, 5, 0)),  # one a stage
+        ("cg3", "cg", None, Work(3, 6, 0)),
+        ("euler", "cg", None, Work(1, 1, 0)),
+        ("rk4", "rkmk", 0, Work(4, 4, 0)),
+        ("rk4", "rkmk", 2, Work(4, 4, 6)),
+        ("rk4", "rkmk", 3, Work(4, 4, 6)),  # B_3 = 0
+        ("rk4", "rk", None, Work(4)),
+    ],
+)
+def test_counts(name: str, family: str, cutoff: int | None, expected: Work) -> None:
+    assert work(read(name), family, cutoff) == expected
+
+
+def test_a_last_stage_that_is_the_next_first_is_not_evaluated_again() -> None:
+    text = (
+        'name = "t"\nfamily = "rk"\nA = [[], ["1/2"], ["0", "3/4"], ["2/9", "1/3", "4/9"]]\n'
+        'b = ["2/9", "1/3", "4/9", "0"]\n'
+    )
+    assert work(Tableau.loads(text), "rk") == Work(3)
+
+
+def test_equal_exponents_are_one_exponential() -> None:
+    text = 'name = "t"\nfamily = "rk"\nA = [[], ["1/2"], ["1/2", "1/2"]]\nb = ["1/2", "1/4", "1/4"]\n'
+    assert work(Tableau.loads(text), "cg") == Work(3, 4, 0)
+
+
+def test_the_report_has_the_counts_of_each_family_checked() -> None:
+    record = check("rk4", family="rkmk(1)").as_json()
+    assert record["work"] == {"rkmk(1)": {"evaluations": 4, "exponentials": 4, "brackets": 3}}

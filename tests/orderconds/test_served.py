@@ -1,0 +1,35 @@
+"""A file claims an order in every family that its tableau can serve."""
+
+from __future__ import annotations
+
+import pytest
+
+from orderconds import Tableau, check
+from orderconds.check import read
+from orderconds.served import served, unclaimed
+from orderconds.tableau import available
+
+
+@pytest.mark.parametrize("name", available())
+def test_the_library_claims_every_family(name: str) -> None:
+    assert unclaimed(read(name)) == ()
+
+
+def test_a_missing_claim_fails_a_complete_check_and_no_other() -> None:
+    text = 'name = "t"\nfamily = "rk"\nA = [[], ["1/2"]]\nb = ["0", "1"]\n[claims]\nrk = 2\ncg = 2\n'
+    tableau = Tableau.loads(text)
+    assert check(tableau).verdict == "holds"
+    report = check(tableau, complete=True)
+    assert report.verdict == "fails"
+    assert report.broken_claims == ("no order is claimed in family rkmk, which it can serve",)
+
+
+def test_a_zero_weight_bars_the_variational_families() -> None:
+    assert served(read("cg4")) == ("rk", "cg", "rkmk")
+    assert served(read("cf4")) == ("rk", "cf", "vcf")
+
+
+def test_a_pair_that_is_not_symplectic_serves_prk_alone() -> None:
+    text = 'name = "t"\nfamily = "prk"\nA = [["0"]]\nb = ["1"]\nA_hat = [["{}"]]\nb_hat = ["1"]\n'
+    assert served(Tableau.loads(text.format("1"))) == ("prk", "sprk_separable")
+    assert served(Tableau.loads(text.format("1/2"))) == ("prk",)
