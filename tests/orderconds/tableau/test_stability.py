@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import given
 from hypothesis import strategies as st
 
 from orderconds.ring import QQ
@@ -90,9 +90,6 @@ def test_the_verdict_agrees_with_samples_on_the_axis(entries) -> None:  # type: 
     samples = [1.1**k for k in range(-80, 81)]
     if bounded:
         assert all(modulus(R.numerator, y) <= modulus(R.denominator, y) * (1 + 1e-9) for y in samples)
-    else:
-        # It may exceed one by less than the samples show.
-        assume(any(modulus(R.numerator, y) > modulus(R.denominator, y) * (1 + 1e-9) for y in samples))
 
 
 def test_l_stable_implies_a_stable() -> None:
