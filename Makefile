@@ -5,7 +5,7 @@
 #   make test-all  the same with the proofs that take minutes
 #   make gate      check every tableau of the library
 #   make lint      ruff, mypy --strict, import-linter
-#   make bench     time this project (benchmarks/)
+#   make bench     time this project beside its peers (benchmarks/)
 
 SHELL := /bin/bash
 PYTHON ?= python3
@@ -57,6 +57,7 @@ test-all: $(INSTALLED)
 	$(PYTEST)
 
 bench: $(INSTALLED) compiler
+	PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[peers]'
 	@set -e; for script in benchmarks/*.py; do echo "$$script"; $(BIN)/python $$script; done
 
 # The gate: every claim of the library holds, and nothing that a tableau can serve is left unclaimed.
