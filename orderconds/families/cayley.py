@@ -69,5 +69,9 @@ class CayleyFamily(MagnusFamily):
 
 
 def create() -> CayleyFamily:
-    """Return the family."""
+    """Return the family.
+
+    >>> [len(create().conditions(n)) for n in range(1, 7)]
+    [1, 1, 3, 4, 10, 16]
+    """
     return CayleyFamily()

@@ -83,7 +83,11 @@ class CompositionFamily(WordFamily):
 
 
 def create() -> CompositionFamily:
-    """Return the family."""
+    """Return the family.
+
+    >>> [len(create().conditions(n)) for n in range(1, 9)]
+    [1, 1, 2, 3, 6, 9, 18, 30]
+    """
     return CompositionFamily()
 
 

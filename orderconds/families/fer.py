@@ -81,5 +81,9 @@ class FerFamily(MagnusFamily):
 
 
 def create() -> FerFamily:
-    """Return the family."""
+    """Return the family.
+
+    >>> print(create().conditions(4)[0])
+    sum_{i,j,k} phi_ijk c_k = 1/24
+    """
     return FerFamily()

@@ -80,7 +80,11 @@ class MagnusFamily(WordFamily):
 
 
 def create() -> MagnusFamily:
-    """Return the family."""
+    """Return the family.
+
+    >>> print(create().conditions(4)[1])
+    sum_{i,j} omega_ij c_j^2 = 1/12
+    """
     return MagnusFamily()
 
 
@@ -106,6 +110,12 @@ def linear_in_lyndon_words(word: Word) -> Polynomial:
 
 
 def random_product(ring: Residues, generator: np.random.Generator, size: int, transform: str) -> Magnus:
-    """Return the product of ``size`` exponentials of random combinations of A at as many random nodes."""
+    """Return the product of ``size`` exponentials of random combinations of A at as many random nodes.
+
+    >>> import numpy as np
+    >>> from orderconds.ring import Residues
+    >>> random_product(Residues(101, 1), np.random.default_rng(1), 2, "exp").s
+    2
+    """
     rows = [tuple((i, ring.random(generator)) for i in range(size)) for _ in range(size)]
     return Magnus(tuple(ring.random(generator) for _ in range(size)), tuple(rows), (), transform)

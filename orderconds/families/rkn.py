@@ -106,7 +106,11 @@ class NystroemFamily:
 
 
 def create() -> NystroemFamily:
-    """Return the family."""
+    """Return the family.
+
+    >>> [condition.tree for condition in create().conditions(5)]
+    ['TTTTV', 'TTTVV', 'TTVTV', '3 TTVVV - TVVTV']
+    """
     return NystroemFamily()
 
 
@@ -153,7 +157,11 @@ def functionals(order: int) -> tuple[Functional, ...]:
 
 @lru_cache(maxsize=32)
 def independent(order: int) -> tuple[Functional, ...]:
-    """Return the combinations that are independent modulo products of lower ones."""
+    """Return the combinations that are independent modulo products of lower ones.
+
+    >>> [text(functional) for functional in independent(4)]
+    ['TTTV', 'TTVV']
+    """
     return independent_on_lie(functionals(order), order)
 
 

@@ -79,7 +79,11 @@ class SymmetricCompositionFamily(CompositionFamily):
 
 
 def create() -> SymmetricCompositionFamily:
-    """Return the family."""
+    """Return the family.
+
+    >>> [len(create().conditions(n)) for n in range(1, 8)]
+    [1, 0, 1, 0, 2, 0, 4]
+    """
     return SymmetricCompositionFamily()
 
 

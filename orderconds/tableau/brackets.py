@@ -28,7 +28,11 @@ _TOKEN = re.compile(r"\s*(?:([0-9]{1,3})|([A-Za-z_]\w*)|([\[\],*]))", re.ASCII)
 
 @dataclass(frozen=True)
 class Bracket:
-    """The commutator of two terms."""
+    """The commutator of two terms.
+
+    >>> spell(Bracket(1, "a"))
+    '[2,a]'
+    """
 
     left: Term
     right: Term
@@ -36,7 +40,11 @@ class Bracket:
 
 @dataclass(frozen=True)
 class Product:
-    """The product of two terms or more, the last acting first."""
+    """The product of two terms or more, the last acting first.
+
+    >>> spell(Product((0, "a", 0)))
+    '1*a*1'
+    """
 
     factors: tuple[Term, ...]
 

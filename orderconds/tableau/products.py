@@ -24,6 +24,9 @@ class Splitting:
     """A product of the flows of the parts of a field: step (k, x) is the flow of part k over the time x h.
 
     ``parts`` name the parts; ``rkn`` is the part V with [V,[V,[V,T]]] = 0 (Runge-Kutta-Nystroem), or None.
+
+    >>> Splitting(("T", "V"), ((0, 1), (1, 1)), rkn=1).s
+    2
     """
 
     parts: tuple[str, ...]
@@ -46,6 +49,11 @@ class AdjointComposition:
 
     One step is Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h}, Phi*_{beta_1 h} acting
     first (HLW (II.4.6)).
+
+    >>> from orderconds.ring import QQ
+    >>> half = QQ.rational(1, 2)
+    >>> AdjointComposition((half,), (half,)).as_splitting().steps
+    ((1, 1/2), (0, 1), (1, 1/2))
     """
 
     alpha: Row
@@ -94,6 +102,10 @@ class Magnus:
 
     ``exponents`` hold one combination each, the first acting first; ``elements`` name Lie elements that
     later ones refer to. ``transform`` is ``"exp"``, or ``"cay"`` for cay(x) = (1 - x/2)^-1 (1 + x/2).
+
+    >>> from orderconds.ring import QQ
+    >>> Magnus((QQ.rational(1, 2),), (((0, QQ.one),),)).is_commutator_free(QQ)
+    True
     """
 
     c: Row

@@ -143,6 +143,11 @@ def symmetric_product(method: AdjointComposition | Splitting | Magnus, ring: Rin
 
     Of an adjoint pair alpha_{s+1-i} = beta_i; a splitting reads the same backwards; for a Magnus method nodes
     lie symmetric about 1/2 and exponents, taken in reverse at reversed nodes, change their words' signs.
+
+    >>> from orderconds.ring import QQ
+    >>> half = QQ.rational(1, 2)
+    >>> symmetric_product(Splitting(("T", "V"), ((1, half), (0, QQ.one), (1, half))), QQ)
+    True
     """
     if isinstance(method, AdjointComposition):
         pairs = zip(method.alpha, method.beta[::-1], strict=True)

@@ -33,6 +33,10 @@ def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Eleme
     """Return the value at ``word``, not empty, of sum_{m>=1} scales[m - 1] f^m.
 
     f vanishes at the empty word and is not asked for it; scales beyond the length of the word do not matter.
+
+    >>> letters = {("A",): Fraction(2), ("B",): Fraction(3)}
+    >>> power_series(lambda word: letters.get(word, Fraction(0)), ("A", "B"), exponential_scales(2))
+    Fraction(3, 1)
     """
     n = len(word)
     # powers[end] is the value of f^m at the first ``end`` letters.

@@ -34,7 +34,11 @@ def shuffle(u: Sequence[Any], v: Sequence[Any]) -> Counter[Word]:
 
 
 def add(*scaled: tuple[Fraction | int, Mapping[Word, Fraction]]) -> Series:
-    """Add rational multiples of series."""
+    """Add rational multiples of series, and drop words without coefficient.
+
+    >>> add((2, {("A",): Fraction(1)}), (-1, {("A",): Fraction(2), ("B",): Fraction(3)}))
+    {('B',): Fraction(-3, 1)}
+    """
     result: Series = {}
     for scale, series in scaled:
         for word, value in series.items():
@@ -48,7 +52,11 @@ def concatenate(
     weight: int,
     weigh: Callable[[Any], int] = lambda a: 1,
 ) -> Series:
-    """Multiply two series by concatenation, dropping words heavier than ``weight``."""
+    """Multiply two series by concatenation, dropping words heavier than ``weight``.
+
+    >>> concatenate({("A",): Fraction(2)}, {("B",): Fraction(3), ("B", "B"): Fraction(1)}, 2)
+    {('A', 'B'): Fraction(6, 1)}
+    """
     result: Series = {}
     heavy = {word: sum(map(weigh, word)) for word in (*x, *y)}
     for u, a in x.items():
@@ -59,7 +67,11 @@ def concatenate(
 
 
 def exponential(x: Mapping[Word, Fraction], weight: int, weigh: Callable[[Any], int] = lambda a: 1) -> Series:
-    """Return exp(x) to a weight, for a series without constant term."""
+    """Return exp(x) to a weight, for a series without constant term.
+
+    >>> {"".join(word): str(value) for word, value in exponential({("A",): Fraction(1)}, 2).items()}
+    {'': '1', 'A': '1', 'AA': '1/2'}
+    """
     result: Series = {(): Fraction(1)}
     power: Series = {(): Fraction(1)}
     for n in range(1, weight + 1):
@@ -69,7 +81,11 @@ def exponential(x: Mapping[Word, Fraction], weight: int, weigh: Callable[[Any], 
 
 
 def logarithm(x: Mapping[Word, Fraction], weight: int, weigh: Callable[[Any], int] = lambda a: 1) -> Series:
-    """Return log(x) to a weight, for a series with constant term 1."""
+    """Return log(x) to a weight, for a series with constant term 1.
+
+    >>> logarithm(exponential({("A",): Fraction(2)}, 3), 3)
+    {('A',): Fraction(2, 1)}
+    """
     rest = add((1, x), (-1, {(): Fraction(1)}))
     result: Series = {}
     power: Series = {(): Fraction(1)}
