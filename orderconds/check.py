@@ -254,7 +254,14 @@ def _certified(found: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> F
 def family_order(
     tableau: Tableau, family: Family, claimed: int | None = None, required: int | None = None
 ) -> FamilyOrder:
-    """Find the order of ``tableau`` in ``family``: evaluate orders 1, 2, ... until a condition fails."""
+    """Find the order of ``tableau`` in ``family``: evaluate orders 1, 2, ... until a condition fails.
+
+    >>> from orderconds.tableau import find
+    >>> kutta3 = Tableau.load(find("kutta3"))
+    >>> found = family_order(kutta3, families.get("cg"))
+    >>> found.order, found.certificate
+    (2, 'exact')
+    """
     method = _method(tableau, family)
     if hasattr(family, "require"):
         family.require(method, tableau.ring)

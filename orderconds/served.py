@@ -57,7 +57,12 @@ def served(tableau: Tableau) -> tuple[str, ...]:
 
 
 def unclaimed(tableau: Tableau) -> tuple[str, ...]:
-    """Return the families that the tableau can serve and its file claims no order in."""
+    """Return the families that the tableau can serve and its file claims no order in.
+
+    >>> from orderconds.tableau import find
+    >>> unclaimed(Tableau.load(find("kutta3")))
+    ()
+    """
     claimed = {claim.family for claim in tableau.claims.orders} | {c.label for c in tableau.claims.orders}
     return tuple(name for name in served(tableau) if name not in claimed)
 

@@ -44,7 +44,11 @@ def command(name: str, as_json: bool) -> int:
 
 
 def bibliography() -> dict[str, str]:
-    """Return the entries of the library's ``sources.bib`` by key, in the file's order."""
+    """Return the entries of the library's ``sources.bib`` by key, in the file's order.
+
+    >>> "kutta1901" in bibliography()
+    True
+    """
     from orderconds.tableau.library import bibliography as file
 
     return dict(split_entries(file().read_text(encoding="utf-8")))

@@ -15,7 +15,11 @@ if TYPE_CHECKING:
 
 
 def is_terminal() -> bool:
-    """Say whether a person is reading stdout; colours, rules and progress are only for them."""
+    """Say whether a person is reading stdout; colours, rules and progress are only for them.
+
+    >>> isinstance(is_terminal(), bool)
+    True
+    """
     return sys.stdout.isatty()
 
 
@@ -41,6 +45,10 @@ def working(message: str) -> Iterator[Callable[[str], object]]:
     """Show on a terminal what is being worked on, while it is; elsewhere show nothing.
 
     What it gives is called to change the message.
+
+    >>> with working("deriving"):
+    ...     order = 4
+    ...
     """
     if not (is_terminal() and sys.stderr.isatty()):
         yield str
@@ -52,12 +60,23 @@ def working(message: str) -> Iterator[Callable[[str], object]]:
 
 
 def print_json(value: Any) -> None:
-    """Print one JSON document: indented, in the order given, ASCII only."""
+    """Print one JSON document: indented, in the order given, ASCII only.
+
+    >>> print_json({"order": 4})
+    {
+      "order": 4
+    }
+    """
     click.echo(json.dumps(value, indent=2))
 
 
 def print_table(columns: Sequence[str], rows: Sequence[Sequence[str]], indent: int = 0) -> None:
-    """Print rows under column heads; the columns are as wide as their widest entry."""
+    """Print rows under column heads; the columns are as wide as their widest entry.
+
+    >>> print_table(["family", "order"], [["rk", "4"]])
+    family  order
+    rk      4
+    """
     if is_terminal():
         from rich.console import Console  # a person is watching, so its import time does not matter
         from rich.padding import Padding

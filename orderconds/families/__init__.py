@@ -76,7 +76,11 @@ class Family(Protocol):
 
 
 def names() -> tuple[str, ...]:
-    """Return the names of all families."""
+    """Return the names of all families.
+
+    >>> names()[:3]
+    ('rk', 'prk', 'prk_same_weights')
+    """
     return tuple(MODULES)
 
 
@@ -85,6 +89,9 @@ def get(name: str, **options: Any) -> Family:
 
     Raises :class:`~orderconds.errors.UnknownName` for a name that is not registered and
     :class:`~orderconds.errors.InputError` for an option the family does not have.
+
+    >>> get("rkmk(1)").label(), get("vcg").needs_nonzero_weights
+    ('rkmk(1)', True)
     """
     called = re.fullmatch(r"\s*([a-z_-]+)\s*(?:\(\s*(\d{1,3})\s*\))?\s*", name)
     base, argument = called.groups() if called else (name, None)
@@ -115,18 +122,34 @@ def get(name: str, **options: Any) -> Family:
 def residuals(
     family: Family, method: Any, ring: Ring, conditions: Sequence[OrderCondition]
 ) -> tuple[Element, ...]:
-    """Return left-hand side minus right-hand side of each condition, elements of ``ring``."""
+    """Return left-hand side minus right-hand side of each condition, elements of ``ring``.
+
+    >>> from orderconds.tableau import Tableau, find
+    >>> euler = Tableau.load(find("euler"))
+    >>> rk = get("rk")
+    >>> residuals(rk, euler.method, euler.ring, rk.conditions(2))
+    (-1/2,)
+    """
     values = family.evaluate(method, ring, conditions)
     return tuple(value - in_ring(ring, c.rhs) for value, c in zip(values, conditions, strict=True))
 
 
 def in_ring(ring: Ring, q: Fraction) -> Element:
-    """Return a rational number as an element of ``ring``."""
+    """Return a rational number as an element of ``ring``.
+
+    >>> from orderconds.ring import QQ
+    >>> in_ring(QQ, Fraction(1, 3))
+    1/3
+    """
     return ring.rational(q.numerator, q.denominator)
 
 
 def require_nonzero_weights(label: str, ring: Ring, b: Sequence[Element]) -> None:
-    """Raise :class:`~orderconds.errors.ZeroWeight` unless every weight is known to be non-zero."""
+    """Raise :class:`~orderconds.errors.ZeroWeight` unless every weight is known to be non-zero.
+
+    >>> from orderconds.ring import QQ
+    >>> require_nonzero_weights("vcg", QQ, [QQ.one])
+    """
     for i, weight in enumerate(b, start=1):
         vanishes = ring.is_zero(weight)
         if vanishes is None or vanishes:

@@ -50,6 +50,12 @@ def value(
     """Sum a formula over coefficient ``tables``, its free indices fixed ``at`` values counted from 0.
 
     An index runs along the axis of the table at which it first stands.
+
+    >>> from orderconds.formula import coefficient, index_sum
+    >>> from orderconds.ring import QQ
+    >>> tables = {"b": (QQ.rational(1, 3), QQ.rational(2, 3))}
+    >>> value(index_sum(("i",), (), coefficient("b", "i")), QQ, tables)
+    1
     """
     at = at or {}
     match formula:

@@ -94,17 +94,29 @@ class IndexSum(Formula):
 
 
 def zero() -> Formula:
-    """Return the empty sum."""
+    """Return the empty sum.
+
+    >>> zero().text()
+    '0'
+    """
     return Total(())
 
 
 def one() -> Formula:
-    """Return the empty product."""
+    """Return the empty product.
+
+    >>> one().text()
+    '1'
+    """
     return Product(())
 
 
 def coefficient(name: str, *indices: str) -> Formula:
-    """Return the coefficient ``name`` with these indices."""
+    """Return the coefficient ``name`` with these indices.
+
+    >>> coefficient("a", "i", "j").text()
+    'a_ij'
+    """
     return Coefficient(name, indices)
 
 
@@ -112,6 +124,10 @@ def product(*factors: Formula) -> Formula:
     """Multiply: flatten products, draw numbers to the front, collect equal factors in powers.
 
     Factors are equal when they differ by the names of bound indices only; a zero factor gives zero.
+
+    >>> c = coefficient("c", "i")
+    >>> product(coefficient("b", "i"), c, c).text()
+    'b_i c_i^2'
     """
     scale: Fraction | int = 1
     parts: list[tuple[Formula, int]] = []
@@ -138,7 +154,12 @@ def product(*factors: Formula) -> Formula:
 
 
 def total(*terms: tuple[Fraction | int, Formula]) -> Formula:
-    """Add rational multiples: flatten totals, collect terms equal up to the names of bound indices."""
+    """Add rational multiples: flatten totals, collect terms equal up to the names of bound indices.
+
+    >>> c = coefficient("c", "i")
+    >>> total((1, c), (Fraction(-3, 2), c), (1, one())).text()
+    '-1/2 c_i + 1'
+    """
     collected: dict[Formula, tuple[Formula, Fraction]] = {}
     for scale, term in terms:
         for inner, part in term.terms if isinstance(term, Total) else ((Fraction(1), term),):
@@ -150,7 +171,12 @@ def total(*terms: tuple[Fraction | int, Formula]) -> Formula:
 
 
 def index_sum(indices: Sequence[str], relations: Iterable[Relation], body: Formula) -> Formula:
-    """Sum over indices; sums among the factors of ``body`` and numbers are drawn to the front."""
+    """Sum over indices; sums among the factors of ``body`` and numbers are drawn to the front.
+
+    >>> a, c = coefficient("a", "i", "j"), coefficient("c", "j")
+    >>> index_sum(("j",), (("i", "<", "j"),), product(a, c)).text()
+    'sum_{j>i} a_ij c_j'
+    """
     if not indices:
         return body
     if isinstance(body, Total) and len(body.terms) <= 1:
@@ -170,7 +196,11 @@ def index_sum(indices: Sequence[str], relations: Iterable[Relation], body: Formu
 
 
 def fresh(kind: str = "i") -> str:
-    """Return an index name that no other formula has; upper-case ``kind`` for exponentials."""
+    """Return an index name that no other formula has; upper-case ``kind`` for exponentials.
+
+    >>> fresh() != fresh()
+    True
+    """
     return f"{kind}#{next(_numbers)}"
 
 
@@ -179,6 +209,10 @@ def named(formula: Formula, names: Mapping[str, str] | None = None) -> Formula:
 
     Free indices are renamed by ``names``, if they stand there. Sums that differ by the names of bound
     indices only become identical.
+
+    >>> i = fresh()
+    >>> named(index_sum((i,), (), coefficient("b", i))).text()
+    'sum_i b_i'
     """
     names = names or {}
     # Free indices that keep their names must not be captured.
@@ -207,7 +241,11 @@ def _named(formula: Formula, names: Mapping[str, str], free: tuple[str, ...]) ->
 
 
 def coefficients(formula: Formula) -> Iterator[Coefficient]:
-    """Yield every coefficient that occurs, from left to right."""
+    """Yield every coefficient that occurs, from left to right.
+
+    >>> [found.name for found in coefficients(product(coefficient("b", "i"), coefficient("c", "i")))]
+    ['b', 'c']
+    """
     match formula:
         case Coefficient():
             yield formula
@@ -222,7 +260,11 @@ def coefficients(formula: Formula) -> Iterator[Coefficient]:
 
 
 def free_indices(formula: Formula) -> tuple[str, ...]:
-    """Return the indices that no sum binds, in reading order."""
+    """Return the indices that no sum binds, in reading order.
+
+    >>> free_indices(index_sum(("j",), (), coefficient("a", "i", "j")))
+    ('i',)
+    """
     match formula:
         case Coefficient(_, indices):
             found: Iterable[str] = indices

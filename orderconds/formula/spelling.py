@@ -33,7 +33,11 @@ LATEX = Alphabet(
 
 
 def spell(formula: Formula, alphabet: Alphabet) -> str:
-    """Write a formula in an alphabet."""
+    r"""Write a formula in an alphabet.
+
+    >>> print(spell(Power(Coefficient("ahat", ("i", "j")), 2), LATEX))
+    \hat{a}_{ij}^{2}
+    """
     match formula:
         case Coefficient(name, indices):
             return alphabet.names.get(name, name) + _subscript(_indices(indices), alphabet)

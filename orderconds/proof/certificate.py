@@ -52,6 +52,11 @@ def certify(tableau: Tableau) -> Certificate:
     """Prove that the decimals of ``tableau`` stand for a solution of its equations.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` with what is missing.
+
+    >>> from orderconds.tableau import find
+    >>> found = certify(Tableau.load(find("cg4a")))
+    >>> found.facts, found.equations
+    ((('cg', 4),), 13)
     """
     found = _certify(_Key(tableau))
     return replace(found, tableau=replace(found.tableau, path=tableau.path))

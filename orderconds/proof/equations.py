@@ -80,6 +80,10 @@ def equations(tableau: Tableau) -> Equations:
     """Return the equations that the proof of a tableau names; its reduction is verified here.
 
     Raises :class:`NotProved` where the reduction does not apply, :class:`InputError` for an unknown family.
+
+    >>> from orderconds.tableau import find
+    >>> equations(Tableau.load(find("cg4a"))).facts
+    (('cg', 4),)
     """
     proof = tableau.proof
     if proof is None:
@@ -131,6 +135,12 @@ def simplifying(method: Any, ring: Ring, assumptions: Mapping[str, int]) -> Iter
 
     B: sum b_i c_i^(k-1) = 1/k; C: sum_j a_ij c_j^(k-1) = c_i^k/k, where k = 1 defines c;
     D: sum_i b_i c_i^(k-1) a_ij = b_j (1 - c_j^k)/k.
+
+    >>> from orderconds.ring import QQ
+    >>> from orderconds.tableau import find
+    >>> gauss1 = Tableau.load(find("gauss1"))
+    >>> [int(QQ.is_zero(x)) for x in simplifying(gauss1.method, QQ, {"B": 2, "C": 1, "D": 1})]
+    [1, 1, 1]
     """
     A, b, stages = method.A, method.b, range(method.s)
     c = [sum(row, ring.zero) for row in A]

@@ -70,13 +70,22 @@ def _image(system: System, box: Sequence[arb]) -> list[arb]:
 
 
 def jets(system: System, point: Sequence[arb]) -> Sequence[Jet]:
-    """Return values and gradients of the equations at a point, or over a box."""
+    """Return values and gradients of the equations at a point, or over a box.
+
+    >>> (square,) = jets(lambda x, ring: [x[0] * x[0]], [arb(3)])
+    >>> square.value == 9, [x == 6 for x in square.gradient]
+    (True, [True])
+    """
     ring = Jets(len(point))
     return system([ring.variable(i, x) for i, x in enumerate(point)], ring)
 
 
 def inverse(matrix: arb_mat) -> arb_mat:
-    """Return the midpoints of the inverse; :class:`NotProved` where there is none."""
+    """Return the midpoints of the inverse; :class:`NotProved` where there is none.
+
+    >>> inverse(arb_mat(1, 1, [4]))[0, 0] == 0.25
+    True
+    """
     try:
         found = matrix.inv()
     except ZeroDivisionError:

@@ -69,6 +69,9 @@ def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
     """Return the unknowns that elimination with complete pivoting solves for, in rising order.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` where the rows are dependent to working precision.
+
+    >>> determined([[arb(0), arb(2), arb(1)]])
+    [1]
     """
     rows = [[x.mid() for x in row] for row in jacobian]
     chosen: list[int] = []

@@ -17,7 +17,11 @@ Enclosure = Callable[[int], Any]
 
 
 def endpoints(ball: arb) -> tuple[fmpq, fmpq]:
-    """Return the exact lower and upper ends of a finite ball."""
+    """Return the exact lower and upper ends of a finite ball.
+
+    >>> endpoints(arb("0.75"))
+    (3/4, 3/4)
+    """
     middle, radius = _dyadic(ball.mid()), _dyadic(ball.rad())
     return middle - radius, middle + radius
 
@@ -67,12 +71,30 @@ def _spell(figures: str, exponent: int) -> str:
 
 
 def decimal(enclosure: Enclosure, digits: int) -> str:
-    """Spell an irrational number, known through its enclosures, correctly rounded to ``digits`` digits."""
+    """Spell an irrational number, known through its enclosures, correctly rounded to ``digits`` digits.
+
+    >>> from orderconds.ring.precision import precision
+    >>> def root(bits):
+    ...     with precision(bits):
+    ...         return arb(2).sqrt()
+    ...
+    >>> decimal(root, 12)
+    '1.41421356237'
+    """
     return _agreed(enclosure, lambda x: rational_decimal(x, digits), 4 * digits + 32)
 
 
 def nearest_float(enclosure: Enclosure) -> float:
-    """Return the double nearest to a number known through its enclosures."""
+    """Return the double nearest to a number known through its enclosures.
+
+    >>> from orderconds.ring.precision import precision
+    >>> def root(bits):
+    ...     with precision(bits):
+    ...         return arb(2).sqrt()
+    ...
+    >>> nearest_float(root) == 2**0.5
+    True
+    """
     return _agreed(enclosure, rational_float, 96)
 
 

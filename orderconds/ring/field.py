@@ -326,7 +326,12 @@ def _term(c: fmpq, monomial: str) -> str:
 
 
 def substituted(polynomial: fmpq_poly, at: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
-    """Return polynomial(at) modulo ``modulus``."""
+    """Return polynomial(at) modulo ``modulus``.
+
+    >>> x = fmpq_poly([0, 1])
+    >>> substituted(x * x, x + 1, x * x - 2)
+    2*x + 3
+    """
     result = fmpq_poly([0])
     for c in reversed(polynomial.coeffs()):
         result = (result * at + c) % modulus

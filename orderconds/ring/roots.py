@@ -34,7 +34,17 @@ def isolate(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_
 
 
 def isolating(monic: fmpq_poly, root: Enclosure) -> str:
-    """Return the shortest decimal, of at least 10 places, within one unit of which this root lies alone."""
+    """Return the shortest decimal, of at least 10 places, within one unit of which this root lies alone.
+
+    >>> from flint import fmpq_poly
+    >>> from orderconds.ring.precision import precision
+    >>> def root(bits):
+    ...     with precision(bits):
+    ...         return arb(2).sqrt()
+    ...
+    >>> isolating(fmpq_poly([-2, 0, 1]), root)
+    '1.4142135624'
+    """
     places = 10
     while True:
         unit = fmpq(1, 10**places)

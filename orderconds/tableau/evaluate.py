@@ -53,6 +53,11 @@ def evaluate(
     """Evaluate expressions, keyed by the place they stand in, in the smallest ring that holds them all.
 
     ``numbers`` may refer to each other, in any order, without a cycle. Raises :class:`TableauError`.
+
+    >>> from orderconds.tableau.grammar import parse
+    >>> ring, values = evaluate({"a": parse("sqrt(g)/2", "")}, {"g": Constant(Fraction(3))}, "")
+    >>> ring.text(values["a"] * values["a"])
+    '3/4'
     """
     from orderconds.ring.tower import DegreeError, Tower
 
@@ -79,7 +84,14 @@ def evaluate(
 def evaluate_in(
     scalars: Scalars, expressions: Mapping[str, Expression], numbers: Mapping[str, Definition], where: str
 ) -> dict[str, Element]:
-    """Evaluate expressions in given scalars; raises :class:`TableauError`."""
+    """Evaluate expressions in given scalars; raises :class:`TableauError`.
+
+    >>> from orderconds.ring.balls import Balls
+    >>> from orderconds.tableau.grammar import parse
+    >>> R = Balls(64)
+    >>> R.approximate(evaluate_in(R, {"a": parse("2^(1/2)", "")}, {}, "")["a"], 10)
+    '1.414213562'
+    """
     return _Evaluation(scalars, numbers, where).all(expressions)
 
 
@@ -90,7 +102,12 @@ def _shared(values: Mapping[str, Element], lift: Any) -> dict[str, Element]:
 
 
 def rounded_and_exact(x: Definition) -> Iterator[Constant]:
-    """Yield every constant that is spelled in an expression."""
+    """Yield every constant that is spelled in an expression.
+
+    >>> from orderconds.tableau.grammar import parse
+    >>> [str(c.unit) for c in rounded_and_exact(parse("1/2 + 0.25~", ""))]
+    ['0', '0', '1/100']
+    """
     if isinstance(x, Constant):
         yield x
     elif isinstance(x, Chain):

@@ -47,12 +47,21 @@ def load(path: str | Path) -> Tableau:
     """Read the tableau file at ``path``.
 
     Raises :class:`TableauError` naming the file, the key, what was found and what was expected.
+
+    >>> from orderconds.tableau import find
+    >>> load(find("kutta3")).name
+    'kutta3'
     """
     return loads(text_of(path), str(path), str(path))
 
 
 def text_of(path: str | Path) -> str:
-    """Return the text of a tableau file, refused where it is too large or no UTF-8."""
+    """Return the text of a tableau file, refused where it is too large or no UTF-8.
+
+    >>> from orderconds.tableau import find
+    >>> text_of(find("kutta3")).splitlines()[0]
+    'name = "kutta3"'
+    """
     file = Path(path)
     try:
         if file.stat().st_size > MAX_BYTES:

@@ -16,6 +16,9 @@ def root() -> Path:
 
     It is ``tableaux/`` of the source tree when the package sits beside a ``pyproject.toml`` named orderconds,
     else the copy that the wheel carries.
+
+    >>> root().is_dir()
+    True
     """
     beside = _PACKAGE.parent / "pyproject.toml"
     if beside.is_file() and 'name = "orderconds"' in beside.read_text(encoding="utf-8").splitlines():
@@ -29,12 +32,20 @@ def _files() -> dict[str, Path]:
 
 
 def available() -> tuple[str, ...]:
-    """Return the names of all tableaux, sorted; a file is named after its tableau."""
+    """Return the names of all tableaux, sorted; a file is named after its tableau.
+
+    >>> "gauss2" in available()
+    True
+    """
     return tuple(_files())
 
 
 def find(name: str) -> Path:
-    """Return the file of the tableau ``name``; :class:`UnknownName` with the nearest names otherwise."""
+    """Return the file of the tableau ``name``; :class:`UnknownName` with the nearest names otherwise.
+
+    >>> find("gauss2").name
+    'gauss2.toml'
+    """
     if name in _files():
         return _files()[name]
     from difflib import get_close_matches
@@ -45,5 +56,9 @@ def find(name: str) -> Path:
 
 
 def bibliography() -> Path:
-    """Return the BibTeX file with the sources of the tableaux."""
+    """Return the BibTeX file with the sources of the tableaux.
+
+    >>> bibliography().name
+    'sources.bib'
+    """
     return root() / "sources.bib"

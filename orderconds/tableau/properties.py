@@ -58,19 +58,37 @@ def _equal(x: Element, y: Element, ring: Ring) -> Verdict:
 
 
 def explicit(method: RungeKutta, ring: Ring) -> Verdict:
-    """a_ij = 0 for j >= i."""
+    """a_ij = 0 for j >= i.
+
+    >>> from orderconds.tableau import Tableau, find
+    >>> rk4 = Tableau.load(find("rk4"))
+    >>> explicit(rk4.method, rk4.ring)
+    True
+    """
     return _all(ring.is_zero(method.A[i][j]) for i in range(method.s) for j in range(i, method.s))
 
 
 def diagonally_implicit(method: RungeKutta, ring: Ring) -> Verdict:
-    """a_ij = 0 for j > i, and not all a_ii = 0."""
+    """a_ij = 0 for j > i, and not all a_ii = 0.
+
+    >>> from orderconds.tableau import Tableau, find
+    >>> gauss1 = Tableau.load(find("gauss1"))
+    >>> diagonally_implicit(gauss1.method, gauss1.ring)
+    True
+    """
     above = _all(ring.is_zero(method.A[i][j]) for i in range(method.s) for j in range(i + 1, method.s))
     is_explicit = explicit(method, ring)
     return _all([above, None if is_explicit is None else not is_explicit])
 
 
 def symplectic(method: RungeKutta, ring: Ring) -> Verdict:
-    """b_i a_ij + b_j a_ji = b_i b_j (HLW Theorem VI.4.3)."""
+    """b_i a_ij + b_j a_ji = b_i b_j (HLW Theorem VI.4.3).
+
+    >>> from orderconds.tableau import Tableau, find
+    >>> gauss2 = Tableau.load(find("gauss2"))
+    >>> symplectic(gauss2.method, gauss2.ring)
+    True
+    """
     A, b, s = method.A, method.b, method.s
     return _all(
         ring.is_zero(b[i] * A[i][j] + b[j] * A[j][i] - b[i] * b[j]) for i in range(s) for j in range(i, s)
@@ -78,7 +96,13 @@ def symplectic(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
-    """b_i ahat_ij + bhat_j a_ji = b_i bhat_j, which suffices where H = T(p) + V(q) (HLW Theorem VI.4.6)."""
+    """b_i ahat_ij + bhat_j a_ji = b_i bhat_j, which suffices where H = T(p) + V(q) (HLW Theorem VI.4.6).
+
+    >>> from orderconds.ring import QQ
+    >>> half, one = QQ.rational(1, 2), QQ.one
+    >>> symplectic_pair(PartitionedRungeKutta(((half,),), (one,), ((half,),), (one,)), QQ)
+    True
+    """
     A, b, A_hat, b_hat, stages = method.A, method.b, method.A_hat, method.b_hat, range(method.s)
     return _all(
         ring.is_zero(b[i] * A_hat[i][j] + b_hat[j] * A[j][i] - b[i] * b_hat[j])
@@ -88,19 +112,37 @@ def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
 
 
 def symmetric(method: RungeKutta, ring: Ring) -> Verdict:
-    """a_{s+1-i,s+1-j} + a_ij = b_j (HLW Theorem V.2.3), in the order in which the stages stand."""
+    """a_{s+1-i,s+1-j} + a_ij = b_j (HLW Theorem V.2.3), in the order in which the stages stand.
+
+    >>> from orderconds.tableau import Tableau, find
+    >>> gauss3 = Tableau.load(find("gauss3"))
+    >>> symmetric(gauss3.method, gauss3.ring)
+    True
+    """
     A, b, s = method.A, method.b, method.s
     mirrored = (ring.is_zero(A[s - 1 - i][s - 1 - j] + A[i][j] - b[j]) for i in range(s) for j in range(s))
     return _all([*mirrored, *(_equal(b[i], b[s - 1 - i], ring) for i in range(s // 2))])
 
 
 def stiffly_accurate(method: RungeKutta, ring: Ring) -> Verdict:
-    """a_sj = b_j."""
+    """a_sj = b_j.
+
+    >>> from orderconds.tableau import Tableau, find
+    >>> rk4 = Tableau.load(find("rk4"))
+    >>> stiffly_accurate(rk4.method, rk4.ring)
+    False
+    """
     return _all(_equal(x, y, ring) for x, y in zip(method.A[-1], method.b, strict=True))
 
 
 def fsal(method: RungeKutta, ring: Ring) -> Verdict:
-    """First same as last: stiffly accurate, more than one stage, and the first stage is the start value."""
+    """First same as last: stiffly accurate, more than one stage, and the first stage is the start value.
+
+    >>> from orderconds.tableau import Tableau, find
+    >>> rk4 = Tableau.load(find("rk4"))
+    >>> fsal(rk4.method, rk4.ring)
+    False
+    """
     first = _all(ring.is_zero(x) for x in method.A[0])
     return _all([method.s > 1, stiffly_accurate(method, ring), first])
 
@@ -119,7 +161,12 @@ PROPERTIES = (*DEFINITIONS, "a_stable", "l_stable")
 
 
 def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
-    """Whether a row of numbers is the same from its end."""
+    """Whether a row of numbers is the same from its end.
+
+    >>> from orderconds.ring import QQ
+    >>> [reads_backwards([QQ.rational(n) for n in row], QQ) for row in ((1, 2, 1), (1, 2, 2))]
+    [True, False]
+    """
     s = len(row)
     return _all(_equal(row[i], row[s - 1 - i], ring) for i in range(s // 2))
 

@@ -154,7 +154,13 @@ def poles_right(Q: Sequence[Element], ring: Any) -> bool:
 
 
 def bounded_on_axis(R: StabilityFunction, ring: Any) -> bool:
-    """Say whether |R(iy)| <= 1 for all real y: E(y^2) has no zero of odd multiplicity at a positive y^2."""
+    """Say whether |R(iy)| <= 1 for all real y: E(y^2) has no zero of odd multiplicity at a positive y^2.
+
+    >>> from orderconds.tableau import Tableau, find
+    >>> gauss1 = Tableau.load(find("gauss1"))
+    >>> bounded_on_axis(stability_function(gauss1.method, gauss1.ring), gauss1.ring)
+    True
+    """
     moduli = _padded(_modulus(R.denominator, ring), _modulus(R.numerator, ring), ring)
     E = _trimmed([q - p for q, p in zip(*moduli, strict=True)], ring)
     if not E:

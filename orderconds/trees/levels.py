@@ -34,7 +34,11 @@ def trees_of(forest: Forest) -> tuple[Tree, ...]:
 
 @lru_cache(maxsize=1 << 16)
 def children(tree: Tree) -> tuple[Tree, ...]:
-    """Return the subtrees that hang from the root, from left to right."""
+    r"""Return the subtrees that hang from the root, from left to right.
+
+    >>> children(b"\0\1\2\1")
+    (b'\x00\x01', b'\x00')
+    """
     return trees_of(branches(tree))
 
 
