@@ -167,6 +167,14 @@ def independent(system: Equations, box: Sequence[Jet], ring: Jets) -> list[int]:
 
     Those that a box cannot tell from constants are evaluated as polynomials in the unknowns; one that is
     the zero polynomial is left out. ``box`` are jets of the unknowns.
+
+    >>> from flint import arb
+    >>> from orderconds.tableau import find
+    >>> system = equations(Tableau.load(find("cg4a")))
+    >>> ring = Jets(len(system.proof.unknowns))
+    >>> decimals = [arb(str(float(u.constant.value))) for u in system.proof.unknowns]
+    >>> len(independent(system, [ring.variable(i, x) for i, x in enumerate(decimals)], ring))
+    13
     """
     values = system(box, ring)
     flat = [i for i, f in enumerate(values) if f.value.contains(0) and all(g.contains(0) for g in f.gradient)]

@@ -41,6 +41,12 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
 
     The digits that were there are recorded as ``printed``, unless the file has such a record. Raises
     :class:`~orderconds.proof.krawczyk.NotProved` where Newton's method does not converge nearby.
+
+    >>> from orderconds.tableau import find
+    >>> from orderconds.tableau.file import text_of
+    >>> found = refine(text_of(find("cg4a")), digits=30)
+    >>> {len(decimal.partition(".")[2]) for decimal in found.decimals.values()}
+    {30}
     """
     tableau = Tableau.loads(text, where)
     if tableau.proof is None:
