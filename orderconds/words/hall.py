@@ -71,8 +71,18 @@ class HallBasis:
         {('A', 'B'): Fraction(1, 2)}
         """
         order = {letter: place for place, letter in enumerate(self.letters)}
+        return self.from_lyndon(lyndon_coordinates(element, order.__getitem__))
+
+    def from_lyndon(self, coordinates: Mapping[Word, Fraction]) -> Coordinates:
+        """Return the coordinates of a Lie element given in the Lyndon basis, as that of ``bch``.
+
+        >>> from orderconds.words.bch import bch
+        >>> {str(x): str(value) for x, value in HallBasis("AB", 2).from_lyndon(bch(2)).items()}
+        {'A': '1', 'B': '1', "('A', 'B')": '1/2'}
+        """
+        order = {letter: place for place, letter in enumerate(self.letters)}
         result: Coordinates = {}
-        for word, value in lyndon_coordinates(element, order.__getitem__).items():
+        for word, value in coordinates.items():
             _add(result, value, self.rewrite(standard_bracketing(word, order.__getitem__)))
         return {x: result[x] for x in sorted(result, key=self._place.__getitem__) if result[x]}
 

@@ -5,8 +5,9 @@ from fractions import Fraction
 
 import pytest
 
+from orderconds.words.bch import bch
 from orderconds.words.hall import HallBasis
-from orderconds.words.lie import expand, lyndon_coordinates
+from orderconds.words.lie import expand, lyndon_coordinates, standard_bracketing
 from orderconds.words.lyndon import lyndon_words
 from orderconds.words.shuffle import add
 from tests.orderconds.words import series_of_matrices as matrices
@@ -70,3 +71,27 @@ def test_what_is_too_heavy_is_refused():
 def test_what_is_no_lie_element_has_no_coordinates():
     with pytest.raises(ValueError, match="not a Lie element"):
         HallBasis("AB", 2).coordinates({("A", "B"): Fraction(1)})
+
+
+def test_bch_in_a_hall_basis_is_bch():
+    numbers = random.Random(4)
+    letters = {x: matrices.random_matrix(numbers) for x in "AB"}
+    in_lyndon, in_hall = matrices.zero(), matrices.zero()
+    for word, value in bch(9).items():
+        in_lyndon += matrices.of_bracket(standard_bracketing(word), letters) * matrices.rational(value)
+    for bracket, value in HallBasis("AB", 9).from_lyndon(bch(9)).items():
+        in_hall += matrices.of_bracket(bracket, letters) * matrices.rational(value)
+    assert in_hall == in_lyndon
+
+
+def test_bch_has_the_published_coefficients_of_hall_brackets():
+    # 1/24 [Y,[X,[Y,X]]] = -1/24 [B,[A,[A,B]]] at degree four (HLW III.4.11).
+    found = HallBasis("AB", 4).from_lyndon(bch(4))
+    assert [str(found[x]) for x in (("A", "B"), ("A", ("A", "B")), ("B", ("A", "B")))] == [
+        "1/2",
+        "1/12",
+        "-1/12",
+    ]
+    assert {x: value for x, value in found.items() if x in HallBasis("AB", 4).of_weight(4)} == {
+        ("B", ("A", ("A", "B"))): Fraction(-1, 24)
+    }
