@@ -21,7 +21,7 @@ def write_out(derivation: Derivation, stages: int, *, explicit: bool = False) ->
     """Return the same conditions as polynomials in the entries of a tableau with ``stages`` stages.
 
     The tableau is full, or with ``explicit`` strictly lower triangular. Raises
-    :class:`~orderconds.errors.InputError` for a family whose coefficients are not those of a Butcher tableau.
+    :class:`~orderconds.errors.InputError` for a family whose coefficients are not numbered by stages alone.
 
     >>> from orderconds.derive import derive
     >>> derivation = derive("rk", order=2)
@@ -56,11 +56,13 @@ def polynomials(
     ((('b', ('1',)), ('b', ('2',)), ('a', ('2', '1'))), 'b_2*a_2_1')
     """
     family = families.get(derivation.family)
+    if hasattr(family, "in_stages"):
+        return _in_stages(family, derivation, stages, explicit)
     if family.formats[0] != "rk":
         raise InputError(
             f"family {derivation.family} is not written out by a number of stages alone",
             where="--stages",
-            expected="a family whose coefficients are a_ij and b_i, as rk, sprk, cg, rkmk or vcg",
+            expected="a family whose coefficients are numbered by stages, as rk, sprk, cg, vcg or splitting",
             hint="leave --stages out",
         )
     from orderconds.ring.laurent import LaurentPolynomials
@@ -79,6 +81,24 @@ def polynomials(
         b=tuple(ring.generators[:stages]),
     )
     return ring, tuple(names), family.evaluate(method, ring, derivation.conditions)
+
+
+def _in_stages(
+    family: Any, derivation: Derivation, stages: int, explicit: bool
+) -> tuple[Any, tuple[Name, ...], tuple[Element, ...]]:
+    """Return the same for a splitting or a composition, whose steps are its coefficients."""
+    if explicit:
+        raise InputError(
+            f"family {derivation.family} has no tableau that could be explicit",
+            where="--explicit",
+            expected="a family whose coefficients are a_ij and b_i",
+            hint="leave --explicit out",
+        )
+    from orderconds.ring.polynomials import Polynomials
+
+    names, method = family.in_stages(stages)
+    ring = Polynomials(["_".join((name, *indices)) for name, indices in names])
+    return ring, names, family.evaluate(method(ring.generators), ring, derivation.conditions)
 
 
 def _formula(symbols: list[Coefficient], terms: Iterable[tuple[tuple[int, ...], Any]]) -> Formula:

@@ -7,13 +7,13 @@ letters 1, and zero on all others (HLW III.3.1; Murua and Sanz-Serna, Phil. Tran
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from itertools import pairwise
 from math import factorial, prod
 from typing import TYPE_CHECKING
 
-from orderconds.families.word_family import WordFamily
+from orderconds.families.word_family import StageNames, WordFamily
 from orderconds.formula import Formula, coefficient, fresh, index_sum, product, total
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.exponentials import ProductOfExponentials
@@ -72,6 +72,13 @@ class CompositionFamily(WordFamily):
             return value if J % 2 or k % 2 else -value
 
         return ProductOfExponentials(ring, len(both), letter)
+
+    def in_stages(
+        self, stages: int
+    ) -> tuple[StageNames, Callable[[Sequence[Element]], Composition | AdjointComposition]]:
+        """Return the names of the steps of so many stages, and how they make a method."""
+        names = tuple((x, (str(i),)) for x in ("alpha", "beta") for i in range(1, stages + 1))
+        return names, lambda values: AdjointComposition(tuple(values[:stages]), tuple(values[stages:]))
 
     def random_method(
         self, ring: Residues, generator: np.random.Generator, order: int

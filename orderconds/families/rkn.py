@@ -9,7 +9,7 @@ and Murua, J. Comput. Dyn. 6 (2019) 345).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from itertools import combinations
@@ -22,6 +22,7 @@ from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
 from orderconds.families.relations import Polynomial, with_relations
 from orderconds.families.splitting import SplittingFamily, two_part_formula
+from orderconds.families.word_family import StageNames
 from orderconds.formula import Formula, total
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.products import Splitting
@@ -86,6 +87,11 @@ class NystroemFamily:
                 value = value + values(word) * scale
             found.append(value * _scale(condition.key))
         return tuple(found)
+
+    def in_stages(self, stages: int) -> tuple[StageNames, Callable[[Sequence[Element]], Splitting]]:
+        """Return the names of the steps of so many stages, and how they make a method."""
+        names, method = SplittingFamily().in_stages(stages)
+        return names, lambda values: Splitting(("T", "V"), method(values).steps, V)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Splitting:
         """Return splittings with random steps."""

@@ -6,7 +6,7 @@ value 1/n! on every word of n letters (HLW III.5; McLachlan and Quispel, Acta Nu
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import accumulate, groupby, pairwise
@@ -15,7 +15,7 @@ from math import factorial, prod
 from typing import TYPE_CHECKING, Any
 
 from orderconds.errors import InputError
-from orderconds.families.word_family import WordFamily
+from orderconds.families.word_family import StageNames, WordFamily
 from orderconds.formula import Formula, coefficient, fresh, index_sum, product, total
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.exponentials import ProductOfExponentials
@@ -92,6 +92,17 @@ class SplittingFamily(WordFamily):
         """Return the values of a step on words."""
         steps = method.steps
         return ProductOfExponentials(ring, len(steps), lambda J, k: steps[J][1] if steps[J][0] == k else None)
+
+    def in_stages(self, stages: int) -> tuple[StageNames, Callable[[Sequence[Element]], Splitting]]:
+        """Return the names of the steps of so many stages, and how they make a method."""
+        letters = "abcdef"[: self.parts]
+        names = tuple((x, (str(i),)) for i in range(1, stages + 1) for x in letters)
+
+        def method(values: Sequence[Element]) -> Splitting:
+            steps = tuple((place % self.parts, x) for place, x in enumerate(values))
+            return Splitting(tuple(map(self.text, self.words(1))), steps)
+
+        return names, method
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Splitting:
         """Return splittings with random steps, a stage more than the conditions of ``order``."""

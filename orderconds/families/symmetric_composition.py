@@ -6,6 +6,7 @@ follow from those before (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from math import factorial
 from typing import TYPE_CHECKING, Any
@@ -13,8 +14,9 @@ from typing import TYPE_CHECKING, Any
 from orderconds.errors import InputError
 from orderconds.families.composition import CompositionFamily, composition_formula
 from orderconds.families.relations import Polynomial, add, multiply
+from orderconds.families.word_family import StageNames
 from orderconds.formula import Formula, coefficient, product
-from orderconds.ring.protocol import Ring
+from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.methods import Composition
 from orderconds.words.compositions import compositions
 from orderconds.words.convolution import logarithm_scales
@@ -70,6 +72,11 @@ class SymmetricCompositionFamily(CompositionFamily):
     def formula(self, word: Word) -> Formula:
         """Return the index sum of the scaled value over steps gamma_i."""
         return composition_formula(word, _step)
+
+    def in_stages(self, stages: int) -> tuple[StageNames, Callable[[Sequence[Element]], Composition]]:
+        """Return the names of the steps of so many stages, and how they make a method."""
+        names = tuple(("gamma", (str(i),)) for i in range(1, (stages + 1) // 2 + 1))
+        return names, lambda values: Composition("symmetric-2", (*values, *values[: stages // 2][::-1]))
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Composition:
         """Return symmetric compositions with random steps, as many as conditions up to ``order`` and more."""

@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 
     from orderconds.ring.residues import Residues
 
+StageNames = tuple[tuple[str, tuple[str, ...]], ...]
+"""Letters and indices of coefficients, as ``(("a", ("1",)), ("b", ("1",)))``."""
+
 
 class WordFamily(ABC):
     """A family with one condition a word over letters of positive weight."""

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from orderconds import families
+from orderconds.derive import derive
 from orderconds.errors import InputError
 from orderconds.families.splitting import stage_tables
 from orderconds.formula import Coefficient, IndexSum, Power, Product, Total
@@ -16,6 +17,7 @@ from orderconds.ring.rank import pivot_columns
 from orderconds.ring.residues import PRIMES
 from orderconds.series.action_rank import products
 from orderconds.tableau import Composition, Magnus
+from orderconds.written_out import write_out
 
 COUNTS = {
     "composition": (1, 1, 2, 3, 6, 9, 18, 30),
@@ -229,3 +231,60 @@ def test_names_are_read_with_hyphens_and_parts():
     assert families.get("splitting(2)").label() == "splitting"
     with pytest.raises(InputError, match="7 parts"):
         families.get("splitting(7)")
+
+
+def test_splittings_and_compositions_are_written_out_in_their_steps():
+    def written(name, n, stages):
+        return [str(c) for c in write_out(derive(name, n), stages).by_order[-1]]
+
+    assert written("splitting", 2, 2) == ["a_1 b_1 + a_1 b_2 + a_2 b_2 = 1/2"]
+    assert written("rkn", 1, 2) == ["a_1 + a_2 = 1", "b_1 + b_2 = 1"]
+    assert written("composition", 2, 1) == ["alpha_1^2 - beta_1^2 = 0"]
+    assert written("symmetric-composition", 3, 3) == ["2 gamma_1^3 + gamma_2^3 = 0"]
+    assert written("symmetric-composition", 3, 4) == ["2 gamma_1^3 + 2 gamma_2^3 = 0"]
+
+
+@pytest.mark.parametrize("name", ["splitting", "splitting(3)", "rkn", "composition", "symmetric_composition"])
+def test_written_out_conditions_have_the_values_of_the_engine(name, random_rational):
+    family, stages = families.get(name), 3
+    names, method = family.in_stages(stages)
+    values = [random_rational() for _ in names]
+    known = {
+        n: dict(
+            zip(
+                (i for m, (i,) in names if m == n),
+                (v for (m, _), v in zip(names, values, strict=True) if m == n),
+                strict=True,
+            )
+        )
+        for n in dict(names)
+    }
+    derivation = derive(name, 3)
+    found = family.evaluate(method(values), QQ, derivation.conditions)
+    for condition, x in zip(write_out(derivation, stages).conditions, found, strict=True):
+        assert substituted(condition.formula, known) == x
+
+
+def substituted(formula, known):
+    match formula:
+        case Coefficient(name, (index,)):
+            return known[name][index]
+        case Power(base, exponent):
+            return substituted(base, known) ** exponent
+        case Product(factors):
+            result = QQ.one
+            for factor in factors:
+                result = result * substituted(factor, known)
+            return result
+        case Total(terms):
+            return sum(
+                (QQ.rational(s.numerator, s.denominator) * substituted(t, known) for s, t in terms), QQ.zero
+            )
+    raise TypeError(formula)
+
+
+def test_what_has_no_stages_or_cannot_be_explicit_is_refused():
+    with pytest.raises(InputError, match="not written out"):
+        write_out(derive("magnus", 2), 2)
+    with pytest.raises(InputError, match="explicit"):
+        write_out(derive("splitting", 2), 2, explicit=True)
