@@ -4,7 +4,7 @@ In exp(X_m) ... exp(X_1) with X_J = sum_k x_J(k) k the word k_1 ... k_n, k_1 act
 
     sum over J_1 <= ... <= J_n of prod x_{J_l}(k_l) / prod (run lengths)!
 
-(Reutenauer, Free Lie Algebras, Section 3.1; HLW III.5.3 for splittings).
+(HLW, Section III.5; Reutenauer, Free Lie Algebras, Chapter 3).
 """
 
 from __future__ import annotations

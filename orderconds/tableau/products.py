@@ -48,7 +48,7 @@ class AdjointComposition:
     """A composition of any basic method Phi and its adjoint Phi*: beta_1, alpha_1, ..., alpha_s.
 
     One step is Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h}, Phi*_{beta_1 h} acting
-    first (HLW (II.4.6)).
+    first (HLW, Section II.4).
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)
@@ -75,7 +75,7 @@ class AdjointComposition:
         """Return the tableau with the explicit Euler method as Phi, the implicit one as Phi*.
 
         Phi_{alpha h} Phi*_{beta h} evaluates f once: b_i = beta_i + alpha_i, a_ii = beta_i, a_ij = b_j for
-        j < i (HLW II.4, Example 4.1 for alpha = beta).
+        j < i (HLW, Section II.4).
         """
         b = tuple(y + x for x, y in zip(self.alpha, self.beta, strict=True))
         A = tuple((*b[:i], y, *((ring.zero,) * (self.s - i - 1))) for i, y in enumerate(self.beta))

@@ -2,7 +2,7 @@
 
 A homomorphism of a free algebra onto a quotient by an ideal J is seen by those combinations of words alone
 that are orthogonal to J. Modulo products of lighter ones they are the dual of the quotient's Lie algebra
-(Reutenauer, Free Lie Algebras, Sections 1.5 and 6.1; Milnor and Moore, Ann. Math. 81 (1965) 211).
+(Reutenauer, Free Lie Algebras, Chapters 1 and 6; Milnor and Moore, Ann. Math. 81 (1965) 211).
 """
 
 from __future__ import annotations

@@ -199,7 +199,7 @@ def printed(name, n):
 
 
 def test_conditions_are_printed_as_in_the_literature():
-    # HLW (III.3.?) for compositions; McLachlan and Quispel 2002 for splittings; Blanes and Moan 2006.
+    # HLW III.3 for compositions; McLachlan and Quispel 2002 for splittings.
     assert printed("splitting", 3) == [
         "AAB: sum_i c_i^2 b_i = 1/3",
         "ABB: sum_i c_i b_i^2 + 2 sum_{i<j} c_i b_i b_j = 1/3",
