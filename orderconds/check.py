@@ -144,6 +144,16 @@ class Report:
             return "fails"
         return "undecided" if "undecided" in verdicts else "holds"
 
+    def summary(self) -> str:
+        """Say in a few lines what does not hold: each claim, the first failing condition, its residual."""
+        lines = [f"{self.name}: {self.verdict}" + (f"  ({self.file})" if self.file else "")]
+        for family in self.orders:
+            if family.verdict != "holds":
+                wanted = family.claimed if family.required is None else f"at least {family.required}"
+                lines.append(f"  {family.family}: order {family.order}, claimed {wanted}")
+                lines += [f"    {failure}" for failure in family.failing[:1]]
+        return "\n".join([*lines, *(f"  claim fails: {broken}" for broken in self.broken_claims)])
+
     def as_json(self) -> dict[str, object]:
         """Return the JSON object of one tableau; ``broken_claims`` only where there are any."""
         record: dict[str, object] = {

@@ -1,0 +1,71 @@
+"""pytest collects tableau files: ``pytest --orderconds tableaux/`` makes each a test of all that it claims.
+
+Without the flag the plugin does nothing. ``--orderconds-complete`` demands a claim for every family that a
+tableau can serve, as ``orderconds check --complete`` does. Files ``*.toml`` without the keys of a tableau
+(``pyproject.toml``) are left alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the flags."""
+    group = parser.getgroup("orderconds", "order conditions of tableaux")
+    group.addoption(
+        "--orderconds", action="store_true", help="collect *.toml as tableaux and check their claims"
+    )
+    group.addoption(
+        "--orderconds-complete",
+        action="store_true",
+        help="the same, and demand a claim for every family that a tableau can serve",
+    )
+
+
+def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
+    """Collect a tableau file where the flag is given."""
+    asked = parent.config.getoption("--orderconds") or parent.config.getoption("--orderconds-complete")
+    if not asked or file_path.suffix != ".toml" or file_path.name == "pyproject.toml":
+        return None
+    return TableauFile.from_parent(parent, path=file_path)
+
+
+class TableauFile(pytest.File):
+    """A file with one tableau."""
+
+    def collect(self) -> Iterable[pytest.Item]:
+        """Yield the one test of the file."""
+        yield TableauItem.from_parent(self, name="claims")
+
+
+class TableauItem(pytest.Item):
+    """All claims of one tableau file."""
+
+    def runtest(self) -> None:
+        """Check the file; :class:`ClaimFails` with what the command would print."""
+        from orderconds.check import check
+
+        report = check(self.path, complete=bool(self.config.getoption("--orderconds-complete")))
+        if report.verdict != "holds":
+            raise ClaimFails(report.summary())
+
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
+        """Return the verdict, or the message of a file that cannot be read, without a traceback."""
+        from orderconds.errors import InputError
+
+        if isinstance(excinfo.value, ClaimFails | InputError):
+            return str(excinfo.value)
+        return super().repr_failure(excinfo, style)
+
+    def reportinfo(self) -> tuple[Path, int | None, str]:
+        """Name the file."""
+        return self.path, None, f"orderconds: {self.path.name}"
+
+
+class ClaimFails(AssertionError):
+    """A claim of the file does not hold, or cannot be decided."""

@@ -1,0 +1,64 @@
+"""``pytest --orderconds DIR``: a folder of tableaux is a gate."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+EULER = 'name = "euler"\nfamily = "rk"\nA = [[]]\nb = ["1"]\n[claims]\nrk = {}\n'
+
+
+def run(folder: Path, *flags: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "pytest", "-p", "orderconds.pytest_plugin", "-p", "no:cacheprovider"]
+    root = Path(__file__).parents[2]
+    return subprocess.run(
+        [*command, "-q", "--rootdir", str(folder), "-c", str(folder / "none.ini"), *flags, str(folder)],
+        capture_output=True,
+        text=True,
+        cwd=root,
+        check=False,
+    )
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "none.ini").write_text("[pytest]\n", encoding="utf-8")
+    (tmp_path / "euler.toml").write_text(EULER.format(1), encoding="utf-8")
+    (tmp_path / "pyproject.toml").write_text("[project]\n", encoding="utf-8")
+    return tmp_path
+
+
+def test_a_folder_of_sound_tableaux_passes(folder: Path) -> None:
+    result = run(folder, "--orderconds")
+    assert result.returncode == 0, result.stdout + result.stderr
+    assert "1 passed" in result.stdout
+
+
+def test_a_wrong_claim_fails_with_the_condition_and_no_traceback(folder: Path) -> None:
+    (folder / "wrong.toml").write_text(EULER.format(2), encoding="utf-8")
+    result = run(folder, "--orderconds")
+    assert result.returncode == 1
+    assert "rk: order 1, claimed 2" in result.stdout
+    assert "sum_i b_i c_i = 1/2, residual -1/2" in result.stdout
+    assert "Traceback" not in result.stdout + result.stderr
+    assert "1 failed, 1 passed" in result.stdout
+
+
+def test_a_file_that_cannot_be_read_fails_with_its_message(folder: Path) -> None:
+    (folder / "broken.toml").write_text("name = ", encoding="utf-8")
+    result = run(folder, "--orderconds")
+    assert result.returncode == 1
+    assert "expected a TOML file" in result.stdout
+
+
+def test_complete_demands_every_family(folder: Path) -> None:
+    result = run(folder, "--orderconds-complete")
+    assert result.returncode == 1
+    assert "no order is claimed in family cg" in result.stdout
+
+
+def test_without_the_flag_nothing_is_collected(folder: Path) -> None:
+    assert run(folder).returncode == 5
