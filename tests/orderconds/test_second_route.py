@@ -1,0 +1,57 @@
+"""Every order claimed on a group is that of the local error of one step, computed without any series engine.
+
+On SO(3), GL(2) and the unitriangular 4 x 4 matrices the step and the exact flow of a random polynomial
+field (or energy on the cotangent bundle) are series in h, exactly, modulo a prime; for proved decimals to
+100 digits. They agree up to h^p on each group, and differ at h^(p + 1) on one.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import pytest
+
+from orderconds.proof.certificate import certify
+from orderconds.tableau import Tableau, available, find
+from orderconds.tableau.record import OrderClaim
+from tests.exact_steps import GROUPS, local_error_power
+
+FAMILIES = ("cg", "cf", "rkmk", "vcg", "vrkmk", "vcf")
+QUICK = ("cf4", "cg3", "cg4", "cg4a", "gauss2", "triple_jump")
+
+
+@lru_cache(maxsize=4)
+def tableau(name: str) -> Tableau:
+    """Return a tableau of the library, its decimals sharpened where they are proved."""
+    found = Tableau.load(find(name))
+    return certify(found).tableau if found.proof else found
+
+
+CLAIMS = [
+    pytest.param(name, claim, id=f"{name}-{claim.label}", marks=[] if name in QUICK else [pytest.mark.slow])
+    for name in available()
+    for claim in Tableau.load(find(name)).claims.orders
+    if claim.family in FAMILIES
+]
+
+
+@pytest.mark.parametrize(("name", "claim"), CLAIMS)
+def test_a_claimed_order_is_that_of_the_local_error(name: str, claim: OrderClaim) -> None:
+    powers = {
+        group: local_error_power(tableau(name), claim.family, claim.cutoff, GROUPS[group], claim.order + 1)
+        for group in GROUPS
+    }
+    assert {p for p in powers.values() if p is not None} == {claim.order + 1}, powers
+
+
+@pytest.mark.parametrize(
+    ("family", "text", "power"),
+    [
+        ("cg", 'family = "rk"\nA = [[], ["3/4"], ["17/108", "119/216"]]\nb = ["13/51", "-2/3", "24/17"]', 3),
+        ("vcg", 'family = "rk"\nA = [["1/4", "1/6"], ["1/3", "1/4"]]\nb = ["1/2", "1/2"]', 3),
+        ("rkmk", 'family = "rk"\nA = [[], ["1/2"]]\nb = ["1/2", "1/2"]', 2),
+    ],
+)
+def test_the_route_sees_a_method_that_misses_its_order(family: str, text: str, power: int) -> None:
+    wrong = Tableau.loads(f'name = "wrong"\n{text}\n')
+    assert {local_error_power(wrong, family, 2, group, 4) for group in GROUPS.values()} == {power}
