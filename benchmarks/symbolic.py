@@ -89,7 +89,7 @@ def polynomials() -> Prepared:
     return lambda: sum(len(value) for value in polynomials(derivation, 9, explicit=True)[2])
 
 
-def sympy_polynomials() -> Prepared:
+def sympy_polynomials(order: int = 7, size: int = 9) -> Prepared:
     """The same, subtree by subtree, over SymPy's ``PolyRing``."""
     from sympy import QQ
     from sympy.polys.rings import ring
@@ -97,13 +97,13 @@ def sympy_polynomials() -> Prepared:
     from orderconds.trees.levels import children
     from orderconds.trees.rooted import rooted_trees
 
-    stages = range(9)
+    stages = range(size)
     entries = [(i, j) for i in stages for j in range(i)]
 
     def work() -> int:
         names = [f"b_{i}" for i in stages] + [f"a_{i}_{j}" for i, j in entries]
         polynomial_ring, *generators = ring(names, QQ)
-        a = dict(zip(entries, generators[9:], strict=True))
+        a = dict(zip(entries, generators[size:], strict=True))
         known: dict[bytes, list[Any]] = {}
         summed: dict[bytes, list[Any]] = {}
 
@@ -123,7 +123,7 @@ def sympy_polynomials() -> Prepared:
                 ]
             return summed[tree]
 
-        trees = [tree for n in range(1, 8) for tree in rooted_trees(n)]
+        trees = [tree for n in range(1, order + 1) for tree in rooted_trees(n)]
         return sum(
             len(
                 sum(

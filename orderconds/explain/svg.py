@@ -132,7 +132,7 @@ def _drawn(tree: Layout, x: float, y: float) -> Iterator[str]:
     """Draw a tree whose root is at (x, y), edges first."""
     for branch, child in zip(tree.vertex.branches, tree.below, strict=True):
         far = x + child.x * STEP
-        yield _edge(branch, x, y, far, y - STEP)
+        yield _edge(tree.vertex, branch, x, y, far, y - STEP)
         yield from _drawn(child, far, y - STEP)
     yield _vertex(tree.vertex, x, y)
     if tree.vertex.legs is not None:
@@ -154,15 +154,19 @@ def _vertex(vertex: Vertex, x: float, y: float) -> str:
     return f'<circle cx="{_number(x)}" cy="{_number(y)}" r="{_number(RADIUS)}"{filled}/>'
 
 
-def _edge(branch: Branch, x: float, y: float, far: float, high: float) -> str:
+def _edge(vertex: Vertex, branch: Branch, x: float, y: float, far: float, high: float) -> str:
     """Draw a line from rim to rim, with an arrow head in its middle if it has a direction."""
     length = ((far - x) ** 2 + (high - y) ** 2) ** 0.5
     along = ((far - x) / length, (high - y) / length)
-    # A letter needs more room than a dot.
-    rim = 2 * RADIUS if branch.vertex.sign == "letter" else RADIUS
-    start = (x + RADIUS * along[0], y + RADIUS * along[1])
+    near, rim = _room(vertex), _room(branch.vertex)
+    start = (x + near * along[0], y + near * along[1])
     end = (far - rim * along[0], high - rim * along[1])
     return f'<path d="M{_pair(start)} L{_pair(end)}{_head(branch.edge, start, end, along)}"/>'
+
+
+def _room(vertex: Vertex) -> float:
+    """Return how far from a vertex its edges stop: a letter needs more room than a dot."""
+    return {"letter": 2 * RADIUS, "bracket": 1.0}.get(vertex.sign, RADIUS)
 
 
 def _head(

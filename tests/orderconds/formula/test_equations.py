@@ -59,3 +59,7 @@ def test_rows_are_parted_by_two_backslashes() -> None:
     assert all(line.startswith("  & ") for line in lines[1:-1])
     assert all(line.endswith(r" \\") for line in lines[1:-2])
     assert lines[-2].endswith("= 1/2")
+
+
+def test_nothing_is_broken_inside_braces() -> None:
+    assert broken(r"x_{i + 1} + y", 1) == ["x_{i + 1}", "+ y"]
