@@ -48,7 +48,12 @@ def find_compiler() -> Compiler:
 
 @cache
 def _find(named: str, path: str) -> Compiler:
-    candidates = [shlex.split(named)] if named.strip() else [["cc"], ["gcc"], ["clang"]]
+    try:
+        candidates = [shlex.split(named)] if named.strip() else [["cc"], ["gcc"], ["clang"]]
+    except ValueError as error:
+        raise CompilerMissing(
+            f"cannot read {named!r}: {str(error).lower()}", where="$CC", hint="set CC to a C compiler"
+        ) from None
     for words in candidates:
         if shutil.which(words[0], path=path):
             return _identify(tuple(words))
@@ -62,9 +67,9 @@ def _find(named: str, path: str) -> Compiler:
 def _identify(command: tuple[str, ...]) -> Compiler:
     try:
         answer = subprocess.run(
-            [*command, "--version"], capture_output=True, text=True, timeout=60, check=False
+            [*command, "--version"], capture_output=True, text=True, errors="replace", timeout=60, check=False
         )
-    except OSError as error:
+    except (OSError, subprocess.TimeoutExpired) as error:
         raise CompilerMissing(
             f"{command[0]} does not run: {error}", where="$CC", hint="set CC to a C compiler"
         ) from None
@@ -113,10 +118,14 @@ def compile_files(
     sources = [name for name in sorted(files) if name.endswith(".c")]
     libraries = () if "-c" in flags else ("-lm",)
     command = [*compiler.command, *flags, "-o", str(output), *sources, *libraries]
-    answer = subprocess.run(command, cwd=directory, capture_output=True, text=True, check=False)
-    if answer.returncode:
+    answer = subprocess.run(
+        command, cwd=directory, capture_output=True, text=True, errors="replace", check=False
+    )
+    if answer.returncode or not output.exists():
+        words = (answer.stderr or answer.stdout).strip()
+        did = f"refused it (status {answer.returncode})" if answer.returncode else "wrote nothing"
         raise CompileError(
-            f"{compiler.command[0]} refused it:\n{(answer.stderr or answer.stdout).strip()}",
+            f"{compiler.command[0]} {did}" + (f":\n{words}" if words else ""),
             where=", ".join(sources),
             hint=f"the compiler is {compiler.version or compiler.command[0]}; CC chooses another",
         )

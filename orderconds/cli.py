@@ -9,6 +9,7 @@ message on stderr; 130 and 141, the shell's own, when interrupted and when the r
 
 from __future__ import annotations
 
+import contextlib
 import difflib
 import importlib
 import os
@@ -119,6 +120,9 @@ class Program(click.Group):
     def main(self, *args: Any, **extra: Any) -> NoReturn:
         """Run one command and exit with its status; every error a user can cause becomes one message."""
         status = 0
+        for name in ("stdout", "stderr"):
+            if getattr(sys, name) is None:  # closed by the caller, as in ``orderconds ... >&-``
+                setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115 - until the end
         try:
             result = super().main(*args, **{"prog_name": "orderconds", **extra, "standalone_mode": False})
             status = result if isinstance(result, int) else 0
@@ -146,7 +150,9 @@ def _usage_message(error: click.UsageError) -> str:
 
 
 def _complain(message: str) -> int:
-    click.echo(f"orderconds: {message}", err=True)
+    # Where stderr takes nothing, the status still tells.
+    with contextlib.suppress(OSError):
+        click.echo(f"orderconds: {message}", err=True)
     return 2
 
 

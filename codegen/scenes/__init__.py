@@ -36,7 +36,9 @@ def load(name: str) -> Setting:
     except InputError as error:
         at = f"{_line(name, path, error)}: {error.where}"
         raise SceneError(error.found, where=at, expected=error.expected, hint=error.hint) from error
-    except (Exception, SystemExit) as error:
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # also what a scene derives from BaseException, and sys.exit
         at = _line(name, path, error)
         raise SceneError(f"the scene raises {type(error).__name__}: {error}", where=at) from error
     if not isinstance(found, Setting):
@@ -49,7 +51,7 @@ def load(name: str) -> Setting:
 def _line(name: str, path: Path, error: BaseException) -> str:
     """Return file and line of the user's code where an error arose."""
     lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == str(path)]
-    if isinstance(error, SyntaxError):
+    if isinstance(error, SyntaxError) and error.lineno is not None:
         lines.append(error.lineno)
     return f"{name}:{lines[-1]}" if lines else name
 

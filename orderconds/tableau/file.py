@@ -64,11 +64,13 @@ def text_of(path: str | Path) -> str:
     """
     file = Path(path)
     try:
-        if file.stat().st_size > MAX_BYTES:
+        with file.open("rb") as stream:  # devices and pipes tell no size beforehand
+            read = stream.read(MAX_BYTES + 1)
+        if len(read) > MAX_BYTES:
             raise TableauError(
-                "a file too large for a tableau", where=str(path), expected=f"{MAX_BYTES} bytes"
+                "a file too large for a tableau", where=str(path), expected=f"at most {MAX_BYTES} bytes"
             )
-        return file.read_text(encoding="utf-8")
+        return read.decode("utf-8")
     except OSError as problem:
         reason = (problem.strerror or "unreadable").lower()
         raise TableauError(reason, where=str(path), expected="a tableau file (TOML)") from None
@@ -86,9 +88,20 @@ def loads(text: str, where: str = "<text>", path: str | None = None) -> Tableau:
     """
     try:
         data = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as problem:
-        found = str(problem) or "TOML nested too deep"
-        raise TableauError(found, where=where, expected="a TOML file in which each key stands once") from None
+    except tomllib.TOMLDecodeError as problem:
+        raise TableauError(
+            str(problem), where=where, expected="a TOML file in which each key stands once"
+        ) from None
+    except RecursionError:
+        raise TableauError("TOML nested too deep", where=where, expected="a table or list or two") from None
+    except (
+        ValueError
+    ):  # Python reads no integer of more than some thousand digits, no date outside the calendar
+        raise TableauError(
+            "an integer of thousands of digits, or a date that is none",
+            where=where,
+            expected='coefficients quoted, as "1/2"',
+        ) from None
     entry = _converted(data, where)
     _verify_names(entry, where)
     entry.verify(where)

@@ -57,3 +57,17 @@ def test_a_cache_that_cannot_be_written_is_bad_input(monkeypatch, tmp_path):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
     with pytest.raises(InputError, match=r"cannot write there.*set XDG_CACHE_HOME"):
         build(SOURCE)
+
+
+def test_a_compiler_that_cannot_be_read_is_bad_input(monkeypatch):
+    monkeypatch.setenv("CC", 'cc "')
+    with pytest.raises(CompilerMissing, match=r"\$CC: cannot read 'cc \"': no closing quotation"):
+        find_compiler()
+
+
+def test_a_compiler_that_says_it_succeeded_and_wrote_nothing_is_told(monkeypatch, tmp_path):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setenv("CC", "true")
+    with pytest.raises(CompileError, match=r"answer\.c: true wrote nothing"):
+        build(SOURCE)
+    assert list(cache_directory().iterdir()) == []

@@ -64,6 +64,28 @@ def test_a_file_that_is_missing_is_named():
         scenes.load("nowhere/at_all.py")
 
 
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("class Odd(BaseException): ...\nraise Odd('x')\n", r"odd.py:2: the scene raises Odd: x"),
+        ("x = 1\0\n", r"odd.py: the scene raises SyntaxError"),
+        ("raise SystemExit(3)\n", r"odd.py:1: the scene raises SystemExit: 3"),
+    ],
+)
+def test_whatever_a_file_raises_is_one_message(tmp_path, text, said):
+    path = tmp_path / "odd.py"
+    path.write_text(text)
+    with pytest.raises(SceneError, match=said):
+        scenes.load(str(path))
+
+
+def test_an_interrupt_inside_a_scene_is_an_interrupt(tmp_path):
+    path = tmp_path / "odd.py"
+    path.write_text("raise KeyboardInterrupt\n")
+    with pytest.raises(KeyboardInterrupt):
+        scenes.load(str(path))
+
+
 def test_an_unknown_scene_lists_the_known_ones():
     with pytest.raises(UnknownName, match="unknown scene 'dipol'; expected one of dipole, free_rigid_body"):
         scenes.load("dipol")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 import signal
 import subprocess
 import sys
@@ -172,3 +173,21 @@ def test_an_interrupt_ends_the_program_without_a_traceback() -> None:
         child.send_signal(signal.SIGINT)
         assert child.wait() == 130
         assert "Traceback" not in child.stderr.read()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="closes file descriptors in a shell")
+@pytest.mark.parametrize(
+    ("redirections", "args", "status"),
+    [
+        (">&-", "list families", 0),
+        (">&- 2>&-", "chekc", 2),
+        ("2>/dev/full", "chekc", 2),
+        (">/dev/full 2>/dev/full", "list families", 2),
+    ],
+)
+def test_streams_that_take_nothing_leave_the_status(redirections: str, args: str, status: int) -> None:
+    if "full" in redirections and not Path("/dev/full").exists():
+        pytest.skip("no /dev/full")
+    line = f"{shlex.quote(sys.executable)} -m orderconds {args} {redirections}"
+    done = subprocess.run(["sh", "-c", line], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (status, "")

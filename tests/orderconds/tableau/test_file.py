@@ -225,6 +225,12 @@ MALFORMED = {
         "one length",
     ),
     "unknown base": ('name = "t"\nfamily = "composition"\nbase = "x"\ngamma = ["1"]\n', "base", ""),
+    "an integer longer than Python reads": (
+        HEAD + "A = [[]]\nb = [" + "9" * 5000 + "]\n",
+        "thousands of digits",
+        "quoted",
+    ),
+    "lists in lists in lists": (HEAD + "A = " + "[" * 3000 + "]" * 3000 + "\n", "nested too deep", "table"),
     "rk keys in cf": (CF + 'A = [[]]\nb = ["1"]\n', "unknown key", "low_storage"),
 }
 
@@ -247,6 +253,13 @@ def test_files_that_cannot_be_read_are_named(tmp_path: Path) -> None:
         with pytest.raises(TableauError) as caught:
             Tableau.load(path)
         assert str(path) in str(caught.value)
+
+
+def test_a_file_that_tells_no_size_is_not_read_to_its_end() -> None:
+    if not Path("/dev/zero").exists():
+        pytest.skip("no /dev/zero")
+    with pytest.raises(TableauError, match=r"/dev/zero: a file too large.*at most 1000000 bytes"):
+        Tableau.load("/dev/zero")
 
 
 @given(text=st.text(max_size=60))
