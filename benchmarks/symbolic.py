@@ -30,6 +30,9 @@ REPEATS = 5
 PATIENCE = 150.0
 """Seconds after which a peer is stopped, and then not asked again."""
 
+MARK = "<!-- emitted.py writes what follows -->"
+"""Where the part of README.md begins that another script writes."""
+
 Prepared = Callable[[], int]
 """What is timed: everything imported, nothing computed; it returns the number of results."""
 
@@ -278,7 +281,11 @@ def main() -> int:
     print(text)
     if asked.only == list(TASKS):
         target = Path(__file__).with_name("README.md")
-        target.write_text(f"{HEAD}\n{environment(asked.repeats)}\n\n{text}", encoding="utf-8")
+        others = target.read_text(encoding="utf-8").partition(MARK) if target.exists() else ("", "", "")
+        page = f"{HEAD}\n{environment(asked.repeats)}\n\n{text}" + (
+            "\n" + MARK + others[2] if others[1] else ""
+        )
+        target.write_text(page, encoding="utf-8")
     return 0 if all(cells[-1] in ("met", "-") for cells in rows) else 1
 
 
