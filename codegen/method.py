@@ -20,9 +20,13 @@ if TYPE_CHECKING:
 SPELLING = re.compile(r"(?:(?P<family>[a-z]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<tableau>.+)")
 
 
+WITH_CUTOFF = ("rkmk", "vrkmk")
+"""Families that cut dexp^{-1} off after a number of brackets."""
+
+
 @dataclass(frozen=True)
 class Method:
-    """A family (``cutoff`` for rkmk) and the tableau whose coefficients it reads."""
+    """A family (``cutoff`` for those of :data:`WITH_CUTOFF`) and the tableau whose coefficients it reads."""
 
     family: str
     tableau: Tableau
@@ -85,8 +89,8 @@ def parse(spelling: str, families: Sequence[str]) -> Method:
     """Return the method of that spelling; ``families`` are those the scene can take.
 
     Without a family the tableau's claims decide: the highest order wins, and among equals the family named
-    first in ``families``. ``rkmk`` without a cut-off takes the least with the highest claimed order.
-    :class:`MethodError` for what cannot be read, and where nothing is claimed that decides.
+    first in ``families``. ``rkmk`` or ``vrkmk`` without a cut-off takes the least with the highest claimed
+    order. :class:`MethodError` for what cannot be read, and where nothing is claimed that decides.
     """
     match = SPELLING.fullmatch(spelling.strip())
     if match is None:
@@ -99,14 +103,16 @@ def parse(spelling: str, families: Sequence[str]) -> Method:
         raise MethodError(
             f"family {family} on this scene", where=spelling, expected=f"one of {', '.join(families)}"
         )
-    if cutoff is not None and family != "rkmk":
+    if cutoff is not None and family not in WITH_CUTOFF:
         raise MethodError(
-            f"a cut-off for family {family}", where=spelling, expected="one for rkmk only, as rkmk(2):rk4"
+            f"a cut-off for family {family}",
+            where=spelling,
+            expected=f"one for {' or '.join(WITH_CUTOFF)} only, as rkmk(2):rk4",
         )
     wanted = [c for c in tableau.claims.orders if c.family == (family or c.family) and c.family in families]
-    if cutoff is not None:
-        return Method("rkmk", tableau, int(cutoff))
-    if family is not None and family != "rkmk":
+    if family is not None and cutoff is not None:
+        return Method(family, tableau, int(cutoff))
+    if family is not None and family not in WITH_CUTOFF:
         return Method(family, tableau)
     if not wanted:
         raise MethodError(

@@ -21,7 +21,7 @@ from codegen.ir.domain import Domain, ExprDomain
 from codegen.ir.expr import Expr, Space, evaluate, walk
 from codegen.ir.from_sympy import read
 from codegen.ir.number import Number
-from codegen.ir.program import Kind
+from codegen.ir.program import CUT_OFF, Kind
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 RESERVED = {
@@ -131,8 +131,8 @@ class Setting:
 
     def apply(self, domain: Domain, name: str, order: int | None, args: tuple[Any, ...]) -> tuple[Any, ...]:
         """Return the results of a group, action or scene operation of a program."""
-        if name == "dexpinv":
-            return (self.group.dexpinv(domain, *args, order),)
+        if name in CUT_OFF:
+            return (getattr(self.group, name)(domain, *args, order),)
         if name in GROUP_OPERATIONS:
             return (getattr(self.group, name)(domain, *args),)
         if name in ("act", "actexp"):

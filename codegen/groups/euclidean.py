@@ -36,7 +36,9 @@ class Rn(LieGroup):
         """Return zero."""
         return (d.rational(0),) * self.dim
 
-    adt = ad
+    def adt(self, d: Domain, x: Scalars, mu: Scalars) -> Scalars:
+        """Return zero."""
+        return (d.rational(0),) * self.dim
 
     def Ad(self, d: Domain, g: Scalars, x: Scalars) -> Scalars:
         """Return x."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import cache
 from math import comb, factorial
@@ -24,6 +25,20 @@ def bernoulli_over_factorial(k: int) -> Fraction:
     for m in range(1, k + 1):
         values.append(-sum((comb(m + 1, j) * values[j] for j in range(m)), Fraction(0)) / (m + 1))
     return values[k] / factorial(k)
+
+
+def _last(order: int) -> int:
+    """Return the greatest k <= order whose Bernoulli number is not zero."""
+    return max(k for k in range(order + 1) if bernoulli_over_factorial(k))
+
+
+def _combined(d: Domain, terms: Sequence[tuple[Fraction, Scalars]]) -> Scalars:
+    """Return the sum of c x over terms (c, x), the empty tuple where there are none."""
+    total: Scalars = ()
+    for c, x in terms:
+        scaled = tuple(d.rational(c.numerator, c.denominator) * a for a in x)
+        total = tuple(a + b for a, b in zip(total, scaled, strict=True)) if total else scaled
+    return total
 
 
 class LieGroup:
@@ -55,20 +70,53 @@ class LieGroup:
         """Return [x, y]."""
         raise AttributeError(f"{self.name} has no bracket")
 
+    def adt(self, d: Domain, x: Scalars, mu: Scalars) -> Scalars:
+        """Return ad*_x mu."""
+        raise AttributeError(f"{self.name} has no dual bracket")
+
     def velocity(self, d: Domain, x: Scalars, g: Scalars) -> Scalars:
         """Return x.g, the derivative of exp(eps x) g at eps = 0."""
         raise AttributeError(f"{self.name} has no velocity")
 
     def dexpinv(self, d: Domain, x: Scalars, y: Scalars, order: int) -> Scalars:
         """Return dexp^{-1}_{(order),x} y = sum over k <= order of B_k/k! ad_x^k y."""
-        total, power = y, y
-        last = max(k for k in range(order + 1) if bernoulli_over_factorial(k))
-        for k in range(1, last + 1):
-            power = self.ad(d, x, power)
+        return self._bernoulli_sum(d, lambda power: self.ad(d, x, power), y, order)
+
+    def _bernoulli_sum(
+        self, d: Domain, advance: Callable[[Scalars], Scalars], first: Scalars, order: int
+    ) -> Scalars:
+        """Return sum over k <= order of B_k/k! advance^k(first)."""
+        total, power = first, first
+        for k in range(1, _last(order) + 1):
+            power = advance(power)
             b = bernoulli_over_factorial(k)
             if b:
                 factor = d.rational(b.numerator, b.denominator)
                 total = tuple(s + factor * t for s, t in zip(total, power, strict=True))
+        return total
+
+    def dexpinvt(self, d: Domain, x: Scalars, mu: Scalars, order: int) -> Scalars:
+        """Return (dexp^{-1}_{(order),x})* mu = sum over k <= order of B_k/k! (ad*_x)^k mu."""
+        return self._bernoulli_sum(d, lambda power: self.adt(d, x, power), mu, order)
+
+    def P(self, d: Domain, x: Scalars, y: Scalars, mu: Scalars, order: int) -> Scalars:
+        """Return P*_(order)(x, y) mu, paired with z what mu is with the derivative of dexpinv_x y along z.
+
+        That is -sum over 1 <= k <= order of B_k/k! sum_{i<k} ad*_{ad_x^{k-1-i} y} (ad*_x)^i mu (thesis eq.
+        3.16), summed over k first, for the operator is linear in its subscript.
+        """
+        last = _last(order)
+        brackets, powers = [y], [mu]
+        for _ in range(1, last):
+            brackets.append(self.ad(d, x, brackets[-1]))
+            powers.append(self.adt(d, x, powers[-1]))
+        total = (d.rational(0),) * self.dim
+        for i, power in enumerate(powers):
+            terms = [(-bernoulli_over_factorial(k), brackets[k - 1 - i]) for k in range(i + 1, last + 1)]
+            subscript = _combined(d, [(c, z) for c, z in terms if c])
+            if last and subscript:
+                pairs = zip(total, self.adt(d, subscript, power), strict=True)
+                total = tuple(a + b for a, b in pairs)
         return total
 
     def symbols(self, name: str) -> list[Any]:

@@ -75,6 +75,8 @@ SIGNATURES: dict[str, tuple[tuple[Kind, ...], tuple[Kind, ...]]] = {
     "ad": ((A, A), (A,)),  # [x, y]
     "adt": ((A, D), (D,)),  # ad*_x mu
     "dexpinv": ((A, A), (A,)),  # sum over k <= order of B_k/k! ad_x^k y
+    "dexpinvt": ((A, D), (D,)),  # sum over k <= order of B_k/k! (ad*_x)^k mu
+    "P": ((A, A, D), (D,)),  # P*_(order)(x, y) mu: its pairing with z is mu's with d/dx dexpinv_x y along z
     "dexpt": ((A, D), (D,)),  # dexp*_x mu
     "advance": ((R,), (R,)),  # t + coefficient
     "field": ((P,), (A,)),  # f(y)
@@ -84,7 +86,10 @@ SIGNATURES: dict[str, tuple[tuple[Kind, ...], tuple[Kind, ...]]] = {
 }
 """Argument and result kinds of every operation but ``lin`` and ``zero``, which are of any linear kind."""
 
-LINEAR_LAST = frozenset({"Ad", "Adt", "Adtinv", "ad", "adt", "dexpinv", "dexpt"})
+CUT_OFF = frozenset({"dexpinv", "dexpinvt", "P"})
+"""Operations with an ``order``, the number of brackets after which dexp^{-1} is cut off."""
+
+LINEAR_LAST = frozenset({"Ad", "Adt", "Adtinv", "ad", "adt", "dexpinv", "dexpinvt", "P", "dexpt"})
 """Operations that are linear in their last argument."""
 
 
@@ -92,7 +97,7 @@ LINEAR_LAST = frozenset({"Ad", "Adt", "Adtinv", "ad", "adt", "dexpinv", "dexpt"}
 class Operation:
     """What is done: a name of :data:`SIGNATURES`, ``lin`` (with coefficients) or ``zero``.
 
-    ``coefficients`` belongs to ``lin`` (one an argument) and ``advance`` (one), ``order`` to ``dexpinv``.
+    ``coefficients`` belongs to ``lin`` (one an argument) and ``advance`` (one), ``order`` to :data:`CUT_OFF`.
     """
 
     name: str
@@ -101,9 +106,7 @@ class Operation:
 
     def text(self) -> str:
         """Spell it with its parameters."""
-        if self.name == "dexpinv":
-            return f"dexpinv({self.order})"
-        return self.name
+        return self.name if self.order is None else f"{self.name}({self.order})"
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from codegen.ir.program import SIGNATURES, Assign, Kind, Program, Solve, Var
+from codegen.ir.program import CUT_OFF, SIGNATURES, Assign, Kind, Program, Solve, Var
 
 LINEAR = (Kind.ALG, Kind.DUAL)
 
@@ -74,7 +74,7 @@ def _types(name: str, assign: Assign) -> None:
     elif operation.name in SIGNATURES:
         good = (args, results) == SIGNATURES[operation.name]
         good = good and len(operation.coefficients) == (operation.name == "advance")
-        good = good and (operation.order is not None) == (operation.name == "dexpinv")
+        good = good and (operation.order is not None) == (operation.name in CUT_OFF)
     else:
         good = False
     if not good:

@@ -24,8 +24,8 @@ from codegen.lab.elementary import (
 from codegen.method import Method
 from codegen.scene import Setting
 from orderconds import families
+from orderconds.families.action_family import ActionFamily
 from orderconds.families.ordered_forests import scale
-from orderconds.families.vcg import VariationalCrouchGrossman
 from orderconds.ring import PowerSeries
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series import action_exact
@@ -97,8 +97,10 @@ def predicted(scene: Setting, method: Method, power: int) -> Vector:
     """
     if not scene.autonomous:
         raise SceneError("a scene that depends on time", where=scene.name, expected="an autonomous one")
-    if method.family in ("vcg", "sprk"):
-        return (_action if method.family == "vcg" else _partitioned)(scene, method, power)
+    if method.family == "sprk":
+        return _partitioned(scene, method, power)
+    if scene.is_hamiltonian:
+        return _action(scene, method, power)
     return (_trees if method.family == "rk" else _forests)(scene, method, power)
 
 
@@ -148,7 +150,9 @@ def _partitioned(scene: Setting, method: Method, power: int) -> Vector:
 def _action(scene: Setting, method: Method, power: int) -> Vector:
     """The action series: the update's words, exact values taken off."""
     ring = method.ring
-    series = VariationalCrouchGrossman().series(method.runge_kutta(), ring)
+    family = families.get(method.family_label)
+    assert isinstance(family, ActionFamily)
+    series = family.series(method.tableau.read_as(family.formats), ring)
     defects = {}
     for word, x in series.update_words(power).items():
         if sum(tree.vertices for tree in word) == power:

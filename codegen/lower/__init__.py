@@ -10,10 +10,10 @@ from codegen.ir.program import Program
 from codegen.method import Method
 from codegen.scene import Setting
 
-LOWERINGS = {"rk": "rkmk", "rkmk": "rkmk", "cg": "cf", "cf": "cf", "vcg": "vcg"}
+LOWERINGS = {"rk": "rkmk", "rkmk": "rkmk", "cg": "cf", "cf": "cf", "vcg": "vcg", "vrkmk": "vrkmk"}
 """Family name to module."""
 
-ON_COTANGENT = frozenset({"vcg"})
+ON_COTANGENT = frozenset({"vcg", "vrkmk"})
 """Families that need a Hamiltonian scene; all others see it as a field on the group T*G."""
 
 

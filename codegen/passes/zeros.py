@@ -10,7 +10,7 @@ from __future__ import annotations
 from codegen.ir.program import LINEAR_LAST, Assign, Coefficient, Operation, Program, Var
 from codegen.passes.rewrite import Rewriter, rewrite
 
-AT_ZERO = frozenset({"dexpinv", "dexpt"})
+AT_ZERO = frozenset({"dexpinv", "dexpinvt", "dexpt"})
 AT_IDENTITY = frozenset({"act", "Ad", "Adt", "Adtinv"})
 
 

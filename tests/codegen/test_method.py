@@ -7,15 +7,15 @@ import pytest
 from codegen import scenes
 from codegen.errors import MethodError
 from codegen.ir.domain import ExprDomain
-from codegen.lower import LOWERINGS, lower
+from codegen.lower import LOWERINGS, ON_COTANGENT, lower
 from codegen.lower.kernel import to_kernel
-from codegen.method import Method, parse
+from codegen.method import WITH_CUTOFF, Method, parse
 from orderconds.errors import InputError, TableauError, UnknownName, ZeroWeight
 from orderconds.tableau import Tableau
 from tests.strategies import butcher, field_scene, hamiltonian_scene, shipped
 
 FIELD = ("rkmk", "cg", "cf")
-ALL = ("rkmk", "cg", "cf", "vcg")
+ALL = ("rkmk", "cg", "cf", "vcg", "vrkmk")
 
 
 @pytest.mark.parametrize(
@@ -25,6 +25,8 @@ ALL = ("rkmk", "cg", "cf", "vcg")
         ("rkmk(0):rk4", FIELD, "rkmk(0):rk4"),
         ("rkmk:rk4", FIELD, "rkmk(2):rk4"),
         ("rkmk:gauss3", FIELD, "rkmk(4):gauss3"),
+        ("vrkmk(1):gauss2", ALL, "vrkmk(1):gauss2"),
+        ("vrkmk:gauss2", ALL, "vrkmk(2):gauss2"),
         ("cg:rk4", FIELD, "cg:rk4"),
         ("vcg:triple_jump", ALL, "vcg:triple_jump"),
         (" cf4 ", FIELD, "cf:cf4"),
@@ -84,9 +86,10 @@ def test_plain_runge_kutta_needs_a_vector_space(place):
     assert "expected R^n; use rkmk, cg or cf" in refused(scenes.load(place), Method("rk", shipped("rk4")))
 
 
-def test_vcg_divides_by_every_weight():
+@pytest.mark.parametrize(("family", "cutoff"), [("vcg", None), ("vrkmk", 1)])
+def test_variational_families_divide_by_every_weight(family, cutoff):
     tableau = butcher("zero", [[0, 0], ["1/2", 0]], [0, 1])
-    message = refused(scenes.load("dipole"), Method("vcg", tableau), ZeroWeight)
+    message = refused(scenes.load("dipole"), Method(family, tableau, cutoff), ZeroWeight)
     assert "b_1 = 0" in message
     assert "non-zero" in message
 
@@ -99,12 +102,14 @@ def test_a_weight_that_cancels_is_zero():
 def test_rkmk_needs_a_finite_number_of_brackets():
     message = refused(scenes.load("free_rigid_body"), Method("rkmk", shipped("rk4")))
     assert "without a cut-off" in message
+    message = refused(scenes.load("dipole"), Method("vrkmk", shipped("gauss2")))
+    assert "without a cut-off" in message
 
 
-@pytest.mark.parametrize("family", ["rkmk", "cg", "vcg"])
+@pytest.mark.parametrize("family", ["rkmk", "cg", "vcg", "vrkmk"])
 def test_a_commutator_free_tableau_is_no_butcher_tableau(family):
     scene = scenes.load("dipole")
-    cutoff = 1 if family == "rkmk" else None
+    cutoff = 1 if family in WITH_CUTOFF else None
     assert f"{family} with the cf tableau cf4" in refused(scene, Method(family, shipped("cf4"), cutoff))
 
 
@@ -117,8 +122,9 @@ def test_a_family_without_lowering_is_named():
 def test_every_lowering_serves_a_cotangent_bundle(family):
     scene = hamiltonian_scene("R^3")
     tableau = shipped("cf4" if family == "cf" else "heun")
-    program = lower(scene, Method(family, tableau, 1 if family == "rkmk" else None))
-    assert [name for name, _ in program.outputs] == (["q", "mu"] if family == "vcg" else ["y"])
+    program = lower(scene, Method(family, tableau, 1 if family in WITH_CUTOFF else None))
+    paired = family in ON_COTANGENT
+    assert [name for name, _ in program.outputs] == (["q", "mu"] if paired else ["y"])
 
 
 def test_a_group_without_closed_forms_cannot_be_compiled():

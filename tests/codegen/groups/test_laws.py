@@ -273,6 +273,30 @@ class TestDexptIsTheDualOfDexp:
 
 
 @each_base
+class TestDexpinvtIsTheDualOfDexpinv:
+    @pytest.mark.parametrize("order", range(5))
+    def test_pairing(self, s, order):
+        d, x, y, mu = s.domain, s.vector(), s.vector(), s.covector()
+        left = pairing(s.group.dexpinvt(d, x, mu, order), y)
+        assert s.equal(left, pairing(mu, s.group.dexpinv(d, x, y, order)))
+
+
+@exactly_base
+class TestPIsTheDualOfTheDerivativeOfDexpinv:
+    """d/dh <mu, dexp^{-1}_(r),x(h) y> = <P*_(r)(x, y) mu, x'> for constant mu and y."""
+
+    @pytest.mark.parametrize("order", range(5))
+    def test_pairing(self, s, order):
+        d, x = s.domain, s.vector()
+        y = tuple(d.rational(k - 1, k + 2) for k in range(s.group.dim))
+        mu = tuple(d.rational(2 * k + 1, 3) for k in range(s.group.dim))
+        value = ddh(s, pairing(mu, s.group.dexpinv(d, x, y, order)))
+        slope = pairing(s.group.P(d, x, y, mu, order), ddh(s, x))
+        assert s.equal(shortened(s, value), shortened(s, slope))
+        assert order == 0 or s.group.abelian or not s.equal(slope, tuple(a * 0 for a in slope))
+
+
+@each_base
 class TestTheCotangentGroupExtendsItsBase:
     """(g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu); exp(xi, n) = (exp xi, dexp*_{-xi} n)."""
 

@@ -30,6 +30,9 @@ TARGETS = ("c", "python", "interpreter")
 PUBLISHED = {
     "free_rigid_body rkmk(0):euler": ((20, 40, 80, 160), (4.135e-2, 2.100e-2, 1.058e-2, 5.313e-3)),
     "dipole vcg:gauss1": ((5, 10, 20, 40), (3.614e-3, 9.226e-4, 2.319e-4, 5.804e-5)),
+    "dipole vrkmk(0):gauss1": ((5, 10, 20, 40), (3.614e-3, 9.226e-4, 2.319e-4, 5.804e-5)),
+    "dipole vrkmk(1):kutta3": ((5, 10, 20, 40), (4.282e-4, 1.032e-5, 1.191e-6, 2.948e-7)),
+    "dipole vrkmk(2):gauss2": ((5, 10, 20, 40), (1.255e-5, 7.785e-7, 4.854e-8, 3.032e-9)),
     "dipole vcg:triple_jump": ((5, 10, 20, 40), (6.128e-4, 4.173e-5, 2.668e-6, 1.677e-7)),
 }
 
@@ -73,7 +76,8 @@ ORDERS = {
         "rkmk(1):kutta3": 3,
         "cg:rk4": 2,
     },
-    "dipole": {"vcg:gauss1": 2, "vcg:triple_jump": 4, "vcg:triple_jump6": 6, "vcg:gauss2": 2, "cf:cf4": 4},
+    "dipole": {"vcg:gauss1": 2, "vcg:triple_jump": 4, "vcg:triple_jump6": 6, "vcg:gauss2": 2, "cf:cf4": 4}
+    | {"vrkmk(2):gauss2": 4, "vrkmk(0):gauss2": 2},
 }
 
 

@@ -82,6 +82,11 @@ VARIATIONAL = [
     case("vcg", "heun", 2),
     case("vcg", SUM_OF_CUBES_ZERO, 3),
     case("vcg", full(2), 1),
+    case("vrkmk", "midpoint", 2, 0),
+    case("vrkmk", "kutta3", 2, 0),
+    case("vrkmk", "kutta3", 3, 1),
+    case("vrkmk", "heun", 2, 2),
+    case("vrkmk", full(2), 1, 1),
 ]
 PARTITIONED = [
     case("sprk", "midpoint", 2),
@@ -135,6 +140,13 @@ def test_on_a_vector_space_variational_methods_are_partitioned_ones(method, orde
 @pytest.mark.parametrize("group", ["SO(3)", pytest.param("GL(2)", marks=pytest.mark.slow)])
 def test_the_triple_jump_has_order_four(group):
     agree(hamiltonian_scene(group), Method("vcg", shipped("triple_jump")), 4)
+
+
+@pytest.mark.parametrize(
+    ("tableau", "cutoff", "order"), [("rk4", 2, 4), ("rk4", 1, 3), ("gauss2", 2, 4), ("gauss2", 1, 3)]
+)
+def test_variational_munthe_kaas_of_order_four(tableau, cutoff, order):
+    agree(hamiltonian_scene("SO(3)"), Method("vrkmk", shipped(tableau), cutoff), order)
 
 
 def test_crouch_grossman_of_owren_and_marthinsen_has_order_four():

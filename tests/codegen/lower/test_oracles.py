@@ -104,6 +104,67 @@ class Oracle:
         q, _, _, _, mubar1 = everything(xi, M)
         return {"q": q[-1], "mu": G.Adtinv(d, q[-1], mubar1)}
 
+    def cut(self, bracket, x, y):
+        """dexp^{-1}_(r),x y, where ``bracket`` is ad_x, or its dual where it is ad*_x."""
+        total = power = y
+        for p, q in DEXPINV[1 : self.cutoff + 1]:
+            power = bracket(self.d, x, power)
+            total = plus(total, times(self.d.rational(p, q), power))
+        return total
+
+    def P(self, x, xi, mu):
+        """P*_(r) as printed under (3.16), term by term."""
+        d, G = self.d, self.group
+        total = times(d.rational(int(self.cutoff > 0), 2), G.adt(d, xi, mu))
+        for k in range(2, self.cutoff + 1):
+            for i in range(k):
+                left, right = xi, mu
+                for _ in range(k - 1 - i):
+                    left = G.ad(d, x, left)
+                for _ in range(i):
+                    right = G.adt(d, x, right)
+                p, q = DEXPINV[k]
+                total = plus(total, times(d.rational(-p, q), G.adt(d, left, right)))
+        return total
+
+    def vrkmk(self, cutoff):
+        """(3.16), all of it unknown: stage velocities and forces, multipliers, momenta, Lambda."""
+        d, G = self.d, self.group
+        A, b, c = self.butcher()
+        stages = range(len(b))
+        q0, mu0 = self.blocks
+        self.cutoff = cutoff
+
+        def combination(row, v):
+            return plus(*(times(d.h * a, x) for a, x in zip(row, v, strict=True)))
+
+        def sweep(unknown):
+            xi, n, X, lam, M, Lam = unknown
+            v = [self.cut(G.ad, X[i], xi[i]) for i in stages]
+            X = [combination(row, v) for row in A]
+            Y = combination(b, v)
+            moved = [G.Adt(d, G.exp(d, X[i]), n[i]) for i in stages]
+            mubar = plus(mu0, *(times(d.h * b[i], moved[i]) for i in stages))
+            Lam = G.dexpt(d, times(d.rational(-1), Y), mubar)
+            mixed = [plus(times(b[i], Lam), *(times(A[j][i], lam[j]) for j in stages)) for i in stages]
+            lam = [
+                plus(
+                    times(-(d.h * b[i]), G.dexpt(d, X[i], n[i])),
+                    times(d.h, self.P(X[i], xi[i], mixed[i])),
+                )
+                for i in stages
+            ]
+            mixed = [plus(times(b[i], Lam), *(times(A[j][i], lam[j]) for j in stages)) for i in stages]
+            M = [times(d.rational(1) / b[i], self.cut(G.adt, X[i], mixed[i])) for i in stages]
+            both = [self.f(c[i], G.mul(d, G.exp(d, X[i]), q0), M[i]) for i in stages]
+            return [x[: G.dim] for x in both], [x[G.dim :] for x in both], X, lam, M, Lam, Y, mubar
+
+        zero = [(d.rational(0),) * G.dim] * len(b)
+        start = (zero, zero, zero, zero, [mu0] * len(b), mu0, zero[0], mu0)
+        *_, Y, mubar = self.iterate(lambda unknown: sweep(unknown[:6]), start)
+        g = G.exp(d, Y)
+        return {"q": G.mul(d, g, q0), "mu": G.Adtinv(d, g, mubar)}
+
     def act(self, x, y):
         return self.scene.action.act(self.d, self.group, self.group.exp(self.d, x), y)
 
@@ -209,6 +270,31 @@ class TestVariationalCrouchGrossmanIsItsEquation:
     def test_with_time(self, tableau):
         method = Method("vcg", RATIONAL[tableau])
         check(hamiltonian_scene("SO(3)", time=True), method, SeriesDomain(QQ, ORDER), Oracle.vcg)
+
+
+class TestVariationalMuntheKaasIsItsEquation:
+    @pytest.mark.parametrize("cutoff", [0, 1, 2, 4])
+    @pytest.mark.parametrize("tableau", ["midpoint", "kutta3", "full2"])
+    @pytest.mark.parametrize("group", ["SO(3)", "GL(2)"])
+    def test_exactly(self, group, tableau, cutoff):
+        method = Method("vrkmk", RATIONAL[tableau], cutoff)
+        check(hamiltonian_scene(group), method, SeriesDomain(QQ, ORDER), lambda o: o.vrkmk(cutoff))
+
+    @pytest.mark.parametrize("group", ["R^3", "Heisenberg"])
+    def test_where_few_brackets_or_none_are_left(self, group):
+        method = Method("vrkmk", RATIONAL["full2"], 2)
+        check(hamiltonian_scene(group), method, SeriesDomain(QQ, ORDER), lambda o: o.vrkmk(2))
+
+    @pytest.mark.parametrize(("tableau", "cutoff"), [("gauss2", 2), ("gauss3", 4), ("triple_jump", 2)])
+    def test_to_forty_digits(self, tableau, cutoff):
+        method = Method("vrkmk", shipped(tableau), cutoff)
+        check(hamiltonian_scene("SO(3)"), method, precise(), lambda o: o.vrkmk(cutoff))
+
+    @pytest.mark.parametrize("tableau", ["kutta3", "full2"])
+    def test_with_time(self, tableau):
+        method = Method("vrkmk", RATIONAL[tableau], 2)
+        scene = hamiltonian_scene("SO(3)", time=True)
+        check(scene, method, SeriesDomain(QQ, ORDER), lambda o: o.vrkmk(2))
 
 
 FIELDS = ("R^3", "S^2", "SO(3)", "GL(2)", "Heisenberg")

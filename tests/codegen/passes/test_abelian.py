@@ -6,7 +6,7 @@ from codegen.ir.verify import verify
 from codegen.passes import abelian
 from tests.strategies import field_scene, full, hamiltonian_scene, lowered, same
 
-BRACKETS = {"dexpinv", "ad", "adt", "Ad", "Adt", "Adtinv", "dexpt"}
+BRACKETS = {"dexpinv", "ad", "adt", "Ad", "Adt", "Adtinv", "dexpt", "dexpinvt", "P"}
 
 
 @pytest.mark.parametrize("cutoff", [0, 1, 2, 4])
@@ -21,6 +21,22 @@ def test_on_its_cotangent_bundle_neither():
     scene, program = lowered("vcg", full(2), hamiltonian_scene("R^3"))
     after = verify(abelian.run(program, abelian=True))
     assert not BRACKETS & set(after.counts())
+    assert same(scene, program, after)
+
+
+@pytest.mark.parametrize("cutoff", [0, 2])
+def test_vrkmk_loses_its_multipliers(cutoff):
+    scene, program = lowered("vrkmk", full(2), hamiltonian_scene("R^3"), cutoff)
+    after = verify(abelian.run(program, abelian=True))
+    assert not BRACKETS & set(after.counts())
+    assert same(scene, program, after)
+
+
+def test_cut_off_at_zero_vrkmk_has_no_derivative_of_dexpinv():
+    scene, program = lowered("vrkmk", full(2), hamiltonian_scene("SO(3)"), 0)
+    after = verify(abelian.run(program, abelian=False))
+    assert not {"dexpinv", "dexpinvt", "P"} & set(after.counts())
+    assert "dexpt" in after.counts()
     assert same(scene, program, after)
 
 

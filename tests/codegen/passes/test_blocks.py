@@ -6,7 +6,7 @@ import pytest
 
 from codegen.ir.program import Assign, Kind, Operation, Solve, Var
 from codegen.ir.verify import verify
-from codegen.passes import blocks, dead, sharing, zeros
+from codegen.passes import blocks, dead, optimise, sharing, zeros
 from tests.strategies import butcher, field_scene, full, hamiltonian_scene, lowered, same, shipped
 
 
@@ -110,3 +110,17 @@ def test_splitting_again_changes_nothing():
     _, program = lowered("vcg", "suzuki4", hamiltonian_scene("SO(3)"))
     once = blocks.run(prepared(program))
     assert blocks.run(once) == once
+
+
+def test_on_a_vector_space_vrkmk_of_a_composition_is_solved_stage_by_stage():
+    """There the multipliers' terms cancel, and SPRK of a composition is a sequence of midpoints."""
+    view, program = lowered("vrkmk", "triple_jump", hamiltonian_scene("R^3"), 2)
+    optimised, _ = optimise(program, view)
+    assert [len(s.unknowns) for s in optimised.body if isinstance(s, Solve)] == [2, 2, 2]
+
+
+def test_explicit_vrkmk_needs_one_momentum_for_all_stages():
+    view, program = lowered("vrkmk", "kutta3", hamiltonian_scene("SO(3)"), 1)
+    optimised, _ = optimise(program, view)
+    (block,) = (s for s in optimised.body if isinstance(s, Solve))
+    assert [v.name for v in block.unknowns] == ["v1", "v2", "Lambda"]

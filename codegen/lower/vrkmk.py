@@ -1,0 +1,110 @@
+"""Variational Runge-Kutta-Munthe-Kaas methods on T*G, thesis eq. (3.16).
+
+With Q_i = exp(X_i) q0, (xi_i, n_i) = f(Q_i, M_i) and P*_(r)(x, xi) the dual of the derivative of
+dexp^{-1}_{(r),x} xi by x, the equations are
+
+    m_i = b_i Lambda + sum_j a_ji lambda_j,   M_i = (dexp^{-1}_{(r),X_i})* m_i / b_i,
+    lambda_i = -h b_i dexp*_{X_i} n_i + h P*_(r)(X_i, xi_i) m_i,
+    v_i = dexp^{-1}_{(r),X_i} xi_i,   X_i = h sum_j a_ij v_j,   Y = h sum_j b_j v_j,
+    Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
+    q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
+
+Given all v_i and m_i the scene is evaluated once a stage and everything else follows: they are the unknowns.
+Where a_ji = 0 for all j <= i, m_i follows from Lambda and later stages; then Lambda is an unknown and m_i is
+none. What no equation reads, the passes take out. The sum m_i is written out in mu0, n_j and m_j, so that the
+terms cancel that cancel on an abelian group.
+"""
+
+from __future__ import annotations
+
+from codegen.errors import MethodError
+from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
+from codegen.lower.stages import Stages
+from codegen.method import Method
+from codegen.scene import Setting
+from orderconds.errors import ZeroWeight
+
+
+def lower(scene: Setting, method: Method) -> Program:
+    """Return the program of a VRKMK method with cut-off ``method.cutoff``.
+
+    :class:`orderconds.errors.ZeroWeight` where some b_i = 0, :class:`codegen.errors.MethodError` without a
+    cut-off: a program has finitely many brackets.
+    """
+    r = method.cutoff
+    name = method.tableau.name
+    if r is None:
+        raise MethodError(
+            f"vrkmk:{name} without a cut-off", expected=f"a number of brackets, as vrkmk(2):{name}"
+        )
+    tableau = method.runge_kutta()
+    q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
+    stages = Stages(scene, method, (q, mu))
+    do, s = stages.builder, tableau.s
+    A = [[stages.number(x) for x in row] for row in tableau.A]
+    b = [stages.number(x) for x in tableau.b]
+    for i, weight in enumerate(b):
+        if weight.is_zero:
+            raise ZeroWeight(
+                f"b_{i + 1} = 0",
+                where=f"{method.family_label}:{name}",
+                expected="all b_i non-zero: VRKMK divides by them",
+            )
+    v = [do.fresh(f"v{i + 1}", Kind.ALG) for i in range(s)]
+    m = [do.fresh(f"m{i + 1}", Kind.DUAL) for i in range(s)]
+    transported = do.fresh("Lambda", Kind.DUAL)
+    later_only = [all(A[j][i].is_zero for j in range(i + 1)) for i in range(s)]
+    shared: dict[str, Var] = {}
+
+    def images() -> list[Var]:
+        X = [stages.combination(f"X{i + 1}", Kind.ALG, row, v) for i, row in enumerate(tableau.A)]
+        g = [do.do("exp", f"g{i + 1}", x) for i, x in enumerate(X)]
+        now, forces, slopes = list(m), dict[int, Var](), dict[int, Var]()
+        lagrange, velocities = dict[int, Var](), dict[int, Var]()
+        for i in reversed(range(s)):
+            if later_only[i]:
+                terms = [(Coefficient(b[i]), transported)]
+                terms += [(Coefficient(A[j][i]), lagrange[j]) for j in range(i + 1, s)]
+                now[i] = do.lin(f"p{i + 1}", Kind.DUAL, terms)
+            weighted = do.lin(f"w{i + 1}", Kind.DUAL, [(Coefficient(ONE.value / b[i]), now[i])])
+            M = do.do("dexpinvt", f"M{i + 1}", X[i], weighted, order=r)
+            Q = do.do("mul", f"Q{i + 1}", g[i], q)
+            xi, n = do.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M, *stages.at(tableau.c[i]))
+            velocities[i] = do.do("dexpinv", f"u{i + 1}", X[i], xi, order=r)
+            forces[i] = n
+            slopes[i] = do.do("P", f"P{i + 1}", X[i], xi, now[i], order=r)
+            direct = do.do("dexpt", f"d{i + 1}", X[i], n)
+            lagrange[i] = do.lin(
+                f"lambda{i + 1}",
+                Kind.DUAL,
+                [(stages.times_h(-b[i]), direct), (stages.times_h(ONE.value), slopes[i])],
+            )
+        found = [velocities[i] for i in range(s)]
+        Y = stages.combination("Y", Kind.ALG, tableau.b, found)
+        minus = do.lin("y", Kind.ALG, [(Coefficient(-ONE.value), Y)])
+        nu = [do.do("Adt", f"nu{j + 1}", g[j], forces[j]) for j in range(s)]
+        momentum = do.lin("mubar", Kind.DUAL, [(ONE, mu)] + [(stages.times_h(b[j]), nu[j]) for j in range(s)])
+        shared.update(Y=Y, mubar=momentum)
+
+        def written_out(i: int) -> Var:
+            terms = [(Coefficient(b[i]), do.do("dexpt", "L", minus, mu))]
+            for j in range(s):
+                terms.append((stages.times_h(b[i] * b[j]), do.do("dexpt", "L", minus, nu[j])))
+                direct = do.do("dexpt", f"d{j + 1}", X[j], forces[j])
+                terms.append((stages.times_h(-(A[j][i] * b[j])), direct))
+                terms.append((stages.times_h(A[j][i]), slopes[j]))
+            return do.lin(f"p{i + 1}", Kind.DUAL, terms)
+
+        image = do.do("dexpt", "Lambda_new", minus, momentum)
+        return [*found, *(written_out(i) for i in range(s)), image]
+
+    def starts() -> list[Var]:
+        xi, _ = do.hamilton("xi0", "n0", q, mu, *stages.at(None))
+        weighted = [do.lin(f"m0_{i + 1}", Kind.DUAL, [(Coefficient(b[i]), mu)]) for i in range(s)]
+        return [xi] * s + weighted + [mu]
+
+    def update() -> dict[str, Var]:
+        g = do.do("exp", "g", shared["Y"])
+        return {"q": do.do("mul", "q1", g, q), "mu": do.do("Adtinv", "mu1", g, shared["mubar"])}
+
+    return stages.program([*v, *m, transported], images, starts, update)
