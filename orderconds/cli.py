@@ -31,6 +31,10 @@ BUILT_IN = {
         "Find the exact order of tableaux and compare it with their claims.",
     ),
     "cite": ("orderconds.commands.cite", "Print the BibTeX of a tableau's source."),
+    "convert": (
+        "orderconds.commands.convert",
+        "Convert a tableau from and to JSON, CSV, NumPy, SymPy, LaTeX and C arrays.",
+    ),
     "derive": ("orderconds.commands.derive", "Print the independent order conditions of a family."),
     "list": ("orderconds.commands.list", "List families, tableaux, and what other packages offer."),
     "refine": (
@@ -46,7 +50,7 @@ class Program(click.Group):
     """The group of all commands, with this program's exit statuses.
 
     >>> program.list_commands(click.Context(program))[:3]
-    ['check', 'cite', 'derive']
+    ['check', 'cite', 'convert']
     """
 
     def list_commands(self, ctx: click.Context) -> list[str]:

@@ -102,6 +102,15 @@ def loads(text: str, where: str = "<text>", path: str | None = None) -> Tableau:
             where=where,
             expected='coefficients quoted, as "1/2"',
         ) from None
+    return from_data(data, where, path)
+
+
+def from_data(data: Mapping[str, Any], where: str = "<data>", path: str | None = None) -> Tableau:
+    """Return the tableau of a file's keys and values, as TOML or JSON give them.
+
+    >>> from_data({"name": "euler", "family": "rk", "A": [[]], "b": ["1"]}).method
+    RungeKutta(A=((0,),), b=(1,))
+    """
     entry = _converted(data, where)
     _verify_names(entry, where)
     entry.verify(where)

@@ -1,0 +1,60 @@
+"""``orderconds convert``: a tableau from and to JSON, CSV, NumPy, SymPy, LaTeX and C arrays."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+import click
+
+from orderconds.errors import TableauError
+from orderconds.exchange import FORMATS, export, format_of, read_data
+from orderconds.tableau import find
+from orderconds.tableau.file import MAX_BYTES, from_data
+
+NAMES = click.Choice(list(FORMATS))
+
+
+@click.command(name="convert", short_help="Write a tableau in another format, or read one from it.")
+@click.argument("source", metavar="FILE|NAME")
+@click.option("--from", "of", type=NAMES, help="The format of FILE; by its suffix where left out.")
+@click.option("--to", type=NAMES, help="The format to write; by the suffix of --output, else toml.")
+@click.option("--name", help="A name for a tableau whose file gives none.")
+@click.option("--output", "-o", metavar="FILE", help="Write here instead of stdout.")
+def command(source: str, of: str | None, to: str | None, name: str | None, output: str | None) -> int:
+    """Convert a tableau: a file, or one of the library by name. Nothing that is read is run as code, and
+    what is written reads back as the same method.
+    """
+    bare = of is None and not os.path.exists(source) and "." not in os.path.basename(source)
+    path = find(source) if bare else Path(source)
+    content = _content(path)
+    of = of or format_of(str(path))
+    to = to or (format_of(output) if output else "toml")
+    data = read_data(content, of, str(path), name or path.stem)
+    if name is not None:
+        data["name"] = name
+    from_data(data, str(path))  # the grammar, shapes and numbers are sound
+    converted = content if of == to == "toml" and name is None else export(data, to)
+    if output is None:
+        sys.stdout.buffer.write(converted)
+        sys.stdout.buffer.flush()
+        return 0
+    try:
+        Path(output).write_bytes(converted)
+    except OSError as problem:
+        reason = (problem.strerror or "unwritable").lower()
+        raise TableauError(reason, where=output, expected="a file that can be written") from None
+    return 0
+
+
+def _content(path: Path) -> bytes:
+    try:
+        if path.stat().st_size > MAX_BYTES:
+            raise TableauError(
+                "a file too large for a tableau", where=str(path), expected=f"{MAX_BYTES} bytes"
+            )
+        return path.read_bytes()
+    except OSError as problem:
+        reason = (problem.strerror or "unreadable").lower()
+        raise TableauError(reason, where=str(path), expected="a file to read") from None

@@ -1,0 +1,78 @@
+"""Tableaux to and from other programs' formats: JSON, CSV, NumPy, SymPy, LaTeX, C arrays.
+
+Everything passes through the keys of a tableau file (:func:`orderconds.tableau.file.from_data`), so an
+imported tableau is held to the same grammar, and nothing that is read is run as code. What is written
+reads back as exactly the same method. Foreign decimals with 12 significant digits or more are taken as
+rounded (``~``), shorter ones at their word.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from importlib import import_module
+from typing import Any
+
+from orderconds.errors import InputError
+from orderconds.exchange.arrays import spelled_out
+from orderconds.tableau import Tableau
+
+Data = Mapping[str, Any]
+"""The keys and values of a tableau file."""
+
+FORMATS = {
+    "toml": ("orderconds.exchange.toml_file", ".toml"),
+    "json": ("orderconds.exchange.json_file", ".json"),
+    "csv": ("orderconds.exchange.csv_table", ".csv"),
+    "numpy": ("orderconds.exchange.numpy_archive", ".npz"),
+    "sympy": ("orderconds.exchange.sympy_source", ".py"),
+    "latex": ("orderconds.exchange.latex_array", ".tex"),
+    "c": ("orderconds.exchange.c_arrays", ".c"),
+}
+"""Format to its suffix and its module: ``write(data) -> bytes``, ``read(content, where) -> data``."""
+
+
+def export(data: Data, to: str) -> bytes:
+    """Return the content of a file in the format ``to``.
+
+    Raises :class:`~orderconds.errors.InputError` for an unknown format, or one that this method has no
+    place in.
+    """
+    write: Callable[[Data], bytes] = _module(to).write
+    return write(data)
+
+
+def read_data(content: bytes, of: str, where: str, name: str = "imported") -> dict[str, Any]:
+    """Return the keys and values that a file in the format ``of`` holds; ``name`` serves where it gives none.
+
+    Raises :class:`~orderconds.errors.InputError` naming ``where``.
+    """
+    data: dict[str, Any] = _module(of).read(content, where)
+    return {"name": name, **data} if of != "toml" else data
+
+
+def convert(tableau: Tableau) -> dict[str, Any]:
+    """Return a tableau as keys and values.
+
+    >>> from orderconds.check import read
+    >>> convert(read("heun"))["b"]
+    ['1/2', '1/2']
+    """
+    return spelled_out(tableau)
+
+
+def format_of(path: str) -> str:
+    """Return the format that a file's suffix names."""
+    for name, (_, suffix) in FORMATS.items():
+        if path.endswith(suffix) or (name == "c" and path.endswith(".h")):
+            return name
+    raise InputError(
+        f"a file of no known suffix: {path}",
+        expected=f"one of {', '.join(suffix for _, suffix in FORMATS.values())}",
+        hint="say --from or --to",
+    )
+
+
+def _module(name: str) -> Any:
+    if name not in FORMATS:
+        raise InputError(f"unknown format {name!r}", expected=f"one of {', '.join(FORMATS)}")
+    return import_module(FORMATS[name][0])

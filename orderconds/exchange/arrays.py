@@ -1,0 +1,146 @@
+"""A tableau as named arrays of spelled coefficients, what tables, matrices and C arrays can hold.
+
+``rk`` gives A, b and embedded_b with embedded_order; ``prk`` A, b, A_hat, b_hat; ``composition`` gamma, or
+alpha and beta. ``cf`` gives the exponentials of all stages and of the update as rows of ``exponentials``;
+``count`` says how many belong to each stage and, last, to the update, ``start`` which stage each starts
+from, 0 for y0.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from orderconds.errors import TableauError
+from orderconds.tableau import Tableau, dumps
+from orderconds.tableau.file import from_data
+
+Row = list[str]
+Arrays = dict[str, Any]
+"""Name to text (name, family, ...), to a row, or to rows of one length."""
+
+TEXTS = ("name", "family", "source", "bibtex", "base", "embedded_order")
+ROWS = ("b", "b_hat", "gamma", "alpha", "beta", "embedded_b", "count", "start", "c")
+MATRICES = ("A", "A_hat", "exponentials")
+ROUNDED = 12
+"""A foreign decimal of so many significant digits is a rounded number."""
+
+
+def arrays(data: Mapping[str, Any], what: str) -> Arrays:
+    """Return the arrays of a file's keys; :class:`TableauError` for a format that has none."""
+    if data.get("numbers") or "low_storage" in data:
+        data = spelled_out(from_data(data))  # every coefficient in full
+    family = data.get("family")
+    if data.get("numbers") or family not in ("rk", "prk", "composition", "cf"):
+        kind = "roots by name" if data.get("numbers") else f"a tableau of format {family}"
+        raise TableauError(
+            f"{kind} in {what}", where=str(data.get("name")), expected="format json, which holds everything"
+        )
+    found: Arrays = {key: data[key] for key in TEXTS if data.get(key)}
+    if family == "cf":
+        return {**found, **_products(data)}
+    width = len(data["b"]) if "b" in data else 0
+    for key in ROWS + MATRICES:
+        if key in data:
+            found[key] = _filled(data[key], width) if key in MATRICES else [str(x) for x in data[key]]
+    if embedded := data.get("embedded"):
+        found["embedded_b"] = _filled([embedded["b"]], width)[0]
+        found["embedded_order"] = str(embedded["order"])
+    return found
+
+
+def spelled_out(tableau: Tableau) -> dict[str, Any]:
+    """Return the keys of a tableau's file, each coefficient spelled in full.
+
+    Balls keep the digits they support: what is read back contains them.
+    """
+    return tomllib.loads(dumps(tableau))
+
+
+def _filled(rows: Sequence[Sequence[Any]], width: int) -> list[Row]:
+    return [[*map(str, row), *["0"] * (width - len(row))] for row in rows]
+
+
+def _products(data: Mapping[str, Any]) -> Arrays:
+    products = [*data["stage"], data["update"]]
+    width = len(data["stage"])
+    return {
+        "start": [str(product.get("from", 0)) for product in products],
+        "count": [str(len(product.get("exp", []))) for product in products],
+        "exponentials": [row for product in products for row in _filled(product.get("exp", []), width)],
+    }
+
+
+def data_of(found: Arrays, where: str) -> dict[str, Any]:
+    """Return the keys of a tableau file; what is no array of a known name is refused."""
+    known = {*TEXTS, *ROWS, *MATRICES}
+    for name in found:
+        if name not in known:
+            raise TableauError(
+                f"the array {name!r}", where=where, expected=f"one of {', '.join(sorted(known))}"
+            )
+    family = found.get("family") or next(
+        (f for key, f in (("A_hat", "prk"), ("A", "rk"), ("exponentials", "cf")) if key in found),
+        "composition",
+    )
+    data = {key: found[key] for key in ("name", "source", "bibtex", "base") if key in found} | {
+        "family": family
+    }
+    if family == "cf":
+        return data | _stages(found, where)
+    data |= {
+        key: found[key] for key in ("A", "b", "A_hat", "b_hat", "gamma", "alpha", "beta", "c") if key in found
+    }
+    if family == "composition":
+        data.setdefault("base", "symmetric-2" if "gamma" in found else "adjoint-pair")
+    if "embedded_b" in found:
+        data["embedded"] = {
+            "b": found["embedded_b"],
+            "order": _integer(found.get("embedded_order", "1"), where),
+        }
+    return data
+
+
+def _stages(found: Arrays, where: str) -> dict[str, Any]:
+    missing = [key for key in ("count", "start", "exponentials") if key not in found]
+    if missing:
+        raise TableauError(f"no array {missing[0]}", where=where, expected="count, start and exponentials")
+    rows, products = list(found["exponentials"]), []
+    for count, start in zip(found["count"], found["start"], strict=False):
+        many, begin = _integer(count, where), _integer(start, where)
+        product: dict[str, Any] = {"exp": rows[:many]} if many else {}
+        rows = rows[many:]
+        products.append(product | ({"from": begin} if begin else {}))
+    if rows or not products:
+        raise TableauError("count that does not add up", where=where, expected="one row for each exponential")
+    return {"stage": products[:-1], "update": products[-1]}
+
+
+def _integer(text: str, where: str) -> int:
+    if not re.fullmatch(r"-?\d{1,6}", text.strip(), re.ASCII):
+        raise TableauError(f"{text!r}", where=where, expected="an integer")
+    return int(text)
+
+
+def coefficient(text: str) -> str:
+    """Return a foreign number as a coefficient: exponents written out, long decimals taken as rounded.
+
+    >>> [coefficient(x) for x in ("5.0e-1", "0.3333333333333333", "1.0/6.0", "-2.5f", "1/3 - sqrt(3)/6")]
+    ['0.50', '0.3333333333333333~', '1.0/6.0', '-2.5', '1/3 - sqrt(3)/6']
+    """
+    spelled = text.strip()
+    number = re.fullmatch(r"([+-]?)(\d*)\.?(\d*)(?:[eE]([+-]?\d{1,3}))?[fFlL]?", spelled, re.ASCII)
+    if number is None or not (number[2] or number[3]):
+        return spelled
+    sign, whole, part, exponent = number[1], number[2] or "0", number[3], int(number[4] or 0)
+    if exponent < 0:
+        whole = whole.rjust(1 - exponent, "0")
+        whole, part = whole[:exponent], whole[exponent:] + part
+    elif exponent:
+        part = part.ljust(exponent, "0")
+        whole, part = whole + part[:exponent], part[exponent:]
+    digits = (whole + part).lstrip("0")
+    decimal = f"{'-' if sign == '-' else ''}{whole}" + (f".{part}" if part else "")
+    return decimal + "~" if part and len(digits) >= ROUNDED else decimal

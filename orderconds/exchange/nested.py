@@ -1,0 +1,43 @@
+"""Arrays in source text, ``{{1, 2}, {3, 4}}`` or ``[[1, 2], [3, 4]]``, read without running it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from orderconds.errors import TableauError
+
+MAX_DEPTH = 3
+
+
+def nested(text: str, opening: str, closing: str, where: str) -> Any:
+    """Return the lists of cell texts in one bracketed expression; commas within parentheses belong to cells.
+
+    >>> nested("[[1, Rational(1, 2)], [3, 4]]", "[", "]", "x")
+    [['1', 'Rational(1, 2)'], ['3', '4']]
+    """
+    stack: list[list[Any]] = [[]]
+    cell, parentheses = "", 0
+    for character in text:
+        if character == opening and not parentheses:
+            if len(stack) > MAX_DEPTH:
+                raise TableauError("brackets nested too deep", where=where, expected="rows of numbers")
+            stack.append([])
+        elif character in (closing, ",") and not parentheses:
+            if cell.strip():
+                stack[-1].append(cell.strip())
+            cell = ""
+            if character == closing:
+                if len(stack) == 1:
+                    raise TableauError(
+                        f"{closing!r} without {opening!r}", where=where, expected="rows of numbers"
+                    )
+                finished = stack.pop()
+                stack[-1].append(finished)
+        else:
+            parentheses += (character == "(") - (character == ")")
+            cell += character
+    if len(stack) != 1 or len(stack[0]) != 1 or cell.strip():
+        raise TableauError(
+            f"brackets that do not pair in {text[:40]!r}", where=where, expected="rows of numbers"
+        )
+    return stack[0][0]

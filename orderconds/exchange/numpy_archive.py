@@ -1,0 +1,95 @@
+"""NumPy: an ``.npz`` archive with float64 arrays, and beside each the exact spelling (``A_exact``).
+
+An archive without spellings is read by its floats, as decimals of all their digits.
+"""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from typing import Any
+
+from orderconds.errors import TableauError
+from orderconds.exchange.arrays import TEXTS, Arrays, arrays, coefficient, data_of
+from orderconds.tableau.file import from_data
+
+EXACT = "_exact"
+INTEGERS = ("count", "start")
+
+
+def write(data: Any) -> bytes:
+    """Return the archive."""
+    import numpy as np
+
+    content = io.BytesIO()
+    found = arrays(data, "NumPy")
+    members: dict[str, Any] = {}
+    for name, value in found.items():
+        if name in TEXTS:
+            members[name] = np.array(value)
+        elif name in INTEGERS:
+            members[name] = np.array([int(x) for x in value])
+        else:
+            members[name] = np.array(floats(value), dtype=np.float64)
+            members[name + EXACT] = np.array(value)
+    np.savez(content, **members)
+    return content.getvalue()
+
+
+def floats(value: Any) -> Any:
+    """Return spelled coefficients as the doubles nearest to them."""
+    if isinstance(value, list):
+        return [floats(x) for x in value]
+    return nearest(value)
+
+
+def nearest(spelled: str) -> float:
+    """Return the double nearest to a spelled coefficient.
+
+    >>> nearest("1/3 - sqrt(3)/6")
+    0.04465819873852045
+    """
+    data = {"name": "x", "family": "rk", "A": [[]], "b": [spelled]}
+    tableau = from_data(data)
+    (weight,) = tableau.abelian().b
+    ring: Any = tableau.ring
+    return float(ring.nearest_float(weight))
+
+
+def read(content: bytes, where: str) -> dict[str, Any]:
+    """Return the keys of a tableau file; floats and spellings that disagree are refused."""
+    import numpy as np
+
+    try:
+        with np.load(io.BytesIO(content), allow_pickle=False) as archive:
+            members = {name: archive[name] for name in archive.files}
+    except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile) as problem:
+        raise TableauError(str(problem) or "no archive", where=where, expected="an .npz archive") from None
+    found: Arrays = {}
+    for name, value in members.items():
+        if name.endswith(EXACT):
+            continue
+        if name in TEXTS:
+            found[name] = str(value)
+            continue
+        spelled = members.get(name + EXACT)
+        if value.dtype.kind not in "fiu" or value.ndim not in (1, 2):
+            raise TableauError(
+                f"{name}: {value.dtype} with {value.ndim} axes", where=where, expected="numbers"
+            )
+        if spelled is None or name in INTEGERS:
+            found[name] = _spelled(value.tolist())
+            continue
+        found[name] = spelled.tolist()
+        if not np.array_equal(np.array(floats(found[name])), value):
+            raise TableauError(
+                f"{name} that is not {name}{EXACT}",
+                where=where,
+                expected="numbers that agree",
+                hint="drop one",
+            )
+    return data_of(found, where)
+
+
+def _spelled(value: Any) -> Any:
+    return [_spelled(x) for x in value] if isinstance(value, list) else coefficient(repr(value))

@@ -1,0 +1,23 @@
+"""The project's own format, with every key in its place."""
+
+from __future__ import annotations
+
+import tomllib
+from typing import Any
+
+from orderconds.errors import TableauError
+from orderconds.tableau import dumps
+from orderconds.tableau.file import from_data
+
+
+def write(data: Any) -> bytes:
+    """Return TOML text; decimals with a proof keep their digits and lose the proof, which JSON keeps."""
+    return dumps(from_data(data)).encode()
+
+
+def read(content: bytes, where: str) -> dict[str, Any]:
+    """Return the keys and values of TOML text."""
+    try:
+        return tomllib.loads(content.decode())
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as problem:
+        raise TableauError(str(problem) or "nested too deep", where=where, expected="TOML") from None

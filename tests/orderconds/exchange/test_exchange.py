@@ -1,0 +1,257 @@
+"""What is written in another format reads back as the same method, exactly; what is malformed is refused."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from contextlib import suppress
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy
+from click.testing import CliRunner
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from orderconds import Tableau
+from orderconds.cli import program
+from orderconds.errors import InputError
+from orderconds.exchange import FORMATS, convert, export, read_data
+from orderconds.exchange.spelling import from_latex, from_python, latex, python
+from orderconds.exchange.sympy_source import from_sympy, to_sympy
+from orderconds.ring import Ball, Balls
+from orderconds.ring.decimals import endpoints
+from orderconds.tableau import available, find
+from orderconds.tableau.file import from_data
+
+ARRAYS = [name for name in FORMATS if name not in ("toml", "json")]
+
+
+def data_of(name: str) -> dict:
+    return tomllib.loads(find(name).read_text(encoding="utf-8"))
+
+
+def carries(name: str, of: str) -> bool:
+    """Arrays carry no named roots and no brackets."""
+    data = convert(Tableau.load(find(name)))
+    return of in ("toml", "json") or not (
+        data.get("numbers") or data["family"] not in ("rk", "prk", "composition", "cf")
+    )
+
+
+def numbers(tableau: Tableau) -> list:
+    found: list = []
+    tableau.method.map(lambda x: found.append(x) or x)
+    return found
+
+
+def contains(x: Ball, y: Ball) -> bool:
+    (low, high), (inner_low, inner_high) = endpoints(x.value), endpoints(y.value)
+    return bool(low <= inner_low <= inner_high <= high)
+
+
+@pytest.mark.parametrize("of", FORMATS)
+def test_every_tableau_of_the_library_reads_back_the_same(of: str) -> None:
+    for name in available():
+        tableau = Tableau.load(find(name))
+        data = convert(tableau)
+        if not carries(name, of):
+            with pytest.raises(InputError, match="format json"):
+                export(data, of)
+            continue
+        back = from_data(read_data(export(data, of), of, "back"))
+        if not isinstance(tableau.ring, Balls):
+            assert back.method == tableau.method, name
+        else:
+            assert all(contains(x, y) for x, y in zip(numbers(back), numbers(tableau), strict=True)), name
+        assert (back.name, back.family, back.source) == (tableau.name, tableau.family, tableau.source)
+        assert back.embedded == tableau.embedded
+        assert isinstance(back.ring, type(tableau.ring))
+
+
+def test_json_keeps_names_claims_and_proofs() -> None:
+    data = data_of("cg4a")
+    assert read_data(export(data, "json"), "json", "back") == data
+
+
+@pytest.mark.parametrize("of", FORMATS)
+def test_writing_twice_gives_the_same_bytes(of: str) -> None:
+    data = convert(Tableau.load(find("gauss2")))
+    assert export(data, of) == export(data, of)
+
+
+SPELLED = st.one_of(
+    st.fractions(min_value=-9, max_value=9, max_denominator=40).map(str),
+    st.sampled_from(
+        [
+            "sqrt(2)",
+            "1/4 - sqrt(3)/6",
+            "1/(2 - 2^(1/3))",
+            "-sqrt(3)/6",
+            "(1 + sqrt(5))^(1/3)",
+            "2^(-1/3)",
+            "3^(-2)",
+            "-(1 - sqrt(2))*(3/4)/5",
+            "0.125",
+            "-0.333333~",
+            "0.3333333333333333~",
+            "1 - 2 - 3",
+            "1/2/3",
+            "2*(1/3)*sqrt(6)/4 - (-1)",
+        ]
+    ),
+)
+
+
+@settings(suppress_health_check=[HealthCheck.too_slow])
+@given(st.lists(SPELLED, min_size=2, max_size=2), st.sampled_from(ARRAYS))
+def test_any_coefficient_reads_back_the_same(spelled: list[str], of: str) -> None:
+    tableau = from_data({"name": "t", "family": "rk", "A": [[], [spelled[0]]], "b": spelled})
+    data = {"name": "t", "family": "rk", "A": [["0", "0"], [spelled[0], "0"]], "b": spelled}
+    back = from_data(read_data(export(data, of), of, "back"))
+    if isinstance(tableau.ring, Balls):
+        # Rounded digits read back as the same digits; the precision of other numbers may differ.
+        assert all(x.value.overlaps(y.value) for x, y in zip(numbers(back), numbers(tableau), strict=True))
+        assert ["~" in x for x in convert(back)["b"]] == ["~" in x for x in convert(tableau)["b"]]
+    else:
+        assert back.method == tableau.method
+
+
+@given(SPELLED)
+def test_notations_translate_back_to_the_same_number(spelled: str) -> None:
+    def weight(text: str) -> object:
+        return from_data({"name": "t", "family": "rk", "A": [[]], "b": [text]}).method.b  # type: ignore[union-attr]
+
+    assert weight(from_python(python(spelled))) == weight(spelled)
+    assert weight(from_latex(latex(spelled))) == weight(spelled)
+    if "~" not in spelled:
+        names = {"Rational": sympy.Rational, "Integer": sympy.Integer, "sqrt": sympy.sqrt}
+        value = eval(python(spelled), names)
+        assert sympy.simplify(value - sympy.sympify(spelled.replace("^", "**"), rational=True)) == 0
+
+
+def test_sympy_matrices_read_back_the_same() -> None:
+    for name in ("gauss2", "rk4", "triple_jump"):
+        tableau = Tableau.load(find(name))
+        assert from_sympy(name, to_sympy(tableau)).method == tableau.method
+
+
+class TestForeignFiles:
+    """As people have them."""
+
+    def test_a_plain_butcher_table(self) -> None:
+        text = "0,0,0\n1/2,1/2,0\n,0,1\n,1,0\n"
+        data = read_data(text.encode(), "csv", "heun.csv")
+        tableau = from_data(data)
+        assert (
+            tableau.method
+            == Tableau.loads('name = "t"\nfamily = "rk"\nA = [[], ["1/2"]]\nb = ["0", "1"]\n').method
+        )
+        assert tableau.embedded is not None
+
+    def test_a_plain_table_whose_nodes_are_not_row_sums_is_refused(self) -> None:
+        with pytest.raises(InputError, match="c_2 = 1/3 beside a row of A that sums to 1/2"):
+            from_data(read_data(b"0,0,0\n1/3,1/2,0\n,0,1\n", "csv", "x.csv"))
+
+    def test_c_source_with_quotients_and_suffixes(self) -> None:
+        text = (
+            "/* somebody's */ const double rk_A[2][2] = {{0.0, 0.0}, {2.0/3.0, 0.0f}};\n"
+            "double rk_b[] = { 0.25, 7.5e-1 }; // weights\n"
+        )
+        tableau = from_data(read_data(text.encode(), "c", "x.c", name="ralston"))
+        assert (
+            tableau.method
+            == Tableau.loads('name = "t"\nfamily = "rk"\nA = [[], ["2/3"]]\nb = ["1/4", "3/4"]\n').method
+        )
+
+    def test_long_decimals_are_rounded_numbers(self) -> None:
+        text = b"static double A[1][1] = {{0.5}}; static double b[1] = {0.3333333333333333};"
+        tableau = from_data(read_data(text, "c", "x.c"))
+        assert tableau.ring.text(tableau.method.b[0]) == "0.333333333333333~"  # type: ignore[union-attr]
+
+    def test_floats_of_numpy(self, tmp_path: Path) -> None:
+        np.savez(tmp_path / "x.npz", A=np.zeros((1, 1)), b=np.ones(1))
+        data = read_data((tmp_path / "x.npz").read_bytes(), "numpy", "x.npz", name="euler")
+        assert from_data(data).method == Tableau.load(find("euler")).method
+
+    def test_floats_that_are_not_what_is_spelled_beside_them_are_refused(self, tmp_path: Path) -> None:
+        np.savez(tmp_path / "x.npz", A=np.zeros((1, 1)), b=np.ones(1), b_exact=np.array(["1/2"]))
+        with pytest.raises(InputError, match="b that is not b_exact"):
+            read_data((tmp_path / "x.npz").read_bytes(), "numpy", "x.npz")
+
+    def test_latex_from_a_paper(self) -> None:
+        text = r"""
+        \begin{array}{c|cc}
+          \frac12 - \frac{\sqrt{3}}{6} & \tfrac{1}{4} & \tfrac{1}{4} - \tfrac{\sqrt{3}}{6} \\[4pt]
+          \frac12 + \frac{\sqrt{3}}{6} & \tfrac{1}{4} + \tfrac{\sqrt{3}}{6} & \tfrac{1}{4} \\ \hline
+          & \frac{1}{2} & \frac{1}{2}
+        \end{array}"""
+        tableau = from_data(read_data(text.encode(), "latex", "x.tex"))
+        assert tableau.method.b == Tableau.load(find("gauss2")).method.b  # type: ignore[union-attr]
+        assert tableau.method == Tableau.load(find("gauss2")).method
+
+
+@pytest.mark.parametrize(
+    ("of", "content"),
+    [
+        ("json", b"[1, 2]"),
+        ("json", b"{"),
+        ("json", b"[" * 100_000),
+        ("csv", b'"'),
+        ("csv", b"\xff"),
+        ("csv", b"a,b\n"),
+        ("csv", b"b,1\nb,2\n"),
+        ("numpy", b"PK"),
+        ("numpy", b""),
+        ("sympy", b"import os"),
+        ("sympy", b"A = [[1]\nb = [[1]]]"),
+        ("latex", rb"\begin{array}{c|c} 1 \end{array}"),
+        ("latex", rb"A = \begin{pmatrix} \write18 \end{pmatrix}"),
+        ("c", b"int main(void) { return 0; }"),
+        ("c", b"double A[1] = {{{{{1}}}}};"),
+    ],
+)
+def test_malformed_content_is_refused(of: str, content: bytes) -> None:
+    with pytest.raises(InputError):
+        from_data(read_data(content, of, "file"))
+
+
+@given(st.sampled_from(list(FORMATS)), st.binary(max_size=200))
+def test_any_bytes_are_read_or_refused(of: str, content: bytes) -> None:
+    with suppress(InputError):
+        from_data(read_data(content, of, "file"))
+
+
+class TestCommand:
+    """``orderconds convert``."""
+
+    def run(self, *arguments: str):  # type: ignore[no-untyped-def]
+        return CliRunner().invoke(program, ["convert", *arguments])
+
+    def test_a_name_of_the_library_to_every_format_and_back(self, tmp_path: Path) -> None:
+        for _, suffix in FORMATS.values():
+            there, back = tmp_path / f"x{suffix}", tmp_path / "back.toml"
+            assert self.run("gauss2", "-o", str(there)).exit_code == 0
+            assert self.run(str(there), "-o", str(back)).exit_code == 0
+            assert Tableau.load(back).method == Tableau.load(find("gauss2")).method
+
+    def test_json_on_stdout(self) -> None:
+        result = self.run("rk4", "--to", "json")
+        assert result.exit_code == 0
+        assert json.loads(result.output)["b"] == ["1/6", "1/3", "1/3", "1/6"]
+
+    @pytest.mark.parametrize(
+        "arguments",
+        [
+            ["nothing"],
+            ["rk4", "--to", "yaml"],
+            ["rk4", "-o", "x.yaml"],
+            ["/nowhere/x.csv"],
+            ["strang", "--to", "c"],
+        ],
+    )
+    def test_bad_usage_ends_with_2(self, arguments: list[str]) -> None:
+        result = self.run(*arguments)
+        assert result.exit_code == 2
+        assert "Traceback" not in result.output
