@@ -2,8 +2,9 @@
 
 A Butcher tableau serves ``rk``, ``cg`` and ``rkmk``, and with non-zero weights ``sprk``, ``vcg`` and
 ``vrkmk`` (any cut-off of ``rkmk`` and ``vrkmk`` is a claim); a commutator-free method serves ``rk``,
-``cf`` and, with non-zero weights, ``vcf``. Families that say the same of a tableau (``prk`` of an ``rk``
-one) are not demanded.
+``cf`` and, with non-zero weights, ``vcf``. A pair serves ``prk``, and where it is symplectic
+``sprk_separable`` instead. Families that say the same of a tableau (``prk`` of an ``rk`` one) are not
+demanded.
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ def served(tableau: Tableau) -> tuple[str, ...]:
     if isinstance(method, AdjointComposition):
         return ("composition", "splitting")
     if isinstance(method, PartitionedRungeKutta):
-        return ("prk", "sprk_separable") if symplectic_pair(method, ring) else ("prk",)
+        return ("sprk_separable",) if symplectic_pair(method, ring) else ("prk",)
     if isinstance(method, CommutatorFree):
         return ("rk", "cf", "vcf") if _nonzero(method.as_runge_kutta(ring).b, ring) else ("rk", "cf")
     if isinstance(method, Composition):

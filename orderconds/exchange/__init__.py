@@ -36,6 +36,9 @@ def export(data: Data, to: str) -> bytes:
 
     Raises :class:`~orderconds.errors.InputError` for an unknown format, or one that this method has no
     place in.
+
+    >>> export({"name": "euler", "family": "rk", "A": [["0"]], "b": ["1"]}, "csv").decode().split()
+    ['name,euler', 'family,rk', 'A,0', 'b,1']
     """
     write: Callable[[Data], bytes] = _module(to).write
     return write(data)
@@ -45,6 +48,9 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> di
     """Return the keys and values that a file in the format ``of`` holds; ``name`` serves where it gives none.
 
     Raises :class:`~orderconds.errors.InputError` naming ``where``.
+
+    >>> read_data(b"0,0\\n,1\\n", "csv", "euler.csv", name="euler")
+    {'name': 'euler', 'family': 'rk', 'A': [['0']], 'b': ['1'], 'c': ['0']}
     """
     data: dict[str, Any] = _module(of).read(content, where)
     return {"name": name, **data} if of != "toml" else data
@@ -61,7 +67,11 @@ def convert(tableau: Tableau) -> dict[str, Any]:
 
 
 def format_of(path: str) -> str:
-    """Return the format that a file's suffix names."""
+    """Return the format that a file's suffix names.
+
+    >>> format_of("rk4.h")
+    'c'
+    """
     for name, (_, suffix) in FORMATS.items():
         if path.endswith(suffix) or (name == "c" and path.endswith(".h")):
             return name

@@ -29,7 +29,11 @@ ROUNDED = 12
 
 
 def arrays(data: Mapping[str, Any], what: str) -> Arrays:
-    """Return the arrays of a file's keys; :class:`TableauError` for a format that has none."""
+    """Return the arrays of a file's keys; :class:`TableauError` for a format that has none.
+
+    >>> arrays({"name": "heun", "family": "rk", "A": [[], [1]], "b": ["1/2", "1/2"]}, "a table")["A"]
+    [['0', '0'], ['1', '0']]
+    """
     if data.get("numbers") or "low_storage" in data:
         data = spelled_out(from_data(data))  # every coefficient in full
     family = data.get("family")
@@ -42,7 +46,7 @@ def arrays(data: Mapping[str, Any], what: str) -> Arrays:
     if family == "cf":
         return {**found, **_products(data)}
     width = len(data["b"]) if "b" in data else 0
-    for key in ROWS + MATRICES:
+    for key in MATRICES + ROWS:
         if key in data:
             found[key] = _filled(data[key], width) if key in MATRICES else [str(x) for x in data[key]]
     if embedded := data.get("embedded"):
@@ -55,6 +59,9 @@ def spelled_out(tableau: Tableau) -> dict[str, Any]:
     """Return the keys of a tableau's file, each coefficient spelled in full.
 
     Balls keep the digits they support: what is read back contains them.
+
+    >>> spelled_out(from_data({"name": "t", "family": "rk", "A": [[]], "b": ["g"], "numbers": {"g": "1/2"}}))
+    {'name': 't', 'family': 'rk', 'A': [[]], 'b': ['1/2']}
     """
     return tomllib.loads(dumps(tableau))
 
@@ -74,7 +81,11 @@ def _products(data: Mapping[str, Any]) -> Arrays:
 
 
 def data_of(found: Arrays, where: str) -> dict[str, Any]:
-    """Return the keys of a tableau file; what is no array of a known name is refused."""
+    """Return the keys of a tableau file; what is no array of a known name is refused.
+
+    >>> data_of({"gamma": ["1"]}, "a table")
+    {'family': 'composition', 'gamma': ['1'], 'base': 'symmetric-2'}
+    """
     known = {*TEXTS, *ROWS, *MATRICES}
     for name in found:
         if name not in known:

@@ -19,7 +19,11 @@ _TEXT = re.compile(r"^/\* (\w+): (.*) \*/$", re.MULTILINE)
 
 
 def write(data: Any) -> bytes:
-    """Return C definitions, every name under the tableau's own."""
+    """Return C definitions, every name under the tableau's own.
+
+    >>> print(write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode().splitlines()[-1])
+    static const double m_b[1] = {1.0};
+    """
     found = arrays(data, "C arrays")
     prefix = re.sub(r"\W", "_", found["name"], flags=re.ASCII)
     lines = [f"/* {name}: {found[name].replace('*/', '* /')} */" for name in TEXTS if name in found]
@@ -47,7 +51,11 @@ def _cell(spelled: str) -> str:
 
 
 def read(content: bytes, where: str) -> dict[str, Any]:
-    """Return the keys of a tableau file."""
+    """Return the keys of a tableau file.
+
+    >>> read(b"double m_A[1][1] = {{1.0/2}}; double m_b[1] = {1};", "m.c")["A"]
+    [['1.0/2']]
+    """
     try:
         text = content.decode()
     except UnicodeDecodeError:

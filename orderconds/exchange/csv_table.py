@@ -15,7 +15,11 @@ from orderconds.exchange.arrays import MATRICES, ROWS, TEXTS, Arrays, arrays, co
 
 
 def write(data: Any) -> bytes:
-    """Return CSV text with exact coefficients."""
+    """Return CSV text with exact coefficients.
+
+    >>> write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode().splitlines()
+    ['name,m', 'family,rk', 'A,1/2', 'b,1']
+    """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     for name, value in arrays(data, "CSV").items():
@@ -25,7 +29,11 @@ def write(data: Any) -> bytes:
 
 
 def read(content: bytes, where: str) -> dict[str, Any]:
-    """Return the keys of a tableau file."""
+    """Return the keys of a tableau file.
+
+    >>> read(b"A,1/2\\nb,1\\n", "m.csv")
+    {'family': 'rk', 'A': [['1/2']], 'b': ['1']}
+    """
     try:
         rows = [
             row for row in csv.reader(io.StringIO(content.decode()), strict=True) if any(map(str.strip, row))

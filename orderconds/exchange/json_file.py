@@ -9,12 +9,20 @@ from orderconds.errors import TableauError
 
 
 def write(data: Any) -> bytes:
-    """Return JSON text."""
+    """Return JSON text.
+
+    >>> write({"name": "m"})
+    b'{\\n  "name": "m"\\n}\\n'
+    """
     return (json.dumps(data, indent=2) + "\n").encode()
 
 
 def read(content: bytes, where: str) -> dict[str, Any]:
-    """Return the object; its numbers must be strings or integers, as in a tableau file."""
+    """Return the object; its numbers must be strings or integers, as in a tableau file.
+
+    >>> read(b'{"name": "m"}', "m.json")
+    {'name': 'm'}
+    """
     try:
         data = json.loads(content)
     except (ValueError, RecursionError) as problem:

@@ -19,7 +19,18 @@ _MATRIX = re.compile(r"([A-Za-z_\\{}]+)\s*=\s*\\begin\{[bp]matrix\}(.*?)\\end\{[
 
 
 def write(data: Any) -> bytes:
-    """Return LaTeX for a display."""
+    r"""Return LaTeX for a display.
+
+    >>> print(write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode())
+    % name: m
+    % family: rk
+    \begin{array}{c|c}
+    \frac{1}{2} & \frac{1}{2} \\
+    \hline
+    & 1 \\
+    \end{array}
+    <BLANKLINE>
+    """
     found = arrays(data, "LaTeX")
     lines = [f"% {name}: {found[name]}" for name in TEXTS if name in found]
     if "A" in found and "A_hat" not in found:
@@ -43,7 +54,11 @@ def write(data: Any) -> bytes:
 
 
 def read(content: bytes, where: str) -> dict[str, Any]:
-    """Return the keys of a tableau file."""
+    r"""Return the keys of a tableau file.
+
+    >>> read(rb"\begin{array}{c|c} \frac12 & \frac12 \\ \hline & 1 \end{array}", "m.tex")["A"]
+    [['(1/2)']]
+    """
     try:
         text = content.decode()
     except UnicodeDecodeError:

@@ -18,7 +18,11 @@ INTEGERS = ("count", "start")
 
 
 def write(data: Any) -> bytes:
-    """Return the archive."""
+    """Return the archive.
+
+    >>> write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]})[:2]
+    b'PK'
+    """
     import numpy as np
 
     content = io.BytesIO()
@@ -37,7 +41,11 @@ def write(data: Any) -> bytes:
 
 
 def floats(value: Any) -> Any:
-    """Return spelled coefficients as the doubles nearest to them."""
+    """Return spelled coefficients as the doubles nearest to them.
+
+    >>> floats([["1/2", "1/3"]])
+    [[0.5, 0.3333333333333333]]
+    """
     if isinstance(value, list):
         return [floats(x) for x in value]
     return nearest(value)
@@ -57,7 +65,11 @@ def nearest(spelled: str) -> float:
 
 
 def read(content: bytes, where: str) -> dict[str, Any]:
-    """Return the keys of a tableau file; floats and spellings that disagree are refused."""
+    """Return the keys of a tableau file; floats and spellings that disagree are refused.
+
+    >>> read(write({"name": "m", "family": "rk", "A": [["1/3"]], "b": ["1"]}), "m.npz")["A"]
+    [['1/3']]
+    """
     import numpy as np
 
     try:

@@ -18,7 +18,11 @@ _ASSIGNED = re.compile(r"^(\w+)\s*=\s*(?:\w+\()?(\[.*?\])\)?$", re.MULTILINE | r
 
 
 def write(data: Any) -> bytes:
-    """Return Python source; rows are matrices of one row."""
+    """Return Python source; rows are matrices of one row.
+
+    >>> print(write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode().splitlines()[-1])
+    b = Matrix([[1]])
+    """
     found = arrays(data, "SymPy")
     lines = [f"# {name}: {found[name]}" for name in TEXTS if name in found] + [IMPORT, ""]
     for name, value in found.items():
@@ -31,7 +35,11 @@ def write(data: Any) -> bytes:
 
 
 def read(content: bytes, where: str) -> dict[str, Any]:
-    """Return the keys of a tableau file from such source, which is not run."""
+    """Return the keys of a tableau file from such source, which is not run.
+
+    >>> read(b"A = Matrix([[Rational(1, 2)]])\\nb = [1]", "m.py")["A"]
+    [['(1/2)']]
+    """
     try:
         text = content.decode()
     except UnicodeDecodeError:

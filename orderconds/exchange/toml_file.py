@@ -11,13 +11,21 @@ from orderconds.tableau.file import from_data
 
 
 def write(data: Any) -> bytes:
-    """Return TOML text; decimals with a proof keep their digits and lose the proof, which JSON keeps."""
+    """Return TOML text; decimals with a proof keep their digits and lose the proof, which JSON keeps.
+
+    >>> write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode().splitlines()[-1]
+    'b = ["1"]'
+    """
     return dumps(from_data(data)).encode()
 
 
 def read(content: bytes, where: str) -> dict[str, Any]:
-    """Return the keys and values of TOML text."""
+    """Return the keys and values of TOML text.
+
+    >>> read(b'name = "m"', "m.toml")
+    {'name': 'm'}
+    """
     try:
         return tomllib.loads(content.decode())
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as problem:
+    except (ValueError, RecursionError) as problem:  # no TOML, no UTF-8, integers of thousands of digits
         raise TableauError(str(problem) or "nested too deep", where=where, expected="TOML") from None

@@ -29,7 +29,7 @@ def test_a_zero_weight_bars_the_variational_families() -> None:
     assert served(read("cf4")) == ("rk", "cf", "vcf")
 
 
-def test_a_pair_that_is_not_symplectic_serves_prk_alone() -> None:
+def test_a_pair_serves_separable_systems_where_it_is_symplectic_else_prk() -> None:
     text = 'name = "t"\nfamily = "prk"\nA = [["0"]]\nb = ["1"]\nA_hat = [["{}"]]\nb_hat = ["1"]\n'
-    assert served(Tableau.loads(text.format("1"))) == ("prk", "sprk_separable")
+    assert served(Tableau.loads(text.format("1"))) == ("sprk_separable",)
     assert served(Tableau.loads(text.format("1/2"))) == ("prk",)
