@@ -33,6 +33,7 @@ def snippets() -> tuple[Snippet, ...]:
     for k in range(4):
         first, *rest = stumpff.constants(k)
         values = {"k": k, "first": first, "even": rest[::2], "odd": rest[1::2]}
+        values |= {"small": repr(float(stumpff.SMALL)), "short": stumpff.constants(k, stumpff.SMALL)}
         found.append(Snippet(f"stumpff_series_{k}", "stumpff_series", (), values))
     for orders in stumpff.SETS:
         name = "stumpff_" + "".join(map(str, orders))

@@ -1,9 +1,10 @@
 """Stumpff functions for z >= 0: which branch computes which, and the numbers in them.
 
 c_k(z) = sum_j (-z)^j/(2j+k)!, so c_0 = cos sqrt z, c_1 = sin(sqrt z)/sqrt z, c_2 = (1 - cos sqrt z)/z and
-c_3 = (sqrt z - sin sqrt z)/z^(3/2). Up to a switch each is its Taylor polynomial; above it a closed form that
-cancels nowhere: c_2 = c_1(z/4)^2/2, and c_3 = (1 - c_1)/z only where c_1 < 1/2. A set of them shares one sine
-and cosine. Errors stay within two units in the last place, plus what half a unit in sqrt z causes.
+c_3 = (sqrt z - sin sqrt z)/z^(3/2). Up to a switch each is its Taylor polynomial, a shorter one where z is
+small, as it is in most steps; above it a closed form that cancels nowhere: c_2 = c_1(z/4)^2/2, and
+c_3 = (1 - c_1)/z only where c_1 < 1/2. A set of them shares one sine and cosine. Errors stay within two units
+in the last place, plus what half a unit in sqrt z causes.
 """
 
 from __future__ import annotations
@@ -15,24 +16,30 @@ from math import factorial
 SWITCH = (1, 1, 1, 4)
 """The polynomial of c_k serves up to z = SWITCH[k]; c_1(4) = 0.4546."""
 
+SMALL = Fraction(1, 16)
+"""Up to here a shorter polynomial serves: angles up to a quarter."""
+
 SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n))
 """Every non-empty set of orders that a kernel may ask of one argument."""
 
 
-def coefficients(k: int) -> tuple[Fraction, ...]:
-    """Return the Taylor coefficients of c_k whose terms reach half a unit in the last place at the switch.
+def coefficients(k: int, last: Fraction | int | None = None) -> tuple[Fraction, ...]:
+    """Return the Taylor coefficients of c_k whose terms reach half a unit in the last place at ``last``.
 
-    >>> coefficients(1)[:3], len(coefficients(1))
-    ((Fraction(1, 1), Fraction(-1, 6), Fraction(1, 120)), 9)
+    ``last`` is the switch unless given.
+
+    >>> coefficients(1)[:3], len(coefficients(1)), len(coefficients(1, SMALL))
+    ((Fraction(1, 1), Fraction(-1, 6), Fraction(1, 120)), 9, 6)
     """
+    z = Fraction(SWITCH[k] if last is None else last)
     terms: list[Fraction] = []
-    while abs(term := Fraction((-1) ** len(terms), factorial(2 * len(terms) + k))) * SWITCH[k] ** len(
-        terms
-    ) * factorial(k) > Fraction(1, 2**56):
+    while abs(term := Fraction((-1) ** (j := len(terms)), factorial(2 * j + k))) * z**j * factorial(k) > (
+        Fraction(1, 2**56)
+    ):
         terms.append(term)
     return tuple(terms)
 
 
-def constants(k: int) -> tuple[str, ...]:
+def constants(k: int, last: Fraction | int | None = None) -> tuple[str, ...]:
     """Return :func:`coefficients` as doubles, each rounded once."""
-    return tuple(repr(float(c)) for c in coefficients(k))
+    return tuple(repr(float(c)) for c in coefficients(k, last))
