@@ -4,7 +4,9 @@ Combinations of the stage values k_1, ..., k_s of an explicit method that vanish
 higher grade; q_j is the combination of k_j and earlier values that has the highest grade. A stage argument
 is needed up to grade p - 1, the argument of the step up to grade p (Munthe-Kaas and Owren, Phil. Trans. R.
 Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003) 723). One argument after the other is then written by
-stage values, by brackets that are there already, and by as few new ones as suffice.
+stage values, by brackets that are there already, and by as few new ones as suffice. Where a combination of
+two arguments needs fewer than each of them, it is written before them: u_7 of Butcher's method of order 6
+then takes no bracket of its own.
 """
 
 from __future__ import annotations
@@ -64,8 +66,9 @@ def fewest_brackets(
     """Return arguments with few brackets that keep ``order`` of an explicit tableau (A, b).
 
     ``ring`` must decide zero and divide. The order is kept where the tableau has it. Coefficients that the
-    order leaves free are zero at first; unless ``least`` is reached, so many ``attempts`` give them small
-    random values, always the same. Raises :class:`~orderconds.errors.InputError` for an implicit tableau.
+    order leaves free are zero at first, then, in so many ``attempts``, small random values, always the same;
+    if all take more than ``least`` brackets, one more is granted, and so on. Raises
+    :class:`~orderconds.errors.InputError` for an implicit tableau.
 
     >>> from orderconds.ring import QQ
     >>> half, third, sixth = QQ.rational(1, 2), QQ.rational(1, 3), QQ.rational(1, 6)
@@ -92,12 +95,15 @@ def fewest_brackets(
     bases = _graded_bases(ring, A, b, order)
     algebra = GradedAlgebra(ring, [grade for grade, _ in bases], order)
     arguments, rows = _arguments(algebra, values, bases), [row for _, row in bases]
-    best = _Search(algebra, rows, None).program(arguments)
-    for seed in range(attempts):
-        if len(best.brackets) > best.least:
-            found = _Search(algebra, rows, Random(seed)).program(arguments)
-            best = min(best, found, key=lambda program: len(program.brackets))
-    return best
+    least, shared = _least(algebra, arguments), _shared(algebra, arguments)
+    plans = [before for before in (shared, {}) if before or not shared]
+    tries = [(seed, before) for seed in (None, *range(attempts)) for before in plans]
+    searches = (
+        _Search(algebra, rows, None if seed is None else Random(seed), most).program(arguments, before, least)
+        for most in count(least)
+        for seed, before in tries
+    )
+    return next(program for program in searches if program is not None)
 
 
 def _graded_bases(
@@ -137,6 +143,70 @@ def _arguments(
     return found
 
 
+def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> int:
+    return algebra.largest - (i < len(arguments) - 1)
+
+
+def _newest_factor(algebra: GradedAlgebra, argument: Polynomial, newest: int, limit: int) -> Polynomial:
+    """Return P without its constant, where ad_P q is the part linear in a letter q: the words before q."""
+    return {
+        word[:-1]: x
+        for word, x in algebra.cut(argument, limit).items()
+        if len(word) > 1 and word.count(newest) == 1 and word[-1] == newest
+    }
+
+
+def _beyond_lie(algebra: GradedAlgebra, x: Polynomial) -> Polynomial:
+    """Return x less a Lie element, zero if x is one.
+
+    Right-normed brackets multiply a Lie element of length n by n (Dynkin).
+    """
+    ring, total = algebra.ring, dict[tuple[int, ...], Element]()
+    for word, value in x.items():
+        nested: Polynomial = {word[-1:]: ring.one}
+        for letter in reversed(word[:-1]):
+            nested = algebra.bracket({(letter,): ring.one}, nested)
+        total = algebra.combine((ring.one, total), (value * ring.rational(1, len(word)), nested))
+    return algebra.combine((ring.one, x), (ring.rational(-1), total))
+
+
+def _least(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> int:
+    """Add up what the newest stage value in each argument needs: a lower bound for any program.
+
+    The part of u_i linear in its newest letter q_(i-1) is ad_P q_(i-1), a constant in P aside, and comes from
+    brackets in which q_(i-1) is the newest letter. No bracket has two newest letters, so the numbers of
+    brackets add up. A single one with that letter is [c q + x, d q + y], x and y of what is older; its part
+    linear in q is ad_z q for z = d x - c y, a Lie element. So a P that is no Lie element takes two.
+    """
+    needed, first = 0, False
+    for i, argument in enumerate(arguments):
+        limit = _limit(algebra, arguments, i)
+        factor = _newest_factor(algebra, argument, i - 1, limit)
+        first |= any(len(word) > 1 for word in algebra.cut(argument, limit))
+        needed += 0 if not factor else 2 if _beyond_lie(algebra, factor) else 1
+    return max(needed, int(first))
+
+
+def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
+    """Return for stages i the combinations u_j + c u_i, j a later stage, that one newest bracket may make.
+
+    The brackets in u_j hold no value newer than those in u_i do; for both, ad_P q in the newest q takes two,
+    but for the combination P is a Lie element. With it and u_i, u_j is there.
+    """
+    one, found = algebra.ring.one, dict[int, list[Polynomial]]()
+    stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
+    for i, argument in enumerate(stages):
+        excess = _beyond_lie(algebra, _newest_factor(algebra, argument, i - 1, algebra.largest))
+        for later in stages[i + 1 :] if excess else []:
+            nested = {word: x for word, x in later.items() if len(word) > 1 or word[0] < i}
+            also = _beyond_lie(algebra, _newest_factor(algebra, nested, i - 1, algebra.largest))
+            ratio = solve(algebra.ring, [excess], also) if also else None
+            if ratio is not None and all(max(word) < i for word in nested):
+                combination = algebra.combine((one, nested), (algebra.ring.zero - ratio[0], argument))
+                found.setdefault(i, []).append(combination)
+    return found
+
+
 @dataclass(frozen=True)
 class _Shape:
     """How new brackets enter an argument: [q_1 + x, y + C_1] + sum_e [e, w_e], C_n = [q_1, z_n + C_(n+1)].
@@ -150,6 +220,11 @@ class _Shape:
     inner: int = 0
     extra: tuple[int, ...] = ()
 
+    @property
+    def brackets(self) -> int:
+        """Return how many are new."""
+        return self.outer + self.inner + len(self.extra)
+
 
 def _shapes(pool: int) -> Iterator[_Shape]:
     """Yield shapes by rising number of brackets."""
@@ -162,56 +237,45 @@ def _shapes(pool: int) -> Iterator[_Shape]:
 
 
 class _Search:
-    """Takes the arguments in turn; ``pool`` holds what combinations may use, with its row."""
+    """Takes the arguments in turn; ``pool`` holds what combinations may use, with its row.
 
-    def __init__(self, algebra: GradedAlgebra, bases: Sequence[list[Element]], random: Random | None) -> None:
-        self.algebra, self.ring, self._bases, self._random = algebra, algebra.ring, bases, random
+    No more than ``most`` brackets are written.
+    """
+
+    def __init__(
+        self, algebra: GradedAlgebra, bases: Sequence[list[Element]], random: Random | None, most: int
+    ) -> None:
+        self.algebra, self.ring, self._bases = algebra, algebra.ring, bases
+        self._random, self._most = random, most
         self.pool: list[tuple[Polynomial, Row]] = []
         self.brackets: list[tuple[Row, Row]] = []
 
-    def program(self, arguments: Sequence[Polynomial]) -> BracketProgram:
+    def program(
+        self, arguments: Sequence[Polynomial], before: Mapping[int, Sequence[Polynomial]], least: int
+    ) -> BracketProgram | None:
+        """Return the arguments, ``before[i]`` written just before u_i; None if that takes too many."""
         rows = []
-        order = self.algebra.largest
         for i, argument in enumerate(arguments):
             if i:
                 row = {("k", n): x for n, x in enumerate(self._bases[i - 1])}
                 self.pool.append(({(i - 1,): self.ring.one}, self._clean(row)))
-            rows.append(self._written(argument, order - (i < len(arguments) - 1)))
-        return BracketProgram(
-            tuple(self.brackets), tuple(rows[:-1]), rows[-1], self._least(arguments), self.algebra.grades
-        )
+            for combination in before.get(i, ()):
+                if self._written(combination, self.algebra.largest - 1) is None:
+                    return None
+            written = self._written(argument, _limit(self.algebra, arguments, i))
+            if written is None:
+                return None
+            rows.append(written)
+        return BracketProgram(tuple(self.brackets), tuple(rows[:-1]), rows[-1], least, self.algebra.grades)
 
-    def _least(self, arguments: Sequence[Polynomial]) -> int:
-        """Add up what the newest stage value in each argument needs: such brackets cannot be older.
-
-        The part linear in the newest letter q is ad_P q. One bracket [x, y] makes ad_z q only, z a
-        combination of what is older and so a Lie element; where P is none, it takes two.
-        """
-        needed, first = 0, False
-        for i, argument in enumerate(arguments):
-            newest, limit = i - 1, self.algebra.largest - (i < len(arguments) - 1)
-            before = {
-                word[:-1]: x
-                for word, x in self.algebra.cut(argument, limit).items()
-                if len(word) > 1 and word.count(newest) == 1 and word[-1] == newest
-            }
-            first |= any(len(word) > 1 for word in self.algebra.cut(argument, limit))
-            needed += 0 if not before else 1 if self._is_lie(before) else 2
-        return max(needed, int(first))
-
-    def _is_lie(self, x: Polynomial) -> bool:
-        """Decide by right-normed brackets: they multiply a Lie element of length n by n (Dynkin)."""
-        one, total = self.ring.one, dict[tuple[int, ...], Element]()
-        for word, value in x.items():
-            nested: Polynomial = {word[-1:]: one}
-            for letter in reversed(word[:-1]):
-                nested = self.algebra.bracket({(letter,): one}, nested)
-            total = self.algebra.combine((one, total), (value * self.ring.rational(1, len(word)), nested))
-        return not self.algebra.combine((one, total), (self.ring.rational(-1), x))
-
-    def _written(self, argument: Polynomial, limit: int) -> Row:
-        shapes = _shapes(len(self.pool))
-        return next(row for row in (self._fitted(s, argument, limit) for s in shapes) if row is not None)
+    def _written(self, argument: Polynomial, limit: int) -> Row | None:
+        for shape in _shapes(len(self.pool)):
+            if len(self.brackets) + shape.brackets > self._most:
+                return None
+            row = self._fitted(shape, argument, limit)
+            if row is not None:
+                return row
+        return None
 
     def _fitted(self, shape: _Shape, argument: Polynomial, limit: int) -> Row | None:
         """Return the row of an argument in this shape, its new brackets put into the pool; None if unfit.

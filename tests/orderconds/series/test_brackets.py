@@ -55,13 +55,26 @@ BUTCHER_6 = explicit(
     "11/120 0 27/40 27/40 -4/15 -4/15 11/120",
 )
 
+BUTCHER_6_SIXTHS = explicit(
+    [
+        "",
+        "1/3",
+        "0 2/3",
+        "1/12 1/3 -1/12",
+        "25/48 -55/24 35/48 15/8",
+        "3/20 -11/24 -1/8 1/2 1/10",
+        "-261/260 33/13 43/156 -118/39 32/195 80/39",
+    ],
+    "13/200 0 11/40 11/40 4/25 4/25 13/200",
+)
 CASES = {
     "kutta3": (KUTTA_3, 3, 1, 1),
     "rk4": (RK4, 4, 2, 2),
     "three eighths": (THREE_EIGHTHS, 4, 2, 2),
     "butcher5": (BUTCHER_5, 5, 5, 5),
     "dormand-prince 5": (DORMAND_PRINCE_5, 5, 5, 5),
-    "butcher6": (BUTCHER_6, 6, 10, 9),
+    "butcher6": (BUTCHER_6, 6, 9, 9),
+    "butcher6 with sixths": (BUTCHER_6_SIXTHS, 6, 9, 9),
 }
 
 
@@ -97,6 +110,12 @@ def test_rk4_has_the_two_brackets_of_munthe_kaas_and_owren():
         QQ.rational(-1, 12), QQ.rational(1, 12), 0, 0, 0,
     ]  # fmt: skip
     assert [value(program.stages[n]) for n in (0, 3)] == [{}, {(2,): QQ.one}]
+
+
+def test_order_six_takes_no_bracket_for_the_sixth_stage_value():
+    program = fewest_brackets(QQ, BUTCHER_6.A, BUTCHER_6.b, 6)
+    newest = [max(n for row in rows for kind, n in row if kind == "k") for rows in program.brackets]
+    assert newest == [1, 1, 2, 2, 3, 3, 4, 6, 6]
 
 
 def test_one_bracket_taken_away_costs_the_order():
