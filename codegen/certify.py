@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from codegen.errors import MethodError
+from codegen.lower.fewest import bracket_program
 from codegen.method import Method
 
 if TYPE_CHECKING:
     from orderconds.check import Failure
+    from orderconds.families import Family
 
 
 @dataclass(frozen=True)
@@ -36,11 +38,32 @@ class CertifiedOrder:
         return f"{least}{self.order}, certificate: {self.certificate}{explained}"
 
 
-def certified_order(method: Method) -> CertifiedOrder:
-    """Return the order of a method in its family; a MethodError where it cannot be decided."""
-    from orderconds.check import check
+def family_of(method: Method) -> Family:
+    """Return the family whose conditions speak of what is compiled.
 
-    (found,) = check(method.tableau, family=method.family_label).orders
+    For ``rkmk`` without a cut-off they are evaluated by the series of the very program that is compiled.
+    """
+    from orderconds import families
+
+    if method.family == "rkmk" and method.cutoff is None:
+        from orderconds.families.rkmk_fewest import FewestBrackets
+
+        return FewestBrackets(bracket_program(method))
+    return families.get(method.family_label)
+
+
+def certified_order(method: Method) -> CertifiedOrder:
+    """Return the order of a method in its family; a MethodError where it cannot be decided.
+
+    For ``rkmk`` without a cut-off the failing conditions are not named: no index sum spells what fails.
+    """
+    from orderconds.check import check, family_order
+
+    family = family_of(method)
+    if method.family == "rkmk" and method.cutoff is None:
+        found = replace(family_order(method.tableau, family), failing=())
+    else:
+        (found,) = check(method.tableau, family=method.family_label).orders
     if not found.decided:
         raise MethodError(
             f"the order of {method.label} is undecided beyond {found.order}",

@@ -1,4 +1,4 @@
-"""A method: a family together with a tableau, as ``vcg:triple_jump``, ``rkmk(2):rk4`` or plain ``cf4``."""
+"""A method: a family together with a tableau, as ``vcg:triple_jump``, ``rkmk(2):rk4``, ``rkmk:rk4`` or plain ``cf4``."""
 
 from __future__ import annotations
 
@@ -22,6 +22,10 @@ SPELLING = re.compile(r"(?:(?P<family>[a-z]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<
 
 WITH_CUTOFF = ("rkmk", "vrkmk")
 """Families that cut dexp^{-1} off after a number of brackets."""
+
+
+FEWEST_UP_TO = 6
+"""The highest order for which ``rkmk`` without a cut-off is written with the fewest brackets."""
 
 
 @dataclass(frozen=True)
@@ -65,6 +69,16 @@ class Method:
             )
         return method
 
+    def can_reduce_brackets(self) -> bool:
+        """Whether the tableau is explicit and its coefficients exact, as the fewest brackets need."""
+        method = self.tableau.read_as(("rk",))
+        if not isinstance(method, RungeKutta):
+            return False
+        entries = [x for row in method.A for x in row]
+        above = (x for i, row in enumerate(method.A) for x in row[i:])
+        decided = all(self.ring.is_zero(x - x) is True for x in (*entries, *method.b))
+        return decided and all(self.ring.is_zero(x) is True for x in above)
+
     def commutator_free(self) -> CommutatorFree:
         """Return stages and update as products of exponentials, a Butcher tableau as Crouch-Grossman.
 
@@ -89,8 +103,9 @@ def parse(spelling: str, families: Sequence[str]) -> Method:
     """Return the method of that spelling; ``families`` are those the scene can take.
 
     Without a family the tableau's claims decide: the highest order wins, and among equals the family named
-    first in ``families``. ``rkmk`` or ``vrkmk`` without a cut-off takes the least with the highest claimed
-    order. :class:`MethodError` for what cannot be read, and where nothing is claimed that decides.
+    first in ``families``. ``rkmk`` without a cut-off is written with the fewest brackets where the tableau is
+    explicit and exact; elsewhere, and for ``vrkmk``, the least cut-off with the highest claimed order is taken.
+    :class:`MethodError` for what cannot be read, and where nothing is claimed that decides.
     """
     match = SPELLING.fullmatch(spelling.strip())
     if match is None:
@@ -124,4 +139,7 @@ def parse(spelling: str, families: Sequence[str]) -> Method:
             else f"write {families[0]}:{match['tableau']}",
         )
     best = min(wanted, key=lambda c: (-c.order, families.index(c.family), c.cutoff or 0))
+    uncut = Method(best.family, tableau)
+    if best.family == "rkmk" and best.order <= FEWEST_UP_TO and uncut.can_reduce_brackets():
+        return uncut
     return Method(best.family, tableau, best.cutoff)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from codegen.certify import family_of
 from codegen.errors import SceneError
 from codegen.ir.domain import SeriesDomain
 from codegen.ir.interpret import interpret
@@ -106,7 +107,7 @@ def predicted(scene: Setting, method: Method, power: int) -> Vector:
 
 def _residuals(method: Method, power: int) -> list[tuple[Any, Element]]:
     """Return the residual of every condition of one order, with its tree or forest."""
-    family = families.get(method.family_label)
+    family = family_of(method)
     conditions = family.all_conditions(power)
     coefficients = method.tableau.read_as(family.formats)
     found = families.residuals(family, coefficients, method.ring, conditions)
@@ -150,7 +151,7 @@ def _partitioned(scene: Setting, method: Method, power: int) -> Vector:
 def _action(scene: Setting, method: Method, power: int) -> Vector:
     """The action series: the update's words, exact values taken off."""
     ring = method.ring
-    family = families.get(method.family_label)
+    family = family_of(method)
     assert isinstance(family, ActionFamily)
     series = family.series(method.tableau.read_as(family.formats), ring)
     defects = {}

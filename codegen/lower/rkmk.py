@@ -6,8 +6,8 @@ v_i).y0. The unknowns are the v_i. On R^n with r = 0 this is the Runge-Kutta met
 
 from __future__ import annotations
 
-from codegen.errors import MethodError
 from codegen.ir.program import Kind, Program, Var
+from codegen.lower import fewest
 from codegen.lower.stages import Stages
 from codegen.method import Method
 from codegen.scene import Setting
@@ -16,13 +16,10 @@ from codegen.scene import Setting
 def lower(scene: Setting, method: Method) -> Program:
     """Return the program of an RKMK method with cut-off ``method.cutoff``; rk is the cut-off 0.
 
-    :class:`codegen.errors.MethodError` for rkmk without a cut-off: a program has finitely many brackets.
+    Without a cut-off it is written with the fewest brackets (:mod:`codegen.lower.fewest`).
     """
     if method.family == "rkmk" and method.cutoff is None:
-        name = method.tableau.name
-        raise MethodError(
-            f"rkmk:{name} without a cut-off", expected=f"a number of brackets, as rkmk(2):{name}"
-        )
+        return fewest.lower(scene, method)
     tableau = method.runge_kutta()
     y = Var("y", Kind.POINT)
     stages = Stages(scene, method, (y,))

@@ -23,14 +23,16 @@ ALL = ("rkmk", "cg", "cf", "vcg", "vrkmk")
     [
         ("rkmk(2):rk4", FIELD, "rkmk(2):rk4"),
         ("rkmk(0):rk4", FIELD, "rkmk(0):rk4"),
-        ("rkmk:rk4", FIELD, "rkmk(2):rk4"),
+        ("rkmk:rk4", FIELD, "rkmk:rk4"),
+        ("rk4", FIELD, "rkmk:rk4"),
+        ("rkmk:cg4a", FIELD, "rkmk(2):cg4a"),
         ("rkmk:gauss3", FIELD, "rkmk(4):gauss3"),
         ("vrkmk(1):gauss2", ALL, "vrkmk(1):gauss2"),
         ("vrkmk:gauss2", ALL, "vrkmk(2):gauss2"),
         ("cg:rk4", FIELD, "cg:rk4"),
         ("vcg:triple_jump", ALL, "vcg:triple_jump"),
         (" cf4 ", FIELD, "cf:cf4"),
-        ("cg3", FIELD, "rkmk(1):cg3"),
+        ("cg3", FIELD, "rkmk:cg3"),
         ("cg3", ("cg", "rkmk"), "cg:cg3"),
     ],
 )
@@ -99,9 +101,13 @@ def test_a_weight_that_cancels_is_zero():
     assert "b_1 = 0" in refused(scenes.load("dipole"), Method("vcg", Tableau.loads(text)), ZeroWeight)
 
 
-def test_rkmk_needs_a_finite_number_of_brackets():
-    message = refused(scenes.load("free_rigid_body"), Method("rkmk", shipped("rk4")))
-    assert "without a cut-off" in message
+@pytest.mark.parametrize("tableau", ["gauss2", "cg4a"])
+def test_the_fewest_brackets_need_an_explicit_tableau_of_exact_numbers(tableau):
+    message = refused(scenes.load("free_rigid_body"), Method("rkmk", shipped(tableau)))
+    assert f"rkmk:{tableau} without a cut-off; expected an explicit tableau with exact" in message
+
+
+def test_vrkmk_needs_a_finite_number_of_brackets():
     message = refused(scenes.load("dipole"), Method("vrkmk", shipped("gauss2")))
     assert "without a cut-off" in message
 

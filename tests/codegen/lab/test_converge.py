@@ -29,6 +29,7 @@ TARGETS = ("c", "python", "interpreter")
 # scene, method, numbers of steps, errors recomputed independently of the thesis
 PUBLISHED = {
     "free_rigid_body rkmk(0):euler": ((20, 40, 80, 160), (4.135e-2, 2.100e-2, 1.058e-2, 5.313e-3)),
+    "free_rigid_body rkmk:rk4": ((20, 40, 80, 160), (7.029e-8, 4.493e-9, 2.847e-10, 1.793e-11)),
     "dipole vcg:gauss1": ((5, 10, 20, 40), (3.614e-3, 9.226e-4, 2.319e-4, 5.804e-5)),
     "dipole vrkmk(0):gauss1": ((5, 10, 20, 40), (3.614e-3, 9.226e-4, 2.319e-4, 5.804e-5)),
     "dipole vrkmk(1):kutta3": ((5, 10, 20, 40), (4.282e-4, 1.032e-5, 1.191e-6, 2.948e-7)),
@@ -75,6 +76,7 @@ ORDERS = {
         "rkmk(2):rk4": 4,
         "rkmk(1):kutta3": 3,
         "cg:rk4": 2,
+        "rkmk:kutta3": 3,
     },
     "dipole": {"vcg:gauss1": 2, "vcg:triple_jump": 4, "vcg:triple_jump6": 6, "vcg:gauss2": 2, "cf:cf4": 4}
     | {"vrkmk(2):gauss2": 4, "vrkmk(0):gauss2": 2},

@@ -192,6 +192,24 @@ class Oracle:
         v = self.iterate(sweep, [(d.rational(0),) * self.group.dim] * len(b))
         return {"y": self.act(combination(b, v), y)}
 
+    def rkmk4(self):
+        """RK4 with the two brackets of Munthe-Kaas and Owren (1999)."""
+        d, (y,) = self.d, self.blocks
+
+        def lin(*terms):
+            return plus(*(times(d.rational(p, q), x) for p, q, x in terms))
+
+        def k(c, *u):
+            point = self.act(lin(*u), y) if u else y
+            return times(d.h, self.f(d.rational(*c), point))
+
+        k1 = k((0, 1))
+        k2 = k((1, 2), (1, 2, k1))
+        k3 = k((1, 2), (1, 2, k2), (-1, 8, self.group.ad(d, k1, k2)))
+        k4 = k((1, 1), (1, 1, k3))
+        last = self.group.ad(d, k1, k4)
+        return {"y": self.act(lin((1, 6, k1), (1, 3, k2), (1, 3, k3), (1, 6, k4), (-1, 12, last)), y)}
+
     def cg(self):
         """(1.4)."""
         d = self.d
@@ -320,6 +338,17 @@ class TestMuntheKaasIsItsEquation:
 
     def test_without_brackets_on_a_vector_space_it_is_runge_kutta(self):
         check(field_scene("R^3"), Method("rk", RATIONAL["rk4"]), SeriesDomain(QQ, ORDER), lambda o: o.rkmk(0))
+
+
+class TestMuntheKaasWithTheFewestBracketsIsAsPrinted:
+    @pytest.mark.parametrize("place", FIELDS)
+    def test_exactly(self, place):
+        check(field_scene(place), Method("rkmk", RATIONAL["rk4"]), SeriesDomain(QQ, ORDER), Oracle.rkmk4)
+
+    def test_with_time_and_on_the_cotangent_group(self):
+        method, domain = Method("rkmk", RATIONAL["rk4"]), SeriesDomain(QQ, ORDER)
+        check(field_scene("S^2", time=True), method, domain, Oracle.rkmk4)
+        check(hamiltonian_scene("SO(3)"), method, domain, Oracle.rkmk4)
 
 
 class TestCrouchGrossmanIsItsEquation:
