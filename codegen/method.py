@@ -1,4 +1,4 @@
-"""A method: a family together with a tableau, as ``vcg:triple_jump``, ``rkmk(2):rk4``, ``rkmk:rk4`` or plain ``cf4``."""
+"""A method: a family with a tableau, as ``vcg:triple_jump``, ``rkmk(2):rk4``, ``rkmk:rk4`` or ``cf4``."""
 
 from __future__ import annotations
 
@@ -104,8 +104,8 @@ def parse(spelling: str, families: Sequence[str]) -> Method:
 
     Without a family the tableau's claims decide: the highest order wins, and among equals the family named
     first in ``families``. ``rkmk`` without a cut-off is written with the fewest brackets where the tableau is
-    explicit and exact; elsewhere, and for ``vrkmk``, the least cut-off with the highest claimed order is taken.
-    :class:`MethodError` for what cannot be read, and where nothing is claimed that decides.
+    explicit and exact; elsewhere, and for ``vrkmk``, the least cut-off with the highest claimed order is
+    taken. :class:`MethodError` for what cannot be read, and where nothing is claimed that decides.
     """
     match = SPELLING.fullmatch(spelling.strip())
     if match is None:

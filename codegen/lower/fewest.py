@@ -18,7 +18,6 @@ _KNOWN: dict[tuple[Ring, tuple[str, ...]], BracketProgram] = {}
 """Programs by ring and spelled coefficients: lowering and the certificate ask for the same one."""
 
 
-
 def bracket_program(method: Method) -> BracketProgram:
     """Return arguments with the fewest brackets for ``rkmk`` without a cut-off, keeping the tableau's order.
 

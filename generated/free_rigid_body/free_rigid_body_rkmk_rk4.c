@@ -1,0 +1,205 @@
+/*
+ * Free rigid body on the sphere (thesis section 2.8): one step by rkmk:rk4
+ *
+ * method:     family rkmk, tableau rk4
+ * source:     Kutta 1901; Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I,
+ *             Table II.1.2; with brackets: Munthe-Kaas 1998
+ * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
+ * scene:      Free rigid body on the sphere (thesis section 2.8), group SO(3)
+ * state:      [0..2] y: point that SO(3) acts on by rotation
+ * left out:   1 act, 1 exp (zeros)
+ *             1 field, 1 lin (sharing)
+ *             1 identity, 1 zero (dead code)
+ *             4 act (fusion)
+ *             4 exp (dead code)
+ *             parameters, folded: alpha = 0
+ *             the time: the scene does not depend on it
+ *             equation solving: every stage is explicit here
+ * operations: 77 add, 133 mul, 4 stumpff_12 a step
+ * made by:    orderconds emit free_rigid_body --method rkmk:rk4 --target c -o .
+ * version:    orderconds 0.1.0
+ *
+ * Build: cc -std=c11 -O2 -ffp-contract=off -c free_rigid_body_rkmk_rk4.c
+ * Use:
+ *
+ *     #include "free_rigid_body_rkmk_rk4.h"
+ *     #include <stdio.h>
+ *
+ *     int main(void)
+ *     {
+ *         double state[3] = {0.4535961214255773, 0.0, 0.8912073600614354};
+ *         size_t completed;
+ *         const int status = free_rigid_body_rkmk_rk4_run(state, 0.02, 100, NULL, 0, &completed);
+ *         printf("status %d after %zu steps\n", status, completed);
+ *         for (int i = 0; i < 3; i++) {
+ *             printf("%.17g\n", state[i]);
+ *         }
+ *         return status;
+ *     }
+ */
+#include "free_rigid_body_rkmk_rk4.h"
+
+#include <math.h>
+#include <string.h>
+
+/* c_2(z) = sum (-z)^j/(2j+2)! for small z */
+static inline double stumpff_series_2(double z)
+{
+    const double w = z * z;
+    const double w2 = w * w;
+    if (z <= 0.0625) {
+        return (0.5 + z * -0.041666666666666664)
+            + w * (0.001388888888888889 + z * -2.48015873015873e-05)
+            + w2 * (2.755731922398589e-07 + z * -2.08767569878681e-09);
+    }
+    double even = -2.08767569878681e-09 + w * -4.779477332387385e-14;
+    even = -0.041666666666666664 + w * -2.48015873015873e-05 + w2 * even;
+    double odd = 1.1470745597729725e-11 + w * 1.5619206968586225e-16;
+    odd = 0.001388888888888889 + w * 2.755731922398589e-07 + w2 * odd;
+    return 0.5 + z * (even + z * odd);
+}
+
+/* c_1(z) = sum (-z)^j/(2j+1)! for small z */
+static inline double stumpff_series_1(double z)
+{
+    const double w = z * z;
+    const double w2 = w * w;
+    if (z <= 0.0625) {
+        return (1.0 + z * -0.16666666666666666)
+            + w * (0.008333333333333333 + z * -0.0001984126984126984)
+            + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08);
+    }
+    double even = -2.505210838544172e-08 + w * -7.647163731819816e-13;
+    even = -0.16666666666666666 + w * -0.0001984126984126984 + w2 * even;
+    double odd = 1.6059043836821613e-10 + w * 2.8114572543455206e-15;
+    odd = 0.008333333333333333 + w * 2.7557319223985893e-06 + w2 * odd;
+    return 1.0 + z * (even + z * odd);
+}
+
+/* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
+static inline void stumpff_12(double z, double *c1, double *c2)
+{
+    if (z <= 1.0) {
+        *c1 = stumpff_series_1(z);
+        *c2 = stumpff_series_2(z);
+        return;
+    }
+    const double half = 0.5 * sqrt(z);
+    const double sine = sin(half);
+    const double cosine = cos(half);
+    const double ratio = sine / half;
+    *c1 = ratio * cosine;
+    *c2 = 0.5 * (ratio * ratio);
+}
+
+static inline int advance(double state[static 3], double h)
+{
+    if (!isfinite(h)) {
+        return FREE_RIGID_BODY_RKMK_RK4_BAD_STEP;
+    }
+    const double m0 = state[0];
+    const double m1 = state[1];
+    const double m2 = state[2];
+    const double k0_0 = -0.5 * m0;
+    const double w1 = 0.5 * h;
+    const double u2_0 = k0_0 * w1;
+    const double w2 = m1 * w1;
+    const double k0_2 = -1.5 * m2;
+    const double u2_2 = w1 * k0_2;
+    const double w3 = u2_0 * u2_0 + w2 * w2 + u2_2 * u2_2;
+    double c1_1, c2_1;
+    stumpff_12(w3, &c1_1, &c2_1);
+    const double w5 = m2 * w2 + m1 * u2_2;
+    const double w7 = m1 * u2_0 + m0 * w2;
+    const double w8 = m0 * u2_2 - m2 * u2_0;
+    const double f2_0 = -0.5 * (m0 - w5 * c1_1 - (w2 * w7 + u2_2 * w8) * c2_1);
+    const double w9 = h * m1;
+    const double f2_2 = -1.5 * (m2 + w7 * c1_1 + (u2_0 * w8 - w2 * w5) * c2_1);
+    const double w10 = -0.125 * h;
+    const double z1_2 = f2_2 * w10;
+    const double x1_2 = h * k0_2;
+    const double f2_1 = (u2_2 * w5 + u2_0 * w7) * c2_1 - (m1 + w8 * c1_1);
+    const double z1_1 = w10 * f2_1;
+    const double u3_0 = w1 * f2_0 - (w9 * z1_2 + x1_2 * z1_1);
+    const double z1_0 = f2_0 * w10;
+    const double x1_0 = h * k0_0;
+    const double u3_1 = x1_2 * z1_0 - z1_2 * x1_0 + w1 * f2_1;
+    const double u3_2 = w9 * z1_0 + z1_1 * x1_0 + w1 * f2_2;
+    const double w11 = u3_0 * u3_0 + u3_1 * u3_1 + u3_2 * u3_2;
+    double c1_2, c2_2;
+    stumpff_12(w11, &c1_2, &c2_2);
+    const double w13 = m2 * u3_1 - m1 * u3_2;
+    const double w15 = m1 * u3_0 - m0 * u3_1;
+    const double w16 = m0 * u3_2 - m2 * u3_0;
+    const double f3_0 = -0.5 * (m0 + w13 * c1_2 + (u3_1 * w15 - u3_2 * w16) * c2_2);
+    const double u4_0 = h * f3_0;
+    const double Y3_1 = m1 + w16 * c1_2 + (u3_2 * w13 - u3_0 * w15) * c2_2;
+    const double w17 = h * Y3_1;
+    const double f3_2 = -1.5 * (m2 + w15 * c1_2 + (u3_0 * w16 - u3_1 * w13) * c2_2);
+    const double u4_2 = h * f3_2;
+    const double w18 = u4_0 * u4_0 + w17 * w17 + u4_2 * u4_2;
+    double c1_3, c2_3;
+    stumpff_12(w18, &c1_3, &c2_3);
+    const double w20 = m2 * w17 + m1 * u4_2;
+    const double w22 = m1 * u4_0 + m0 * w17;
+    const double w23 = m0 * u4_2 - m2 * u4_0;
+    const double f4_0 = -0.5 * (m0 - w20 * c1_3 - (w17 * w22 + u4_2 * w23) * c2_3);
+    const double w24 = 0.16666666666666666 * h;
+    const double w25 = 0.3333333333333333 * h;
+    const double f4_2 = -1.5 * (m2 + w22 * c1_3 + (u4_0 * w23 - w17 * w20) * c2_3);
+    const double w26 = -0.08333333333333333 * h;
+    const double z2_2 = f4_2 * w26;
+    const double f4_1 = (u4_2 * w20 + u4_0 * w22) * c2_3 - (m1 + w23 * c1_3);
+    const double z2_1 = w26 * f4_1;
+    const double u_0 = (k0_0 + f4_0) * w24 + (f2_0 + f3_0) * w25 - (w9 * z2_2 + x1_2 * z2_1);
+    const double z2_0 = f4_0 * w26;
+    const double u_1 = x1_2 * z2_0 - x1_0 * z2_2 + (w24 * (f4_1 - m1) + w25 * (f2_1 - Y3_1));
+    const double u_2 = x1_0 * z2_1 + w9 * z2_0 + (w24 * (k0_2 + f4_2) + w25 * (f2_2 + f3_2));
+    const double w27 = u_0 * u_0 + u_1 * u_1 + u_2 * u_2;
+    double c1_4, c2_4;
+    stumpff_12(w27, &c1_4, &c2_4);
+    const double w29 = m2 * u_1 - m1 * u_2;
+    const double w31 = m1 * u_0 - m0 * u_1;
+    const double w32 = m0 * u_2 - m2 * u_0;
+    const double new_m0 = m0 + w29 * c1_4 + (u_1 * w31 - u_2 * w32) * c2_4;
+    const double new_m1 = m1 + w32 * c1_4 + (u_2 * w29 - u_0 * w31) * c2_4;
+    const double new_m2 = m2 + w31 * c1_4 + (u_0 * w32 - u_1 * w29) * c2_4;
+    if (!(isfinite(new_m0) && isfinite(new_m1) && isfinite(new_m2))) {
+        return FREE_RIGID_BODY_RKMK_RK4_NOT_FINITE;
+    }
+    state[0] = new_m0;
+    state[1] = new_m1;
+    state[2] = new_m2;
+    return FREE_RIGID_BODY_RKMK_RK4_OK;
+}
+
+int free_rigid_body_rkmk_rk4_step(double state[static 3], double h)
+{
+    return advance(state, h);
+}
+
+int free_rigid_body_rkmk_rk4_run(double state[static 3], double h, size_t steps,
+    double *trajectory, size_t stride, size_t *completed)
+{
+    int status = FREE_RIGID_BODY_RKMK_RK4_OK;
+    size_t step = 0;
+    double *row = stride > 0 ? trajectory : NULL;
+    if (row != NULL) {
+        memcpy(row, state, 3 * sizeof *state);
+    }
+    while (step < steps) {
+        status = advance(state, h);
+        if (status != FREE_RIGID_BODY_RKMK_RK4_OK) {
+            break;
+        }
+        step++;
+        if (row != NULL && step % stride == 0) {
+            row += 3;
+            memcpy(row, state, 3 * sizeof *state);
+        }
+    }
+    if (completed != NULL) {
+        *completed = step;
+    }
+    return status;
+}

@@ -1,0 +1,204 @@
+"""Free rigid body on the sphere (thesis section 2.8): one step by rkmk:rk4
+
+method:     family rkmk, tableau rk4
+source:     Kutta 1901; Hairer, Norsett and Wanner, Solving Ordinary Differential
+            Equations I, Table II.1.2; with brackets: Munthe-Kaas 1998
+order:      4, certificate: exact (every order condition up to it is zero in exact
+            arithmetic)
+scene:      Free rigid body on the sphere (thesis section 2.8), group SO(3)
+state:      [0..2] y: point that SO(3) acts on by rotation
+left out:   1 act, 1 exp (zeros)
+            1 field, 1 lin (sharing)
+            1 identity, 1 zero (dead code)
+            4 act (fusion)
+            4 exp (dead code)
+            parameters, folded: alpha = 0
+            the time: the scene does not depend on it
+            equation solving: every stage is explicit here
+operations: 77 add, 133 mul, 4 stumpff_12 a step
+made by:    orderconds emit free_rigid_body --method rkmk:rk4 --target python -o .
+version:    orderconds 0.1.0
+
+Use:
+
+    import free_rigid_body_rkmk_rk4
+
+    state = [0.4535961214255773, 0.0, 0.8912073600614354]
+    print(free_rigid_body_rkmk_rk4.run(state, 0.02, 100))
+"""
+
+from math import cos, isfinite, sin, sqrt
+
+OK = 0
+NOT_CONVERGED = 1
+NOT_FINITE = 2
+BAD_STEP = 3
+
+
+class StepFailed(ArithmeticError):
+    """A step that could not be made.
+
+    status: NOT_FINITE or BAD_STEP; step: how many steps were made before it;
+    state: the last good state, as a tuple.
+    """
+
+    def __init__(self, status, reason):
+        super().__init__(reason)
+        self.status, self.reason, self.step, self.state = status, reason, 0, ()
+
+    def __str__(self):
+        return f"step {self.step + 1}: {self.reason}"
+
+
+def _stumpff_series_2(z):
+    """Return c_2(z) = sum (-z)^j/(2j+2)! for small z."""
+    w = z * z
+    w2 = w * w
+    if z <= 0.0625:
+        return (
+            (0.5 + z * -0.041666666666666664)
+            + w * (0.001388888888888889 + z * -2.48015873015873e-05)
+            + w2 * (2.755731922398589e-07 + z * -2.08767569878681e-09)
+        )
+    even = -2.08767569878681e-09 + w * -4.779477332387385e-14
+    even = -0.041666666666666664 + w * -2.48015873015873e-05 + w2 * even
+    odd = 1.1470745597729725e-11 + w * 1.5619206968586225e-16
+    odd = 0.001388888888888889 + w * 2.755731922398589e-07 + w2 * odd
+    return 0.5 + z * (even + z * odd)
+
+
+def _stumpff_series_1(z):
+    """Return c_1(z) = sum (-z)^j/(2j+1)! for small z."""
+    w = z * z
+    w2 = w * w
+    if z <= 0.0625:
+        return (
+            (1.0 + z * -0.16666666666666666)
+            + w * (0.008333333333333333 + z * -0.0001984126984126984)
+            + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08)
+        )
+    even = -2.505210838544172e-08 + w * -7.647163731819816e-13
+    even = -0.16666666666666666 + w * -0.0001984126984126984 + w2 * even
+    odd = 1.6059043836821613e-10 + w * 2.8114572543455206e-15
+    odd = 0.008333333333333333 + w * 2.7557319223985893e-06 + w2 * odd
+    return 1.0 + z * (even + z * odd)
+
+
+def _stumpff_12(z):
+    """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
+    if z <= 1.0:
+        return _stumpff_series_1(z), _stumpff_series_2(z)
+    half = 0.5 * sqrt(z)
+    ratio = sin(half) / half
+    return ratio * cos(half), 0.5 * (ratio * ratio)
+
+
+def _advance(state, h):
+    """Return the state after one step as a tuple."""
+    m0, m1, m2 = state
+    k0_0 = -0.5 * m0
+    w1 = 0.5 * h
+    u2_0 = k0_0 * w1
+    w2 = m1 * w1
+    k0_2 = -1.5 * m2
+    u2_2 = w1 * k0_2
+    w3 = u2_0 * u2_0 + w2 * w2 + u2_2 * u2_2
+    c1_1, c2_1 = _stumpff_12(w3)
+    w5 = m2 * w2 + m1 * u2_2
+    w7 = m1 * u2_0 + m0 * w2
+    w8 = m0 * u2_2 - m2 * u2_0
+    f2_0 = -0.5 * (m0 - w5 * c1_1 - (w2 * w7 + u2_2 * w8) * c2_1)
+    w9 = h * m1
+    f2_2 = -1.5 * (m2 + w7 * c1_1 + (u2_0 * w8 - w2 * w5) * c2_1)
+    w10 = -0.125 * h
+    z1_2 = f2_2 * w10
+    x1_2 = h * k0_2
+    f2_1 = (u2_2 * w5 + u2_0 * w7) * c2_1 - (m1 + w8 * c1_1)
+    z1_1 = w10 * f2_1
+    u3_0 = w1 * f2_0 - (w9 * z1_2 + x1_2 * z1_1)
+    z1_0 = f2_0 * w10
+    x1_0 = h * k0_0
+    u3_1 = x1_2 * z1_0 - z1_2 * x1_0 + w1 * f2_1
+    u3_2 = w9 * z1_0 + z1_1 * x1_0 + w1 * f2_2
+    w11 = u3_0 * u3_0 + u3_1 * u3_1 + u3_2 * u3_2
+    c1_2, c2_2 = _stumpff_12(w11)
+    w13 = m2 * u3_1 - m1 * u3_2
+    w15 = m1 * u3_0 - m0 * u3_1
+    w16 = m0 * u3_2 - m2 * u3_0
+    f3_0 = -0.5 * (m0 + w13 * c1_2 + (u3_1 * w15 - u3_2 * w16) * c2_2)
+    u4_0 = h * f3_0
+    Y3_1 = m1 + w16 * c1_2 + (u3_2 * w13 - u3_0 * w15) * c2_2
+    w17 = h * Y3_1
+    f3_2 = -1.5 * (m2 + w15 * c1_2 + (u3_0 * w16 - u3_1 * w13) * c2_2)
+    u4_2 = h * f3_2
+    w18 = u4_0 * u4_0 + w17 * w17 + u4_2 * u4_2
+    c1_3, c2_3 = _stumpff_12(w18)
+    w20 = m2 * w17 + m1 * u4_2
+    w22 = m1 * u4_0 + m0 * w17
+    w23 = m0 * u4_2 - m2 * u4_0
+    f4_0 = -0.5 * (m0 - w20 * c1_3 - (w17 * w22 + u4_2 * w23) * c2_3)
+    w24 = 0.16666666666666666 * h
+    w25 = 0.3333333333333333 * h
+    f4_2 = -1.5 * (m2 + w22 * c1_3 + (u4_0 * w23 - w17 * w20) * c2_3)
+    w26 = -0.08333333333333333 * h
+    z2_2 = f4_2 * w26
+    f4_1 = (u4_2 * w20 + u4_0 * w22) * c2_3 - (m1 + w23 * c1_3)
+    z2_1 = w26 * f4_1
+    u_0 = (k0_0 + f4_0) * w24 + (f2_0 + f3_0) * w25 - (w9 * z2_2 + x1_2 * z2_1)
+    z2_0 = f4_0 * w26
+    u_1 = x1_2 * z2_0 - x1_0 * z2_2 + (w24 * (f4_1 - m1) + w25 * (f2_1 - Y3_1))
+    u_2 = x1_0 * z2_1 + w9 * z2_0 + (w24 * (k0_2 + f4_2) + w25 * (f2_2 + f3_2))
+    w27 = u_0 * u_0 + u_1 * u_1 + u_2 * u_2
+    c1_4, c2_4 = _stumpff_12(w27)
+    w29 = m2 * u_1 - m1 * u_2
+    w31 = m1 * u_0 - m0 * u_1
+    w32 = m0 * u_2 - m2 * u_0
+    new_m0 = m0 + w29 * c1_4 + (u_1 * w31 - u_2 * w32) * c2_4
+    new_m1 = m1 + w32 * c1_4 + (u_2 * w29 - u_0 * w31) * c2_4
+    new_m2 = m2 + w31 * c1_4 + (u_0 * w32 - u_1 * w29) * c2_4
+    return new_m0, new_m1, new_m2
+
+
+def _checked(state, h):
+    """Return the state after one step, which is finite."""
+    try:
+        new = _advance(state, h)
+    except StepFailed:
+        raise
+    except (ArithmeticError, ValueError) as error:
+        raise StepFailed(NOT_FINITE, f"the new state is not finite ({error})") from None
+    if not all(map(isfinite, new)):
+        raise StepFailed(NOT_FINITE, "the new state is not finite")
+    return new
+
+
+def step(state, h):
+    """Return the state after one step of size h as a list; state itself is left alone.
+
+    A step that cannot be made raises StepFailed.
+    """
+    return run(state, h, 1)
+
+
+def run(state, h, steps, *, stride=0):
+    """Return the state after that many steps of size h, as a list.
+
+    With a positive stride, return rows instead: the initial state and every stride-th one
+    after it. A step that cannot be made raises StepFailed, which holds the last good state.
+    """
+    state = tuple(map(float, state))
+    if len(state) != 3:
+        raise ValueError(f"expected 3 numbers in state, found {len(state)}")
+    rows = [list(state)]
+    made = 0
+    try:
+        if not isfinite(h):
+            raise StepFailed(BAD_STEP, f"the step size h = {h} is not finite")
+        for made in range(steps):
+            state = _checked(state, h)
+            if stride > 0 and (made + 1) % stride == 0:
+                rows.append(list(state))
+    except StepFailed as failure:
+        failure.step, failure.state = made, state
+        raise
+    return rows if stride > 0 else list(state)
