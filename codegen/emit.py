@@ -6,6 +6,7 @@ says how it was made, so the same scene, method and options give the same bytes.
 
 from __future__ import annotations
 
+import keyword
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -33,6 +34,9 @@ from orderconds.errors import InputError
 
 STEPS = 100
 """How many steps the usage example makes over the scene's span."""
+
+HEADERS = frozenset({"math", "stddef", "stdio", "string"})
+"""What emitted files and their examples include or import; no emitted file may take such a name."""
 
 
 @dataclass(frozen=True)
@@ -206,9 +210,20 @@ def default_prefix(scene: Setting, method: Method) -> str:
 
 
 def prefix_of(name: str) -> str:
-    """Return a prefix that ends in one underscore; an InputError for what C cannot take as a name."""
+    """Return a prefix that ends in one underscore; an InputError for what C or Python cannot take.
+
+    The prefix names the files too, so it may not be a keyword, under which Python imports nothing, nor a
+    header or module that emitted code includes.
+    """
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
         raise InputError(
             f"the prefix {name!r}", where="--prefix", expected="a letter, then letters, digits and _"
         )
-    return name.rstrip("_") + "_"
+    module = name.rstrip("_")
+    if keyword.iskeyword(module) or module in HEADERS:
+        raise InputError(
+            f"the prefix {name!r}",
+            where="--prefix",
+            expected="a name for the files that is no keyword of Python and no standard header",
+        )
+    return module + "_"

@@ -48,7 +48,7 @@ def number(value: Number) -> str:
 def spell(root: Expr, names: dict[str, str]) -> tuple[str, ...]:
     """Return the text of an expression, cut where a line may be broken; ``" ".join`` gives one line.
 
-    ``names`` maps symbols and functions to identifiers of the target; those missing stand for themselves.
+    ``names`` maps symbols to identifiers of the target; those missing stand for themselves, as do functions.
     Powers must have a symbol as base and exponent 2 or 3 (see :mod:`codegen.printers.arrange`).
     """
     made: dict[int, Spelling] = {}
@@ -80,7 +80,7 @@ def spell(root: Expr, names: dict[str, str]) -> tuple[str, ...]:
                 made[node.id] = Spelling((" * ".join([args[0].text] * node.payload),), PRODUCT)
             case _:
                 inner = ", ".join(" ".join(signed(a)) for a in args)
-                made[node.id] = Spelling((f"{names.get(node.payload, node.payload)}({inner})",), ATOM)
+                made[node.id] = Spelling((f"{node.payload}({inner})",), ATOM)
     return signed(made[root.id])
 
 

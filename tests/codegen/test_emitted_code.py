@@ -4,16 +4,23 @@ from __future__ import annotations
 
 import math
 import os
+import shutil
 import subprocess
 import sys
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
 import pytest
+from sympy import Matrix, cos, exp, sin, symbols
 
-from codegen.build import Compiler, compile_files
+from codegen.build import CompileError, Compiler, compile_files
+from codegen.emit import emit, prefix_of
+from codegen.groups import SO3, Rotation
 from codegen.load import Statistics, Status, StepFailed, load
 from codegen.printers.c.module import FLAGS
+from codegen.scene import FieldScene, param
+from orderconds.errors import InputError
 
 GOLDEN = Path(__file__).parents[1] / "golden"
 ROOT = Path(__file__).parents[2]
@@ -248,3 +255,80 @@ def test_emitted_bytes_do_not_depend_on_the_hash_seed(tmp_path):
     ]
     assert len(answers[0].splitlines()) == 8
     assert answers[0] == answers[1] == answers[2]
+
+
+def test_c_refuses_to_be_compiled_without_checks_for_nan(kernels, tmp_path, compiler):
+    """Under -ffast-math isfinite is always true, and a NaN would come back as a success."""
+    emission = kernels.emission(kernels.rigid(), "c")
+    with pytest.raises(CompileError, match="compile without -ffast-math"):
+        compile_files(
+            emission.files, tmp_path, tmp_path / "out.o", ("-std=c11", "-O3", "-ffast-math", "-c"), compiler
+        )
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+def test_no_step_fails_where_none_is_asked_for(kernels, target):
+    integrator = load(kernels.emission(kernels.rigid(), target))
+    assert integrator.run([0.4, -0.3, 0.9], math.nan, 0) == [0.4, -0.3, 0.9]
+
+
+def test_emitted_python_computes_in_floats_whatever_numbers_it_is_given(kernels):
+    step = load(kernels.emission(kernels.pendulum(), "python")).module.step
+    with np.errstate(all="raise"):
+        given = step(np.array([0.5, 0.25]), np.float64(0.5), Fraction(1, 8), np.float32(2))
+    assert {type(x) for x in given} == {float}
+    assert given == step([0.5, 0.25], 0.5, 0.125, 2.0)
+
+
+HOSTILE = [
+    "exp",
+    "sin",
+    "made",
+    "all",
+    "new",
+    "failure",
+    "I",
+    "errno",
+    "class",
+    "M_PI",
+    "isfinite",
+    "previous_1",
+]
+HOSTILE += ["odd_OK", "ODD_OK", "ODD_BAD_STEP", "odd_statistics", "odd_run"]
+
+
+def scene_with_parameters(names):
+    y = Matrix(symbols("y0:3", real=True))
+    field = y - y
+    for k, name in enumerate(names):
+        field += Matrix([cos(k), sin(k), 1]) * param(name, 1) * exp(y[k % 3]) * sin(y[(k + 1) % 3]) / 50
+    return FieldScene(group=SO3(), action=Rotation(), y=y, f=field, y0=[1, 0, 0], span=(0, 1))
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+def test_parameters_may_be_named_like_anything_that_emitted_code_holds(target):
+    results = []
+    for names in (HOSTILE, [f"harmless{k}" for k in range(len(HOSTILE))]):
+        integrator = load(
+            emit(scene_with_parameters(names), "rkmk:gauss2", target, prefix="odd_", parameters=names)
+        )
+        values = {name: 0.5 + k / 8 for k, name in enumerate(names)}
+        results.append(integrator.run([0.6, 0.0, 0.8], 0.125, 3, **values))
+    assert results[0] == pytest.approx(results[1], rel=0, abs=1e-15)
+
+
+def test_headers_are_read_by_c_plus_plus_whatever_parameters_are_called(tmp_path):
+    if shutil.which("c++") is None:
+        pytest.skip("c++ is not installed")
+    files = emit(scene_with_parameters(HOSTILE), "rk4", "c", prefix="odd_", parameters=HOSTILE).files
+    (tmp_path / "odd.h").write_text(files["odd.h"])
+    (tmp_path / "use.cpp").write_text('#include <cerrno>\n#include <cmath>\n#include "odd.h"\n')
+    command = ["c++", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "use.cpp"]
+    run = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stderr
+
+
+@pytest.mark.parametrize("prefix", ["1a", "class", "lambda_", "math", "string_", "a-b", ""])
+def test_a_prefix_that_no_file_or_name_can_take_is_refused(prefix):
+    with pytest.raises(InputError, match="--prefix: the prefix"):
+        prefix_of(prefix)

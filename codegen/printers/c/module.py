@@ -16,11 +16,14 @@ from codegen.templates import environment
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """The flags that emitted C is promised to compile under, without a warning."""
 
+STATUSES = ("OK", "NOT_CONVERGED", "NOT_FINITE", "BAD_STEP")
+"""The status codes, each after the prefix in capitals."""
+
 
 def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[str, str]:
     """Return the texts of PREFIX.h and PREFIX.c for one step."""
     arrangement = arrange(kernel)
-    names = register(kernel, arrangement, Names(RESERVED))
+    names = register(kernel, arrangement, Names(RESERVED | own_names(interface)))
     variables = declarations(kernel, interface, names)
     symbols = tuple(s for f in kernel.state for s in f.symbols)
     statements = Statements(arrangement, names, interface.prefix)
@@ -49,6 +52,13 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         f"{interface.module}.{kind}": env.get_template(f"module/module.{kind}.j2").render(variables)
         for kind in ("h", "c")
     }
+
+
+def own_names(interface: Interface) -> frozenset[str]:
+    """Return what a module itself declares or defines, which no variable may hide."""
+    prefix, upper = interface.prefix, interface.prefix.upper()
+    functions = {f"{prefix}{name}" for name in ("step", "run", "statistics")}
+    return frozenset(functions | {f"{upper}{name}" for name in (*STATUSES, "H")})
 
 
 def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str, object]:

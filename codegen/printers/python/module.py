@@ -46,6 +46,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             blocks=[quoted(label) for label in interface.blocks],
             size=interface.size,
             time=interface.time,
+            floats=[*time, "h", *parameters],
             state=unpacking([names.spelled[s] for s in symbols]),
             inner=", ".join(["state", *time, "h", *parameters, *statistics]),
             step=", ".join(["state", *time, "h", *arguments, *keywords(optional)]),

@@ -14,10 +14,10 @@ from codegen.printers.names import Names
 WIDTH = 88
 
 _WORDS = """
-    abs max range float len list map sum tuple zip True False None
+    abs all max range float len list map sum tuple zip ArithmeticError ValueError
     sqrt sin cos exp log inf isfinite
     state statistics steps step stride trajectory run row rows sweep change scale total
-    settled error labels count
+    settled error failure labels count made new
     OK NOT_CONVERGED NOT_FINITE BAD_STEP StepFailed Statistics
 """
 RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split())
