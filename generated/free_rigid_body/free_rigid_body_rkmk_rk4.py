@@ -187,12 +187,13 @@ def run(state, h, steps, *, stride=0):
     after it. A step that cannot be made raises StepFailed, which holds the last good state.
     """
     state = tuple(map(float, state))
+    h = float(h)
     if len(state) != 3:
         raise ValueError(f"expected 3 numbers in state, found {len(state)}")
     rows = [list(state)]
     made = 0
     try:
-        if not isfinite(h):
+        if steps > 0 and not isfinite(h):
             raise StepFailed(BAD_STEP, f"the step size h = {h} is not finite")
         for made in range(steps):
             state = _checked(state, h)
