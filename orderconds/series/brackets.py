@@ -18,6 +18,7 @@ from random import Random
 
 from orderconds.errors import InputError
 from orderconds.ring.protocol import Element, Ring
+from orderconds.series.bracket_bounds import beyond_lie, least_brackets, newest_factors
 from orderconds.series.dexpinv import DexpinvSeries
 from orderconds.series.graded import GradedAlgebra, Polynomial, solve
 from orderconds.trees.levels import branches
@@ -95,7 +96,7 @@ def fewest_brackets(
     bases = _graded_bases(ring, A, b, order)
     algebra = GradedAlgebra(ring, [grade for grade, _ in bases], order)
     arguments, rows = _arguments(algebra, values, bases), [row for _, row in bases]
-    least, shared = _least(algebra, arguments), _shared(algebra, arguments)
+    least, shared = least_brackets(algebra, arguments), _shared(algebra, arguments)
     plans = [before for before in (shared, {}) if before or not shared]
     tries = [(seed, before) for seed in (None, *range(attempts)) for before in plans]
     searches = (
@@ -147,46 +148,6 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
     return algebra.largest - (i < len(arguments) - 1)
 
 
-def _newest_factor(algebra: GradedAlgebra, argument: Polynomial, newest: int, limit: int) -> Polynomial:
-    """Return P without its constant, where ad_P q is the part linear in a letter q: the words before q."""
-    return {
-        word[:-1]: x
-        for word, x in algebra.cut(argument, limit).items()
-        if len(word) > 1 and word.count(newest) == 1 and word[-1] == newest
-    }
-
-
-def _beyond_lie(algebra: GradedAlgebra, x: Polynomial) -> Polynomial:
-    """Return x less a Lie element, zero if x is one.
-
-    Right-normed brackets multiply a Lie element of length n by n (Dynkin).
-    """
-    ring, total = algebra.ring, dict[tuple[int, ...], Element]()
-    for word, value in x.items():
-        nested: Polynomial = {word[-1:]: ring.one}
-        for letter in reversed(word[:-1]):
-            nested = algebra.bracket({(letter,): ring.one}, nested)
-        total = algebra.combine((ring.one, total), (value * ring.rational(1, len(word)), nested))
-    return algebra.combine((ring.one, x), (ring.rational(-1), total))
-
-
-def _least(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> int:
-    """Add up what the newest stage value in each argument needs: a lower bound for any program.
-
-    The part of u_i linear in its newest letter q_(i-1) is ad_P q_(i-1), a constant in P aside, and comes from
-    brackets in which q_(i-1) is the newest letter. No bracket has two newest letters, so the numbers of
-    brackets add up. A single one with that letter is [c q + x, d q + y], x and y of what is older; its part
-    linear in q is ad_z q for z = d x - c y, a Lie element. So a P that is no Lie element takes two.
-    """
-    needed, first = 0, False
-    for i, argument in enumerate(arguments):
-        limit = _limit(algebra, arguments, i)
-        factor = _newest_factor(algebra, argument, i - 1, limit)
-        first |= any(len(word) > 1 for word in algebra.cut(argument, limit))
-        needed += 0 if not factor else 2 if _beyond_lie(algebra, factor) else 1
-    return max(needed, int(first))
-
-
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
     """Return for stages i the combinations u_j + c u_i, j a later stage, that one newest bracket may make.
 
@@ -196,10 +157,10 @@ def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int
     one, found = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
     for i, argument in enumerate(stages):
-        excess = _beyond_lie(algebra, _newest_factor(algebra, argument, i - 1, algebra.largest))
+        excess = beyond_lie(algebra, newest_factors(argument, i - 1).get(i - 1, {}))
         for later in stages[i + 1 :] if excess else []:
             nested = {word: x for word, x in later.items() if len(word) > 1 or word[0] < i}
-            also = _beyond_lie(algebra, _newest_factor(algebra, nested, i - 1, algebra.largest))
+            also = beyond_lie(algebra, newest_factors(nested, i - 1).get(i - 1, {}))
             ratio = solve(algebra.ring, [excess], also) if also else None
             if ratio is not None and all(max(word) < i for word in nested):
                 combination = algebra.combine((one, nested), (algebra.ring.zero - ratio[0], argument))

@@ -1,6 +1,7 @@
 """Munthe-Kaas methods with few brackets: how many, that no program has fewer, and their exact local error."""
 
 from fractions import Fraction
+from functools import cache
 
 import pytest
 
@@ -67,6 +68,20 @@ BUTCHER_6_SIXTHS = explicit(
     ],
     "13/200 0 11/40 11/40 4/25 4/25 13/200",
 )
+VERNER_6 = explicit(
+    [
+        "",
+        "1/6",
+        "4/75 16/75",
+        "5/6 -8/3 5/2",
+        "-165/64 55/6 -425/64 85/96",
+        "12/5 -8 4015/612 -11/36 88/255",
+        "-8263/15000 124/75 -643/680 -81/250 2484/10625",
+        "3501/1720 -300/43 297275/52632 -319/2322 24068/84065 0 3850/26703",
+    ],
+    "3/40 0 875/2244 23/72 264/1955 0 125/11592 43/616",
+)
+
 CASES = {
     "kutta3": (KUTTA_3, 3, 1, 1),
     "rk4": (RK4, 4, 2, 2),
@@ -75,7 +90,14 @@ CASES = {
     "dormand-prince 5": (DORMAND_PRINCE_5, 5, 5, 5),
     "butcher6": (BUTCHER_6, 6, 9, 9),
     "butcher6 with sixths": (BUTCHER_6_SIXTHS, 6, 9, 9),
+    "verner6": (VERNER_6, 6, 10, 9),
 }
+
+
+@cache
+def program_of(name):
+    method, order, _, _ = CASES[name]
+    return fewest_brackets(QQ, method.A, method.b, order)
 
 
 def order_of(series, most):
@@ -87,15 +109,15 @@ def order_of(series, most):
 
 @pytest.mark.parametrize("name", CASES)
 def test_brackets_are_few_and_the_order_is_kept_exactly(name):
-    method, order, brackets, least = CASES[name]
-    program = fewest_brackets(QQ, method.A, method.b, order)
+    _, order, brackets, least = CASES[name]
+    program = program_of(name)
     assert (len(program.brackets), program.least) == (brackets, least)
     assert order_of(BracketedSeries(QQ, program), order + 1) == order
 
 
 def test_rk4_has_the_two_brackets_of_munthe_kaas_and_owren():
     # u3 = k2/2 - [k1, k2]/8, u = (k1 + 2 k2 + 2 k3 + k4)/6 - [k1, k4]/12 (Munthe-Kaas and Owren 1999).
-    program = fewest_brackets(QQ, RK4.A, RK4.b, 4)
+    program = program_of("rk4")
     algebra = GradedAlgebra(QQ, (1, 1, 1, 1), 4)
     values = {("k", n): {(n,): QQ.one} for n in range(4)}
 
@@ -113,13 +135,13 @@ def test_rk4_has_the_two_brackets_of_munthe_kaas_and_owren():
 
 
 def test_order_six_takes_no_bracket_for_the_sixth_stage_value():
-    program = fewest_brackets(QQ, BUTCHER_6.A, BUTCHER_6.b, 6)
+    program = program_of("butcher6")
     newest = [max(n for row in rows for kind, n in row if kind == "k") for rows in program.brackets]
     assert newest == [1, 1, 2, 2, 3, 3, 4, 6, 6]
 
 
 def test_one_bracket_taken_away_costs_the_order():
-    program = fewest_brackets(QQ, RK4.A, RK4.b, 4)
+    program = program_of("rk4")
     spoilt = dict(program.update)
     del spoilt["B", 1]
     broken = type(program)(program.brackets, program.stages, spoilt, 0, program.grades)
@@ -127,7 +149,7 @@ def test_one_bracket_taken_away_costs_the_order():
 
 
 def test_uncut_munthe_kaas_series_and_its_program_agree_up_to_the_order():
-    program, whole = fewest_brackets(QQ, RK4.A, RK4.b, 4), families.get("rkmk").series(RK4, QQ)
+    program, whole = program_of("rk4"), families.get("rkmk").series(RK4, QQ)
     for n in range(1, 5):
         short = forest_residuals(BracketedSeries(QQ, program), QQ, n)
         assert short == forest_residuals(whole, QQ, n), [text(w) for w in short]
@@ -243,9 +265,9 @@ class Problem:
 
 @pytest.mark.parametrize("name", CASES)
 def test_the_local_error_of_a_concrete_step_starts_one_power_above_the_order(name):
-    method, order, _, _ = CASES[name]
+    order = CASES[name][1]
     problem = Problem(order + 1)
-    step = problem.step(fewest_brackets(QQ, method.A, method.b, order))
+    step = problem.step(program_of(name))
     error = [a - b for a, b in zip(step, problem.flow(), strict=True)]
     assert all(x.coefficients[n] == 0 for x in error for n in range(order + 1))
     assert any(x.coefficients[order + 1] != 0 for x in error)

@@ -1,0 +1,95 @@
+"""How many brackets arguments need at least, whatever the program: a bound by linear algebra.
+
+An argument u_i is there before the stage value it leads to, so that no letter of a bracket in it is newer
+than q_(i-1). Let N be the number of brackets, in any program for u_1, ..., u_i, that have a letter from q_m
+to q_(i-1). Older brackets and single letters give an argument no word of two letters and more that holds one
+of these, so N is at least the dimension of the span of such words in the arguments. Further, the first such
+bracket is [x + sum c_n q_n, y + sum d_n q_n], x and y of older letters. Its part in which they stand but once
+is sum_n ad_(P_n) q_n, where all P_n = d_n x - c_n y are Lie elements. If such parts of the arguments span d
+dimensions and only for zero are all P_n Lie elements, that of the first bracket is not among them, and N is
+at least d + 1. For the letters before q_m and those from q_m to q_(i-1), the brackets are others: bounds add
+up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from orderconds.ring.protocol import Element, Ring
+from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
+
+
+def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
+    """Return P_n for n >= ``first``, sum_n ad_(P_n) q_n the part of x in which such letters stand but once.
+
+    They are read off the words that end in q_n; constants in them are left out.
+
+    >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
+    {1: {(0,): '2'}}
+    """
+    found = dict[int, Polynomial]()
+    for word, value in x.items():
+        if len(word) > 1 and word[-1] >= first and all(letter < first for letter in word[:-1]):
+            found.setdefault(word[-1], {})[word[:-1]] = value
+    return found
+
+
+def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
+    """Return x less a Lie element; zero if and only if x, which has no constant, is one.
+
+    Right-normed brackets multiply a Lie element of length n by n (Dynkin).
+
+    >>> from orderconds.ring import QQ
+    >>> algebra = GradedAlgebra(QQ, (1, 2), 3)
+    >>> beyond_lie(algebra, algebra.bracket({(0,): QQ.one}, {(1,): QQ.one}))
+    {}
+    """
+    ring, total = algebra.ring, dict[Word, Element]()
+    for word, value in x.items():
+        nested: Polynomial = {word[-1:]: ring.one}
+        for letter in reversed(word[:-1]):
+            nested = algebra.bracket({(letter,): ring.one}, nested)
+        total = algebra.combine((ring.one, total), (value * ring.rational(1, len(word)), nested))
+    return algebra.combine((ring.one, x), (ring.rational(-1), total))
+
+
+def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Element]]) -> int:
+    """Return a number of brackets below which no program makes u_1, ..., u_s and u.
+
+    The arguments of the stages count up to one grade below the largest, u, the last, up to the largest.
+
+    >>> from orderconds.ring import QQ
+    >>> algebra, q = GradedAlgebra(QQ, (1, 2, 3), 6), [{(n,): QQ.one} for n in range(3)]
+    >>> least_brackets(algebra, [{}, q[0], q[1], algebra.bracket(q[0], algebra.bracket(q[0], q[2]))])
+    2
+    """
+    bounds, last = [0], len(arguments) - 1
+    for i in range(1, len(arguments)):
+        known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
+        # With u, what is beyond the grade of the stages would be known of u alone.
+        spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
+        needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
+        bounds.append(max(bounds[-1], *needed))
+    return bounds[-1]
+
+
+def _needed(algebra: GradedAlgebra, span: Sequence[Mapping[Word, Element]], first: int) -> int:
+    """Return how many brackets that hold letters from ``first`` on these elements need."""
+    ring, parts, beyond = algebra.ring, list[Polynomial](), list[Polynomial]()
+    for x in span:
+        factors = newest_factors(x, first)
+        parts.append({(*word, n): value for n, p in factors.items() for word, value in p.items()})
+        beyond.append(
+            {(*w, n): value for n, p in factors.items() for w, value in beyond_lie(algebra, p).items()}
+        )
+    nested = [{word: v for word, v in x.items() if len(word) > 1 and max(word) >= first} for x in span]
+    once = _rank(ring, parts)
+    return max(_rank(ring, nested), once + (0 < once == _rank(ring, beyond)))
+
+
+def _rank(ring: Ring, columns: Sequence[Polynomial]) -> int:
+    kept = list[Polynomial]()
+    for column in columns:
+        if solve(ring, kept, column) is None:
+            kept.append(column)
+    return len(kept)
