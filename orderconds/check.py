@@ -178,12 +178,14 @@ def check(
     order: int | None = None,
     *,
     complete: bool = False,
+    certified: bool = False,
 ) -> Report:
     """Find the exact order of ``tableau`` (or of the file, or the library name) in each family it claims.
 
     With ``family`` (``"vcg"``, ``"rkmk(1)"``) that family alone, claimed or not. With ``order`` the order
     must be at least that, in place of the claims. With ``complete`` a claim is missing, and fails, for each
-    family that the tableau can serve. A tableau without claims is checked in the family of its format.
+    family that the tableau can serve; with ``certified`` an order that rounded decimals support, and no more,
+    fails. A tableau without claims is checked in the family of its format.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family,
     :class:`~orderconds.errors.ZeroWeight` where a family divides by some b_i = 0,
@@ -207,13 +209,14 @@ def check(
         broken += _broken_claims(tableau, embedded)
     if complete:
         broken += [f"no order is claimed in family {name}, which it can serve" for name in unclaimed(tableau)]
+    orders = tuple(_certified(family_order(enclosed, f, claimed, order), f, facts) for f, claimed in wanted)
+    if certified:
+        broken += [f"{f.family}: certificate decimal" for f in orders if f.certificate == "decimal"]
     return Report(
         name=tableau.name,
         file=tableau.path,
         format=tableau.family,
-        orders=tuple(
-            _certified(family_order(enclosed, f, claimed, order), f, facts) for f, claimed in wanted
-        ),
+        orders=orders,
         properties=properties(tableau),
         broken_claims=tuple(broken),
         proof=proof,

@@ -41,6 +41,7 @@ BUILT_IN = {
         "orderconds.commands.refine",
         "Sharpen the decimals of a tableau by Newton's method and prove them.",
     ),
+    "table": ("orderconds.commands.table", "The library as a Markdown table; keep it current in a file."),
     "trees": ("orderconds.commands.trees", "Enumerate, draw and explain trees, forests and Lyndon words."),
 }
 """Built-in commands: name -> (module that holds ``command``, one line for --help)."""

@@ -30,9 +30,19 @@ WIDTH = 200
 @click.option("--family", "-f", help="This family alone (vcg, 'rkmk(1)'), claimed or not.")
 @click.option("--order", "-p", type=click.IntRange(1, 20), help="Require at least this order.")
 @click.option("--complete", is_flag=True, help="Demand a claim for every family that a tableau can serve.")
+@click.option(
+    "--certified",
+    is_flag=True,
+    help="Demand certificates exact or ball, but of those that DIR/DECIMAL names.",
+)
 @click.option("--json", "as_json", is_flag=True, help="One list of records on stdout, nothing else.")
 def command(
-    tableaux: Sequence[str], family: str | None, order: int | None, complete: bool, as_json: bool
+    tableaux: Sequence[str],
+    family: str | None,
+    order: int | None,
+    complete: bool,
+    certified: bool,
+    as_json: bool,
 ) -> int:
     """Find the exact order and the properties of each tableau: a file, every file below a directory, or a
     name from the library. A claim is an equality.
@@ -46,10 +56,12 @@ def command(
         get(family)  # an unknown family is one error, not one a file
     reports: list[Report] = []
     unread = 0
+    excused = _excused(tableaux)
     for path in _files(tableaux):
         try:
             with screen.working(f"checking {path}"):
-                report = check(path, family=family, order=order, complete=complete)
+                demanded = certified and Path(path).stem not in excused
+                report = check(path, family=family, order=order, complete=complete, certified=demanded)
         except InputError as error:
             # The other files are still worth checking; the status tells that one was not.
             message = str(error)
@@ -66,6 +78,17 @@ def command(
     if unread:
         return 2
     return 0 if all(report.verdict == "holds" for report in reports) else 1
+
+
+def _excused(arguments: Sequence[str]) -> set[str]:
+    """Return the names in the files DECIMAL of the directories: lines "NAME: reason"."""
+    names = set[str]()
+    for argument in arguments:
+        listed = Path(argument) / "DECIMAL"
+        if os.path.isdir(argument) and listed.is_file():
+            lines = listed.read_text(encoding="utf-8").splitlines()
+            names |= {line.partition(":")[0].strip() for line in lines if not line.startswith("#")}
+    return names
 
 
 def _files(arguments: Sequence[str]) -> Iterator[str]:

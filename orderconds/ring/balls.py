@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from flint import arb, fmpq
+from flint import arb, fmpq, fmpz
 
 from orderconds.ring.decimals import endpoints, rational_decimal, rational_float
 from orderconds.ring.precision import precision
@@ -109,7 +109,7 @@ class Balls:
         figures = int((middle / unit).round())
         if places <= 0:
             return f"{figures}~*10^{-places}"
-        sign, body = ("-" if figures < 0 else ""), str(abs(figures)).rjust(places + 1, "0")
+        sign, body = ("-" if figures < 0 else ""), str(fmpz(abs(figures))).rjust(places + 1, "0")
         return f"{sign}{body[:-places]}.{body[-places:]}~"
 
     def key(self, x: Ball) -> tuple[int, ...]:
@@ -145,7 +145,7 @@ def _magnitude(x: arb) -> int:
 
 def _supported_places(radius: fmpq) -> int:
     """Return the most decimal places d with radius + half a unit <= one unit, that is 10^-d >= 2 radius."""
-    places = len(str(int(radius.q))) - len(str(int(radius.p)))
+    places = len(str(radius.q)) - len(str(radius.p))  # by flint: Python spells 4300 digits at most
     while fmpq(10) ** -places < 2 * radius:
         places -= 1
     return places

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from flint import arb, fmpq
+from flint import arb, fmpq, fmpz
 
 Rounded = TypeVar("Rounded", str, float)
 Enclosure = Callable[[int], Any]
@@ -43,7 +43,9 @@ def rational_decimal(x: fmpq, digits: int) -> str:
     p, q = abs(int(x.p)), int(x.q)
     if p == 0:
         return "0"
-    exponent = len(str(p)) - len(str(q))  # 10^exponent <= p/q < 10^(exponent+1), up to the correction below
+    exponent = len(_figures(p)) - len(
+        _figures(q)
+    )  # 10^exponent <= p/q < 10^(exponent+1), up to the correction below
     if p * 10 ** max(-exponent, 0) < q * 10 ** max(exponent, 0):
         exponent -= 1
     shift = digits - 1 - exponent
@@ -52,10 +54,15 @@ def rational_decimal(x: fmpq, digits: int) -> str:
         scaled += 1
         if scaled == 10**digits:
             scaled, exponent = scaled // 10, exponent + 1
-    figures = str(scaled)
+    figures = _figures(scaled)
     if rest == 0:
         figures = figures.rstrip("0")
     return ("-" if x < 0 else "") + _spell(figures, exponent)
+
+
+def _figures(n: int) -> str:
+    """Return the decimal digits of n; flint spells integers of any length, Python none beyond 4300 digits."""
+    return str(fmpz(n))
 
 
 def _spell(figures: str, exponent: int) -> str:

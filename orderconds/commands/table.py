@@ -1,0 +1,104 @@
+"""``orderconds table``: the library as a table for people, and whether a file shows it as it is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from orderconds.commands import screen
+from orderconds.errors import InputError
+
+if TYPE_CHECKING:
+    from orderconds.tableau import OrderClaim
+
+BEGIN, END = "<!-- begin: orderconds table -->", "<!-- end: orderconds table -->"
+ON_GROUPS = ("cf", "cg", "rkmk", "vcg", "vcf", "vrkmk")
+COLUMNS = ("tableau", "format", "orders claimed", "stages", "exponentials", "error norm", "certificate")
+
+
+@click.command(name="table", short_help="The library as a Markdown table; keep it current in a file.")
+@click.option("--write", metavar="FILE", help="Put the table between the marks in FILE.")
+@click.option("--check", "against", metavar="FILE", help="Fail unless FILE has the table as it is.")
+def command(write: str | None, against: str | None) -> int:
+    """Print a line for each tableau of the library: its orders, and in the family of the highest order its
+    exponentials, the norm of the leading error and the certificate, computed.
+
+    Exits with 1 where --check finds another table.
+    """
+    table = "\n".join([BEGIN, *markdown(), END])
+    for path in filter(None, (write, against)):
+        text = _text(path)
+        start, end = text.find(BEGIN), text.find(END)
+        if not 0 <= start < end:
+            raise InputError("no place for the table", where=path, expected=f"{BEGIN} and {END}")
+        new = text[:start] + table + text[end + len(END) :]
+        if path == write:
+            Path(path).write_text(new, encoding="utf-8")
+        elif new != text:
+            click.echo(f"{path}: another table; type: orderconds table --write {path}", err=True)
+            return 1
+    if write is None and against is None:
+        click.echo("\n".join(table.splitlines()[1:-1]))
+    return 0
+
+
+def markdown() -> Iterator[str]:
+    """Yield the lines of the table.
+
+    >>> next(markdown())
+    '| tableau | format | orders claimed | stages | exponentials | error norm | certificate |'
+    """
+    from orderconds.tableau import available
+
+    yield f"| {' | '.join(COLUMNS)} |"
+    yield "|" + "---|" * len(COLUMNS)
+    for name in available():
+        with screen.working(f"checking {name}"):
+            yield f"| {' | '.join(row(name))} |"
+
+
+def row(name: str) -> tuple[str, ...]:
+    """Return the cells of one tableau.
+
+    >>> row("cf4")
+    ('cf4', 'cf', 'cf 4, rk 4, vcf 4', '4', '5', '5.68e-02', 'exact')
+    """
+    from orderconds.check import check
+    from orderconds.tableau import Tableau, find
+
+    tableau = Tableau.load(find(name))
+    best: dict[str, int] = {}
+    for claim in tableau.claims.orders:
+        best[claim.family] = max(best.get(claim.family, 0), claim.order)
+    main = min(tableau.claims.orders, key=_least_said, default=None)
+    report = check(tableau, family=main.label if main else None)
+    found = report.orders[0]
+    cost = report.work.get(found.family)
+    method = tableau.method
+    return (
+        name,
+        tableau.family,
+        ", ".join(f"{family} {order}" for family, order in sorted(best.items(), key=lambda x: (-x[1], x[0]))),
+        str(getattr(method, "s", None) or len(getattr(method, "stages", ())) or "-"),
+        str(cost.exponentials) if cost and cost.exponentials is not None else "-",
+        "-" if found.error_norm is None else f"{found.error_norm:.2e}",
+        found.certificate,
+    )
+
+
+def _least_said(claim: OrderClaim) -> tuple[int, int, int]:
+    """Sort the highest order first, and among equals a family on groups, whose exponentials count."""
+    rank = ON_GROUPS.index(claim.family) if claim.family in ON_GROUPS else len(ON_GROUPS)
+    return -claim.order, rank, claim.cutoff or 0
+
+
+def _text(path: str) -> str:
+    try:
+        return Path(path).read_text(encoding="utf-8")
+    except OSError as problem:
+        raise InputError(
+            (problem.strerror or "unreadable").lower(), where=path, expected="a text file"
+        ) from None

@@ -1,0 +1,55 @@
+"""``orderconds table``: the library as a table, current in a file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from orderconds.cli import program
+from orderconds.commands import table
+from orderconds.tableau import available
+
+ROOT = Path(__file__).parents[3]
+
+
+def run(*arguments: str):  # type: ignore[no-untyped-def]
+    return CliRunner().invoke(program, ["table", *arguments])
+
+
+def test_the_readme_names_every_tableau() -> None:
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    shown = text[text.index(table.BEGIN) : text.index(table.END)].splitlines()[3:]
+    assert tuple(line.split(" | ")[0].removeprefix("| ") for line in shown) == available()
+
+
+@pytest.fixture
+def three(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("orderconds.tableau.available", lambda: ("cf4", "rk4"))
+
+
+@pytest.mark.usefixtures("three")
+def test_a_table_is_put_between_the_marks_and_then_found_there(tmp_path: Path) -> None:
+    file = tmp_path / "README.md"
+    file.write_text(f"before\n{table.BEGIN}\n{table.END}\nafter\n", encoding="utf-8")
+    assert run("--check", str(file)).exit_code == 1
+    assert run("--write", str(file)).exit_code == 0
+    assert run("--check", str(file)).exit_code == 0
+    text = file.read_text(encoding="utf-8")
+    assert text.startswith("before\n")
+    assert text.endswith("after\n")
+    assert "| rk4 | rk | rk 4, rkmk 4, sprk 4, vrkmk 4, cg 2, vcg 2 | 4 | 4 | 1.03e-01 | exact |" in text
+
+
+@pytest.mark.usefixtures("three")
+def test_without_a_file_the_table_is_printed() -> None:
+    assert run().output.splitlines()[0].startswith("| tableau | format |")
+
+
+@pytest.mark.usefixtures("three")
+def test_a_file_without_marks_is_bad_usage(tmp_path: Path) -> None:
+    (tmp_path / "x.md").write_text("nothing", encoding="utf-8")
+    result = run("--write", str(tmp_path / "x.md"))
+    assert result.exit_code == 2
+    assert "no place for the table" in result.output
