@@ -14,13 +14,16 @@ import difflib
 import importlib
 import os
 import sys
-from importlib import metadata
-from typing import Any, NoReturn
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 
 from orderconds import __version__
 from orderconds.errors import InputError, UnknownName
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 COMMAND_GROUP = "orderconds.commands"
 """The entry-point group in which other packages offer commands."""
@@ -56,7 +59,7 @@ class Program(click.Group):
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return every command's name: the built-in ones first, then those of other packages."""
-        others = sorted({entry.name for entry in metadata.entry_points(group=COMMAND_GROUP)} - set(BUILT_IN))
+        others = sorted({entry.name for entry in _offered()} - set(BUILT_IN))
         return [*BUILT_IN, *others]
 
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
@@ -64,7 +67,7 @@ class Program(click.Group):
         if name in BUILT_IN:
             command = importlib.import_module(BUILT_IN[name][0]).command
         else:
-            entries = [entry for entry in metadata.entry_points(group=COMMAND_GROUP) if entry.name == name]
+            entries = [entry for entry in _offered() if entry.name == name]
             if not entries:
                 return None
             try:
@@ -144,6 +147,13 @@ class Program(click.Group):
         except OSError as error:
             status = _complain(f"{error.filename or 'system'}: {error.strerror or error}")
         sys.exit(status)
+
+
+def _offered() -> Iterable[EntryPoint]:
+    """Return the commands of other packages; the import costs more than reading a tableau, so it waits."""
+    from importlib import metadata
+
+    return metadata.entry_points(group=COMMAND_GROUP)
 
 
 def _usage_message(error: click.UsageError) -> str:
