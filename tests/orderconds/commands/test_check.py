@@ -154,7 +154,7 @@ def test_bad_usage_exits_2_with_one_message(
 def test_check_imports_no_heavy_package(rk4: Path) -> None:
     code = (
         "import sys\nfrom orderconds.cli import program\n"
-        f"try: program.main(['check', {str(rk4)!r}, 'cg3', 'cf4', 'triple_jump'])\n"
+        f"try: program.main(['check', {str(rk4)!r}, 'cg3', 'cf4', 'cg4a', 'triple_jump'])\n"
         "except SystemExit as end: assert end.code == 0, end.code\n"
         "heavy = {'sympy', 'networkx', 'numpy', 'scipy', 'matplotlib', 'rich', 'jinja2', 'cffi', 'codegen'}\n"
         "print(sorted(heavy & set(sys.modules)), file=sys.stderr)"
