@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from decimal import Decimal
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 
 from orderconds import Tableau, check, families
+from orderconds.cli import program
 from orderconds.errors import InputError, UnknownName, ZeroWeight
+from orderconds.tableau.library import available, root
 
 
 def rk(A: str, b: str, claims: str = "", name: str = "method") -> Tableau:
@@ -156,3 +160,27 @@ def test_json_of_a_report_has_the_documented_keys() -> None:
     (found,) = record["orders"].values()  # type: ignore[attr-defined]
     assert list(found) == ["claimed", "order", "verdict", "certificate", "failing", "error_norm"]
     assert list(found["failing"][0]) == ["order", "tree", "expression", "residual"]
+
+
+def test_a_demand_for_certificates_refuses_decimals_but_those_that_are_listed(tmp_path: Path) -> None:
+    decimal = 'name = "half"\nfamily = "rk"\nA = [["0.50000000000000000~"]]\nb = ["1"]\n[claims]\nrk = 2\n'
+    report = check(Tableau.loads(decimal), certified=True)
+    assert report.broken_claims == ("rk: certificate decimal",)
+    (tmp_path / "half.toml").write_text(decimal, encoding="utf-8")
+
+    def status() -> int:
+        return CliRunner().invoke(program, ["check", "--certified", str(tmp_path)]).exit_code
+
+    assert status() == 1
+    (tmp_path / "DECIMAL").write_text("# why\nhalf: a test\n", encoding="utf-8")
+    assert status() == 0
+
+
+def test_at_most_five_tableaux_of_the_library_are_decimals_each_with_a_reason() -> None:
+    lines = (root() / "DECIMAL").read_text(encoding="utf-8").splitlines()
+    listed = [line for line in lines if line and not line.startswith("#")]
+    assert len(listed) <= 5
+    for line in listed:
+        name, _, reason = line.partition(":")
+        assert name in available()
+        assert reason.strip()
