@@ -89,6 +89,10 @@ class Method:
             return method
         return self.runge_kutta().as_crouch_grossman(self.ring)
 
+    def abscissae(self) -> tuple[Element, ...]:
+        """Return c_i, the sum of the coefficients of stage i of the commutator-free reading."""
+        return self.commutator_free().as_runge_kutta(self.ring).c
+
 
 def _file(name: str) -> Path:
     """Return the file that name is, or the library's file of that name."""

@@ -22,7 +22,7 @@ from codegen.lower import lower, setting
 from codegen.method import Method
 from codegen.scene import FieldScene, HamiltonianScene
 from orderconds.ring import QQ
-from orderconds.tableau import RungeKutta, Tableau, find
+from orderconds.tableau import CommutatorFree, RungeKutta, Stage, Tableau, find
 
 ORDER = 5
 """Exact samples are series in h up to this power."""
@@ -198,6 +198,23 @@ def full(s: int, seed: int = 0) -> Tableau:
         b.append(1 - sum(b))
         if b[-1]:
             return butcher(f"full{s}", A, b)
+
+
+def full_exponentials(s: int, seed: int = 0) -> Tableau:
+    """Return a random commutator-free tableau of order 1: two exponentials everywhere, no zeros.
+
+    The second stage starts from the first.
+    """
+    rng = random.Random(f"exponentials {s} {seed}")
+
+    def row() -> tuple[Any, ...]:
+        return tuple(QQ.rational(rng.choice((-3, -2, -1, 1, 2, 3)), rng.randint(3, 5)) for _ in range(s))
+
+    stages = tuple(Stage(0 if i == 1 else None, (row(), row())) for i in range(s))
+    first = row()
+    rest = [QQ.one - sum(first, QQ.zero), *(QQ.rational(1, k + 4) for k in range(s - 1))]
+    rest[0] = rest[0] - sum(rest[1:], QQ.zero)
+    return Tableau(f"cf_full{s}", "cf", QQ, CommutatorFree(stages, Stage(None, (first, tuple(rest)))))
 
 
 def shipped(name: str) -> Tableau:

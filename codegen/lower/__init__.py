@@ -10,10 +10,18 @@ from codegen.ir.program import Program
 from codegen.method import Method
 from codegen.scene import Setting
 
-LOWERINGS = {"rk": "rkmk", "rkmk": "rkmk", "cg": "cf", "cf": "cf", "vcg": "vcg", "vrkmk": "vrkmk"}
+LOWERINGS = {
+    "rk": "rkmk",
+    "rkmk": "rkmk",
+    "cg": "cf",
+    "cf": "cf",
+    "vcg": "vcg",
+    "vrkmk": "vrkmk",
+    "vcf": "vcf",
+}
 """Family name to module."""
 
-ON_COTANGENT = frozenset({"vcg", "vrkmk"})
+ON_COTANGENT = frozenset({"vcg", "vrkmk", "vcf"})
 """Families that need a Hamiltonian scene; all others see it as a field on the group T*G."""
 
 

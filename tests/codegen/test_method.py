@@ -15,7 +15,7 @@ from orderconds.tableau import Tableau
 from tests.strategies import butcher, field_scene, hamiltonian_scene, shipped
 
 FIELD = ("rkmk", "cg", "cf")
-ALL = ("rkmk", "cg", "cf", "vcg", "vrkmk")
+ALL = ("rkmk", "cg", "cf", "vcg", "vrkmk", "vcf")
 
 
 @pytest.mark.parametrize(
@@ -32,6 +32,7 @@ ALL = ("rkmk", "cg", "cf", "vcg", "vrkmk")
         ("cg:rk4", FIELD, "cg:rk4"),
         ("vcg:triple_jump", ALL, "vcg:triple_jump"),
         (" cf4 ", FIELD, "cf:cf4"),
+        ("cf4", ("vcg", "vcf", "cf"), "vcf:cf4"),
         ("cg3", FIELD, "rkmk:cg3"),
         ("cg3", ("cg", "rkmk"), "cg:cg3"),
     ],
@@ -88,7 +89,7 @@ def test_plain_runge_kutta_needs_a_vector_space(place):
     assert "expected R^n; use rkmk, cg or cf" in refused(scenes.load(place), Method("rk", shipped("rk4")))
 
 
-@pytest.mark.parametrize(("family", "cutoff"), [("vcg", None), ("vrkmk", 1)])
+@pytest.mark.parametrize(("family", "cutoff"), [("vcg", None), ("vcf", None), ("vrkmk", 1)])
 def test_variational_families_divide_by_every_weight(family, cutoff):
     tableau = butcher("zero", [[0, 0], ["1/2", 0]], [0, 1])
     message = refused(scenes.load("dipole"), Method(family, tableau, cutoff), ZeroWeight)
@@ -127,7 +128,7 @@ def test_a_family_without_lowering_is_named():
 @pytest.mark.parametrize("family", sorted(LOWERINGS))
 def test_every_lowering_serves_a_cotangent_bundle(family):
     scene = hamiltonian_scene("R^3")
-    tableau = shipped("cf4" if family == "cf" else "heun")
+    tableau = shipped("cf4" if family in ("cf", "vcf") else "heun")
     program = lower(scene, Method(family, tableau, 1 if family in WITH_CUTOFF else None))
     paired = family in ON_COTANGENT
     assert [name for name, _ in program.outputs] == (["q", "mu"] if paired else ["y"])

@@ -16,7 +16,7 @@ from codegen.lab.local_error import leading_term, local_error, predicted, valuat
 from codegen.lower import lower, setting
 from codegen.method import Method
 from codegen.passes import optimise
-from tests.strategies import butcher, field_scene, full, hamiltonian_scene, shipped
+from tests.strategies import butcher, field_scene, full, full_exponentials, hamiltonian_scene, shipped
 
 SUM_OF_CUBES_ZERO = butcher(
     "midpoints",
@@ -85,6 +85,8 @@ VARIATIONAL = [
     case("vcg", "heun", 2),
     case("vcg", SUM_OF_CUBES_ZERO, 3),
     case("vcg", full(2), 1),
+    case("vcf", "midpoint", 2),
+    case("vcf", full_exponentials(2), 1),
     case("vrkmk", "midpoint", 2, 0),
     case("vrkmk", "kutta3", 2, 0),
     case("vrkmk", "kutta3", 3, 1),
@@ -176,6 +178,10 @@ def test_with_the_fewest_brackets_orders_five_and_six_are_kept(tableau, order, b
     assert valuation(error) == order + 1
     assert certified_order(method).order == order
     assert optimise(lower(field_scene("S^2"), method), view)[0].counts()["ad"] == brackets
+
+
+def test_variational_commutator_free_of_order_four():
+    agree(hamiltonian_scene("SO(3)"), Method("vcf", shipped("cf4")), 4)
 
 
 def test_crouch_grossman_of_owren_and_marthinsen_has_order_four():

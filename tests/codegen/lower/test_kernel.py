@@ -52,6 +52,7 @@ CASES = [
     *[("rkmk", t, field_scene("S^2", time=time), 2) for t in ("rk4", full(2)) for time in (False, True)],
     ("rkmk", "rk4", hamiltonian_scene("SO(3)"), 2),
     ("vcg", "midpoint", hamiltonian_scene("SO(3)", time=True), None),
+    ("vcf", "cf4", hamiltonian_scene("SO(3)"), None),
     ("vrkmk", "kutta3", hamiltonian_scene("SO(3)"), 1),
     ("vrkmk", full(2), hamiltonian_scene("SO(3)"), 2),
     ("cf", "cf4", field_scene("S^2"), None),

@@ -18,7 +18,7 @@ from codegen.lower import lower, setting
 from codegen.method import Method
 from codegen.passes import optimise
 from orderconds.ring import QQ
-from tests.strategies import field_scene, full, hamiltonian_scene, shipped
+from tests.strategies import field_scene, full, full_exponentials, hamiltonian_scene, shipped
 
 ORDER = 4
 DEXPINV = ((1, 1), (-1, 2), (1, 12), (0, 1), (-1, 720))
@@ -102,6 +102,57 @@ class Oracle:
         zero = (d.rational(0),) * G.dim
         xi, M = self.iterate(sweep, ([zero] * len(b), [mu0] * len(b)))
         q, _, _, _, mubar1 = everything(xi, M)
+        return {"q": q[-1], "mu": G.Adtinv(d, q[-1], mubar1)}
+
+    def vcf(self):
+        """The Hamilton equations of the discrete Lagrangian, not relative to q0, momenta from mubar1."""
+        d, G = self.d, self.group
+        method = self.tableau.read_as(("cf",))
+        if method is None:
+            method = self.tableau.method.as_crouch_grossman(self.tableau.ring)
+        full = [[[self.number(x) for x in row] for row in method.from_start(p)] for p in method.stages]
+        alpha, beta = full, [[self.number(x) for x in row] for row in method.update.exponentials]
+        stages, zero = range(len(alpha)), d.rational(0)
+        b = [sum((row[i] for row in beta), zero) for i in stages]
+        c = [sum((x for row in rows for x in row), zero) for rows in alpha]
+        q0, mu0 = self.blocks
+
+        def exponents(rows, xi):
+            return [plus(*(times(d.h * x, v) for x, v in zip(row, xi, strict=True))) for row in rows]
+
+        def points(X):
+            found = [q0]
+            for x in X:
+                found.append(G.mul(d, G.exp(d, x), found[-1]))
+            return found
+
+        def everything(xi, M):
+            Y, X = exponents(beta, xi), [exponents(rows, xi) for rows in alpha]
+            q, Q = points(Y), [points(x) for x in X]
+            both = [self.f(c[i], Q[i][-1], M[i]) for i in stages]
+            new, n = [x[: G.dim] for x in both], [x[G.dim :] for x in both]
+            nbar = [G.Adt(d, Q[i][-1], n[i]) for i in stages]
+            mubar1 = plus(G.Adt(d, q0, mu0), *(times(d.h * b[j], nbar[j]) for j in stages))
+            return Y, X, q, Q, new, nbar, mubar1
+
+        def sweep(pair):
+            Y, X, q, Q, xi, nbar, mubar1 = everything(*pair)
+            M = []
+            for i in stages:
+                total = (zero,) * G.dim
+                for J, row in enumerate(beta):
+                    moved = G.dexpt(d, Y[J], G.Adtinv(d, q[J + 1], mubar1))
+                    total = plus(total, times(row[i], moved))
+                for j in stages:
+                    for J, row in enumerate(alpha[j]):
+                        moved = G.dexpt(d, X[j][J], G.Adtinv(d, Q[j][J + 1], nbar[j]))
+                        total = plus(total, times(-(d.h * (b[j] * row[i])), moved))
+                M.append(times(d.rational(1) / b[i], total))
+            return xi, M
+
+        start = ([(zero,) * G.dim for _ in stages], [mu0 for _ in stages])
+        xi, M = self.iterate(sweep, start)
+        _, _, q, _, _, _, mubar1 = everything(xi, M)
         return {"q": q[-1], "mu": G.Adtinv(d, q[-1], mubar1)}
 
     def cut(self, bracket, x, y):
@@ -288,6 +339,26 @@ class TestVariationalCrouchGrossmanIsItsEquation:
     def test_with_time(self, tableau):
         method = Method("vcg", RATIONAL[tableau])
         check(hamiltonian_scene("SO(3)", time=True), method, SeriesDomain(QQ, ORDER), Oracle.vcg)
+
+
+class TestVariationalCommutatorFreeIsItsEquation:
+    @pytest.mark.parametrize("group", HAMILTONIANS)
+    @pytest.mark.parametrize("tableau", ["cf4", "random"])
+    def test_exactly(self, group, tableau):
+        method = Method("vcf", shipped("cf4") if tableau == "cf4" else full_exponentials(2))
+        check(hamiltonian_scene(group), method, SeriesDomain(QQ, ORDER), Oracle.vcf)
+
+    @pytest.mark.parametrize("tableau", ["midpoint", "full2", "kutta3"])
+    def test_of_a_butcher_tableau_it_is_crouch_grossman(self, tableau):
+        method = Method("vcf", RATIONAL[tableau])
+        check(hamiltonian_scene("SO(3)"), method, SeriesDomain(QQ, ORDER), Oracle.vcg)
+
+    def test_to_forty_digits(self):
+        check(hamiltonian_scene("SO(3)"), Method("vcf", shipped("cf4")), precise(), Oracle.vcf)
+
+    def test_with_time(self):
+        scene, method = hamiltonian_scene("SO(3)", time=True), Method("vcf", shipped("cf4"))
+        check(scene, method, SeriesDomain(QQ, ORDER), Oracle.vcf)
 
 
 class TestVariationalMuntheKaasIsItsEquation:

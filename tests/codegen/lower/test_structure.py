@@ -19,6 +19,7 @@ VARIATIONAL = [
     "vcg:midpoint",
     "vcg:triple_jump",
     "vcg:gauss2",
+    "vcf:cf4",
     "vrkmk(0):midpoint",
     "vrkmk(1):kutta3",
     "vrkmk(2):gauss2",

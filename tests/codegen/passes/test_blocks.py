@@ -124,3 +124,11 @@ def test_explicit_vrkmk_needs_one_momentum_for_all_stages():
     optimised, _ = optimise(program, view)
     (block,) = (s for s in optimised.body if isinstance(s, Solve))
     assert [v.name for v in block.unknowns] == ["v1", "v2", "Lambda"]
+
+
+def test_vcf_of_a_composition_is_solved_stage_by_stage_like_vcg():
+    blocks_of = []
+    for family in ("vcf", "vcg"):
+        view, program = lowered(family, "triple_jump", hamiltonian_scene("SO(3)"))
+        blocks_of.append([len(s.unknowns) for s in optimise(program, view)[0].body if isinstance(s, Solve)])
+    assert blocks_of == [[2, 2, 2]] * 2

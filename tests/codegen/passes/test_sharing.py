@@ -73,3 +73,12 @@ def test_after_sharing_a_composition_cancels():
     shared = dead.run(zeros.run(sharing.run(zeros.run(program))))
     unshared = dead.run(zeros.run(zeros.run(program)))
     assert shared.counts()["dexpt"] < unshared.counts()["dexpt"]
+
+
+def test_vcf4_shares_what_cf4_shares():
+    """Stage 4 starts from stage 2: five exponentials, not six, and one product more than stages need."""
+    from codegen.passes import optimise
+
+    view, program = lowered("vcf", "cf4", hamiltonian_scene("SO(3)"))
+    optimised, _ = optimise(program, view)
+    assert optimised.counts()["exp"] == 5

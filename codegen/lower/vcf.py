@@ -1,0 +1,132 @@
+"""Variational commutator-free methods on T*G: VCG with several stages in one exponential.
+
+The discrete Lagrangian is h sum_i b_i l(Q_i, xi_i), b_i = sum_J beta_J^i, with the products of a commutator-free
+method: X_iJ = h sum_j alpha_iJ^j xi_j, E_i^J = exp(X_iJ) E_i^{J-1}, Q_i = E_i q0; Y_J = h sum_j beta_J^j xi_j,
+e^J = exp(Y_J) e^{J-1}. Relative to q0, with nu_j = Ad*_{E_j} n_j and mubar = mu0 + h sum_j b_j nu_j, its Hamilton
+equations are
+
+    b_i M_i = sum_J beta_J^i dexp*_{-Y_J} Ad*_{(e^{J-1})^-1} mubar
+              - h sum_j sum_J b_j alpha_jJ^i dexp*_{-X_jJ} Ad*_{(E_j^{J-1})^-1} nu_j,
+    q1 = e q0,   mu1 = Ad*_{e^-1} mubar.
+
+As for VCG every factor's own exponential is merged into dexp* (dexp*_x Ad*_{exp(-x)} = dexp*_{-x}), and terms are
+kept apart for the passes to see what cancels. A stage that starts from another has that one's exponentials before
+its own; shared prefixes are found by the passes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from codegen.ir.number import Number
+from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
+from codegen.lower.stages import Stages
+from codegen.method import Method
+from codegen.scene import Setting
+from orderconds.errors import ZeroWeight
+
+Rows = tuple[tuple[Number, ...], ...]
+"""The exponentials of one product from y0 on; the first acts first."""
+
+
+@dataclass(frozen=True)
+class _Product:
+    """A product of exponentials: minus each exponent, and the partial products after 0, 1, ... factors."""
+
+    rows: Rows
+    minus: tuple[Var, ...]
+    partial: tuple[Var, ...]
+
+
+def lower(scene: Setting, method: Method) -> Program:
+    """Return the program of a VCF method; :class:`orderconds.errors.ZeroWeight` where some b_i = 0."""
+    rows, update = _coefficients(method)
+    s = len(rows)
+    b = _weights(method, update, s)
+    q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
+    stages = Stages(scene, method, (q, mu))
+    do = stages.builder
+    xi = [do.fresh(f"xi{i + 1}", Kind.ALG) for i in range(s)]
+    n = [do.fresh(f"n{i + 1}", Kind.DUAL) for i in range(s)]
+    shared: dict[str, Var] = {}
+
+    def exponent(name: str, row: tuple[Number, ...], sign: int) -> Var:
+        scaled = (stages.times_h(x if sign > 0 else -x) for x in row)
+        return do.lin(name, Kind.ALG, list(zip(scaled, xi, strict=True)))
+
+    def product(name: str, rows: Rows) -> _Product:
+        partial, minus = [do.do("identity", f"{name}0")], []
+        for J, row in enumerate(rows, start=1):
+            g = do.do("exp", f"g{name}{J}", exponent(f"x{name}{J}", row, 1))
+            partial.append(do.do("mul", f"{name}{J}", g, partial[-1]))
+            minus.append(exponent(f"y{name}{J}", row, -1))
+        return _Product(rows, tuple(minus), tuple(partial))
+
+    def carried(i: int, along: _Product, J: int, m: Var) -> Var:
+        moved = do.do("Adtinv", f"m{i + 1}", along.partial[J], m)
+        return do.do("dexpt", f"p{i + 1}", along.minus[J], moved)
+
+    def momentum(i: int, e: _Product, E: list[_Product], nu: list[Var]) -> Var:
+        """Append M_i, one term a coefficient."""
+        terms = []
+        for J, row in enumerate(e.rows):
+            if not row[i].is_zero:
+                share = row[i] / b[i]
+                terms.append((Coefficient(share), carried(i, e, J, mu)))
+                terms += [(stages.times_h(b[j] * share), carried(i, e, J, nu[j])) for j in range(s)]
+        for j, stage in enumerate(E):
+            for J, row in enumerate(stage.rows):
+                if not row[i].is_zero:
+                    factor = stages.times_h(-(b[j] * (row[i] / b[i])))
+                    terms.append((factor, carried(i, stage, J, nu[j])))
+        return do.lin(f"M{i + 1}", Kind.DUAL, terms)
+
+    def images() -> list[Var]:
+        e = product("e", update)
+        E = [product(f"E{i + 1}_", r) for i, r in enumerate(rows)]
+        nu = [do.do("Adt", f"nu{j + 1}", E[j].partial[-1], n[j]) for j in range(s)]
+        found = []
+        c = method.abscissae()
+        for i in range(s):
+            Q = do.do("mul", f"Q{i + 1}", E[i].partial[-1], q)
+            found.append(do.hamilton(f"f{i + 1}", f"r{i + 1}", Q, momentum(i, e, E, nu), *stages.at(c[i])))
+        terms = [(ONE, mu)] + [(stages.times_h(b[j]), nu[j]) for j in range(s)]
+        shared.update(e=e.partial[-1], mubar=do.lin("mubar", Kind.DUAL, terms))
+        return [x for x, _ in found] + [r for _, r in found]
+
+    def starts() -> list[Var]:
+        x, r = do.hamilton("xi0", "n0", q, mu, *stages.at(None))
+        return [x] * s + [r] * s
+
+    def result() -> dict[str, Var]:
+        e = shared["e"]
+        return {"q": do.do("mul", "q1", e, q), "mu": do.do("Adtinv", "mu1", e, shared["mubar"])}
+
+    return stages.program(xi + n, images, starts, result)
+
+
+def _coefficients(method: Method) -> tuple[list[Rows], Rows]:
+    """Return the exponentials of each stage and of the update, those of the stages they start from first."""
+    tableau = method.commutator_free()
+    *stages, update = (
+        tuple(tuple(method.number(x) for x in row) for row in tableau.from_start(stage))
+        for stage in (*tableau.stages, tableau.update)
+    )
+    return stages, update
+
+
+def _weights(method: Method, update: Rows, s: int) -> list[Number]:
+    """Return b_i = sum_J beta_J^i, none of them zero."""
+    b = []
+    for i in range(s):
+        weight = Number.rational(0)
+        for row in update:
+            weight = weight + row[i]
+        if weight.is_zero:
+            raise ZeroWeight(
+                f"b_{i + 1} = 0",
+                where=f"vcf:{method.tableau.name}",
+                expected="all b_i non-zero: VCF divides by them",
+            )
+        b.append(weight)
+    return b

@@ -1,0 +1,40 @@
+/* Dipole on a stick, T*SO(3) (thesis section 3.6): one step by vcf:cf4: functions and status codes. dipole_vcf_cf4.c tells how to use them. */
+#ifndef DIPOLE_VCF_CF4_H
+#define DIPOLE_VCF_CF4_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+    DIPOLE_VCF_CF4_OK = 0, /* the step was made */
+    DIPOLE_VCF_CF4_NOT_CONVERGED = 1, /* an implicit block did not settle */
+    DIPOLE_VCF_CF4_NOT_FINITE = 2, /* the new state would hold an infinity or a NaN */
+    DIPOLE_VCF_CF4_BAD_STEP = 3 /* h is infinite or a NaN */
+};
+
+/* Fixed-point sweeps, added up over all steps since the caller set everything to zero. */
+typedef struct {
+    size_t sweeps[1]; /* by block: the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4 */
+    size_t most; /* the most that one block took in one step */
+    size_t failed; /* 1 + the block that failed, 0 if none has */
+} dipole_vcf_cf4_statistics;
+
+/* Make one step of size h. When the status is not DIPOLE_VCF_CF4_OK, the state is as it was. */
+int dipole_vcf_cf4_step(double state[12], double h, dipole_vcf_cf4_statistics *statistics);
+
+/*
+ * Make steps of size h until all are made or one fails; the state is then the last good one and
+ * *completed how many were made. A trajectory receives the initial state and every stride-th one after
+ * it: steps/stride + 1 rows of 12. statistics, trajectory and completed may be NULL.
+ */
+int dipole_vcf_cf4_run(double state[12], double h, size_t steps, double *trajectory,
+    size_t stride, dipole_vcf_cf4_statistics *statistics, size_t *completed);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
