@@ -1,17 +1,17 @@
 """Variational commutator-free methods on T*G: VCG with several stages in one exponential.
 
-The discrete Lagrangian is h sum_i b_i l(Q_i, xi_i), b_i = sum_J beta_J^i, with the products of a commutator-free
-method: X_iJ = h sum_j alpha_iJ^j xi_j, E_i^J = exp(X_iJ) E_i^{J-1}, Q_i = E_i q0; Y_J = h sum_j beta_J^j xi_j,
-e^J = exp(Y_J) e^{J-1}. Relative to q0, with nu_j = Ad*_{E_j} n_j and mubar = mu0 + h sum_j b_j nu_j, its Hamilton
-equations are
+The discrete Lagrangian is h sum_i b_i l(Q_i, xi_i), b_i = sum_J beta_J^i, with the products of a
+commutator-free method: X_iJ = h sum_j alpha_iJ^j xi_j, E_i^J = exp(X_iJ) E_i^{J-1}, Q_i = E_i q0; Y_J = h
+sum_j beta_J^j xi_j, e^J = exp(Y_J) e^{J-1}. Relative to q0, with nu_j = Ad*_{E_j} n_j and mubar = mu0 + h
+sum_j b_j nu_j, its Hamilton equations are
 
     b_i M_i = sum_J beta_J^i dexp*_{-Y_J} Ad*_{(e^{J-1})^-1} mubar
               - h sum_j sum_J b_j alpha_jJ^i dexp*_{-X_jJ} Ad*_{(E_j^{J-1})^-1} nu_j,
     q1 = e q0,   mu1 = Ad*_{e^-1} mubar.
 
-As for VCG every factor's own exponential is merged into dexp* (dexp*_x Ad*_{exp(-x)} = dexp*_{-x}), and terms are
-kept apart for the passes to see what cancels. A stage that starts from another has that one's exponentials before
-its own; shared prefixes are found by the passes.
+As for VCG every factor's own exponential is merged into dexp* (dexp*_x Ad*_{exp(-x)} = dexp*_{-x}), and
+terms are kept apart for the passes to see what cancels. A stage that starts from another has that one's
+exponentials before its own; shared prefixes are found by the passes.
 """
 
 from __future__ import annotations

@@ -42,6 +42,10 @@
 #include <math.h>
 #include <string.h>
 
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
+#error "compile without -ffast-math (-ffinite-math-only): it removes the checks for infinities and NaNs"
+#endif
+
 /* c_3(z) = sum (-z)^j/(2j+3)! for small z */
 static inline double stumpff_series_3(double z)
 {

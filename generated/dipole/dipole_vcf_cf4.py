@@ -76,7 +76,7 @@ def _failed(status, label, block, sweep, statistics):
     if statistics is not None:
         statistics.count(block, sweep)
         statistics.failed = block + 1
-    reason = "is not finite" if status == NOT_FINITE else "did not converge"
+    reason = "met a number that is not finite" if status == NOT_FINITE else "did not converge"
     return StepFailed(status, f"{label} {reason} after {sweep} sweeps")
 
 
@@ -1150,12 +1150,13 @@ def run(state, h, steps, *, stride=0, statistics=None):
     after it. A step that cannot be made raises StepFailed, which holds the last good state.
     """
     state = tuple(map(float, state))
+    h = float(h)
     if len(state) != 12:
         raise ValueError(f"expected 12 numbers in state, found {len(state)}")
     rows = [list(state)]
     made = 0
     try:
-        if not isfinite(h):
+        if steps > 0 and not isfinite(h):
             raise StepFailed(BAD_STEP, f"the step size h = {h} is not finite")
         for made in range(steps):
             state = _checked(state, h, statistics)
