@@ -38,7 +38,8 @@ def _partials(node: Expr) -> list[Expr]:
         case "mul":
             return [args[1], args[0]]
         case "div":
-            return [space.one / args[1], -(node / args[1])]
+            inverse = space.one / args[1]  # one division serves both, and slopes of the same quotient
+            return [inverse, -(node * inverse)]
         case "neg":
             return [-space.one]
         case "pow":
@@ -55,7 +56,7 @@ def _derivative(node: Expr) -> Expr:
     space, x = node.space, node.args[0]
     match node.payload:
         case "sqrt":
-            return space.const(Number.rational(1, 2)) / node
+            return space.const(Number.rational(1, 2)) * (space.one / node)
         case "sin":
             return space.call("cos", x)
         case "cos":

@@ -91,8 +91,11 @@ class FloatDomain:
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         if not math.isfinite(change):
             raise NotConverged("a fixed-point iteration left the finite numbers")
-        small = change <= 2.0**-44 * max(1.0, *(abs(a) for a in old))
-        return small and (change == 0 or (previous is not None and change >= previous)), change
+        scale = max(1.0, *(abs(a) for a in old))
+        before = previous or 0.0
+        if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
+            return True, change
+        return 0 < before <= change <= 2.0**-44 * scale, change
 
 
 class PreciseDomain:

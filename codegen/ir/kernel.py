@@ -12,6 +12,9 @@ from dataclasses import dataclass
 
 from codegen.ir.expr import Expr, walk
 
+UNIT = 2.0**-53
+"""Half a unit in the last place of one."""
+
 
 @dataclass(frozen=True)
 class Let:
@@ -26,9 +29,10 @@ class Loop:
     """Iterate unknowns <- images over body until the largest change stands still at rounding level.
 
     ``label`` names the block in messages and statistics ("stage 2"); ``starts`` are evaluated before the
-    loop. The iteration has converged when the largest change is at most ``tolerance`` times
-    max(1, largest unknown) and has stopped decreasing (or is zero); after ``limit`` sweeps without that it
-    has failed, and so has a change that is not finite.
+    loop. With the largest change d and its predecessor e, both in units of max(1, largest unknown), the
+    iteration has converged when d <= ``tolerance`` and d >= e (it stands still), or d <= ``close`` and
+    d^2/e <= ``UNIT`` (the next change would be below rounding); after ``limit`` sweeps without that it has
+    failed, and so has a change that is not finite.
     """
 
     label: str
@@ -38,6 +42,22 @@ class Loop:
     images: tuple[Expr, ...]
     tolerance: float = 2.0**-44
     limit: int = 100
+
+    @property
+    def close(self) -> float:
+        """The largest change after which a contraction is trusted to finish."""
+        return self.tolerance / 16
+
+    def settled(self, change: float, previous: float, scale: float) -> bool:
+        """Return whether a change ends the iteration; ``previous`` is 0 in the first sweep.
+
+        >>> loop = Loop("x", (), (), (), ())
+        >>> loop.settled(1e-15, 1e-13, 1.0), loop.settled(1e-15, 2e-15, 1.0), loop.settled(1e-15, 0.0, 1.0)
+        (True, False, False)
+        """
+        if change <= self.close * scale and change * change <= UNIT * scale * previous:
+            return True
+        return previous > 0 and previous <= change <= self.tolerance * scale
 
 
 @dataclass(frozen=True)

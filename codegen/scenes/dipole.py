@@ -15,7 +15,7 @@ a, beta = Rational(1, 10), param("beta", 1)
 I = diag(1 + a**2, 1, a**2)  # noqa: E741 (the inertia tensor's name)
 e2, e3, z = Matrix([0, 1, 0]), Matrix([0, 0, 1]), Matrix([0, 0, -Rational(3, 2)])
 r = [sqrt(v.dot(v)) for v in (g * Matrix([0, s * a, -1]) - z for s in (1, -1))]
-T = (mu.T * g * I.inv() * g.T * mu)[0] / 2
+T = sum(p**2 / (2 * i) for p, i in zip(g.T * mu, I.diagonal(), strict=True))
 V = -e3.dot(g * e3) + beta * (1 / r[0] - 1 / r[1])
 g0 = Matrix([[1, 0, 0], [0, 0, -1], [0, 1, 0]])
 

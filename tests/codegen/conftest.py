@@ -64,7 +64,7 @@ def interpret(kernel: Kernel, values: Mapping[str, float]) -> tuple[float, ...]:
             known[statement.name] = value((statement.value,))[0]
             continue
         known.update(zip(statement.unknowns, value(statement.starts), strict=True))
-        previous = math.inf
+        previous = 0.0
         for _ in range(statement.limit):
             for let in statement.body:
                 known[let.name] = value((let.value,))[0]
@@ -72,7 +72,7 @@ def interpret(kernel: Kernel, values: Mapping[str, float]) -> tuple[float, ...]:
             now = [known[u] for u in statement.unknowns]
             change = max(abs(a - b) for a, b in zip(images, now, strict=True))
             scale = max(1.0, *map(abs, now))
-            if change <= statement.tolerance * scale and (change >= previous or change == 0):
+            if statement.settled(change, previous, scale):
                 break
             previous = change
             known.update(zip(statement.unknowns, images, strict=True))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from codegen.ir.expr import Expr
+from codegen.ir.kernel import UNIT
 from codegen.printers.arrange import Arrangement, Assignment, Iteration, Joint
 from codegen.printers.expression import spell
 from codegen.printers.names import Names
@@ -27,7 +28,7 @@ _WORDS = """
     M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_PI M_PI_2 M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2
     main NULL INFINITY NAN size_t memcpy fmax
     sqrt sin cos exp log fabs isfinite greater
-    state statistics steps step stride trajectory completed status advance row sweep change scale
+    state statistics steps step stride trajectory completed status advance row sweep change scale still close
     count_sweeps
 """
 RESERVED = frozenset(_WORDS.split()) | {f"stumpff_{''.join(map(str, orders))}" for orders in SETS}
@@ -99,7 +100,7 @@ class Statements:
         if statement.kept:
             kept = [self.names.spelled[n] for n in statement.kept]
             yield from fill("double", (*(f"{n}," for n in kept[:-1]), kept[-1]), ";")
-        yield f"double {previous} = INFINITY;"
+        yield f"double {previous} = 0.0;"
         yield "for (size_t sweep = 1;; sweep++) {"
         for inner in statement.body:
             for line in self._simple(inner, statement.kept):
@@ -126,7 +127,13 @@ class Statements:
         yield f"    count_sweeps(statistics, {block}, sweep, 1);"
         yield f"    return {self.prefix.upper()}NOT_FINITE;"
         yield "}"
-        yield f"if (change <= {loop.tolerance!r} * scale && (change >= {previous} || change <= 0.0)) {{"
+        yield f"const int still = {previous} > 0.0 && change >= {previous};"
+        yield from fill(
+            "const int close =",
+            (f"change <= {loop.close!r} * scale", f"&& change * change <= {UNIT!r} * scale * {previous}"),
+            ";",
+        )
+        yield f"if (close || (still && change <= {loop.tolerance!r} * scale)) {{"
         yield f"    count_sweeps(statistics, {block}, sweep, 0);"
         yield "    break;"
         yield "}"

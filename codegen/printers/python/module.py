@@ -41,7 +41,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
                 for line in header(recipe, layout(kernel), sentences(operations(arrangement)), 84)
             ],
             usage=usage(interface, recipe),
-            imports=sorted([*imports, *(["inf"] if interface.blocks else [])]),
+            imports=imports,
             snippets=found.texts,
             blocks=[quoted(label) for label in interface.blocks],
             size=interface.size,

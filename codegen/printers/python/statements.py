@@ -7,6 +7,7 @@ import keyword
 from collections.abc import Iterator, Sequence
 
 from codegen.ir.expr import Expr
+from codegen.ir.kernel import UNIT
 from codegen.printers.arrange import Arrangement, Assignment, Iteration, Joint
 from codegen.printers.expression import spell
 from codegen.printers.names import Names
@@ -15,7 +16,7 @@ WIDTH = 88
 
 _WORDS = """
     abs all max range float len list map sum tuple zip ArithmeticError ValueError
-    sqrt sin cos exp log inf isfinite
+    sqrt sin cos exp log inf isfinite still close
     state statistics steps step stride trajectory run row rows sweep change scale total
     settled error failure labels count made new
     OK NOT_CONVERGED NOT_FINITE BAD_STEP StepFailed Statistics
@@ -75,7 +76,7 @@ class Statements:
         yield from indented("# ", (f"{loop.label}: fixed point in {', '.join(now)}",), 1)
         for name, start in zip(now, statement.starts, strict=True):
             yield from self._assign(name, start, 1)
-        yield f"    {previous} = inf"
+        yield f"    {previous} = 0.0"
         yield f"    for sweep in range(1, {loop.limit + 1}):"
         for inner in statement.body:
             yield from self._simple(inner, 2)
@@ -89,8 +90,9 @@ class Statements:
         yield from indented("total = ", pieces, 2)
         yield "        if not isfinite(total):"
         yield f"            raise _failed(NOT_FINITE, {failure}"
-        yield f"        settled = change >= {previous} or change == 0.0"
-        yield f"        if settled and change <= {loop.tolerance!r} * scale:"
+        yield f"        still = 0.0 < {previous} <= change <= {loop.tolerance!r} * scale"
+        yield f"        close = change * change <= {UNIT!r} * scale * {previous}"
+        yield f"        if still or (close and change <= {loop.close!r} * scale):"
         yield "            break"
         yield f"        {previous} = change"
         for x, y in zip(now, new, strict=True):

@@ -2,11 +2,13 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from random import Random
 
 import mpmath
 import pytest
 
 from codegen.ir.domain import ExprDomain, FloatDomain, NotConverged, PreciseDomain, SeriesDomain, stumpff
+from codegen.ir.kernel import Loop
 from codegen.ir.number import Number
 from orderconds.ring import QQ
 from tests.strategies import shipped
@@ -88,12 +90,26 @@ class TestStandingStillInDoubles:
     def test_no_change_is_enough(self):
         assert FloatDomain(0.1).settled([1.0], [1.0], None) == (True, 0.0)
 
-    def test_a_small_change_that_still_shrinks_is_not(self):
+    def test_a_first_change_is_never_the_last(self):
+        assert not FloatDomain(0.1).settled([1.0], [1.0 + 2.0**-50], None)[0]
+
+    def test_the_last_change_contracts_to_below_rounding(self):
         d = FloatDomain(0.1)
-        done, size = d.settled([1.0], [1.0 + 2.0**-50], None)
-        assert not done
-        assert not d.settled([1.0], [1.0 + 2.0**-52], size)[0]
-        assert d.settled([1.0], [1.0 + 2.0**-50], size)[0]
+        assert d.settled([1.0], [1.0 + 2.0**-50], 2.0**-46) == (True, 2.0**-50)  # next: 2^-54
+        assert not d.settled([1.0], [1.0 + 2.0**-50], 2.0**-49)[0]  # next: 2^-51
+        assert not d.settled([1.0], [1.0 + 2.0**-47], 2.0**-20)[0]  # a fast one is not trusted from afar
+
+    def test_a_change_at_rounding_level_that_grows_is_the_last(self):
+        d = FloatDomain(0.1)
+        assert d.settled([1.0], [1.0 + 2.0**-45], 2.0**-46)[0]
+        assert not d.settled([1.0], [1.0 + 2.0**-45], 2.0**-44)[0]
+
+    def test_the_rule_is_that_of_loops(self):
+        d, loop, random = FloatDomain(0.1), Loop("x", (), (), (), ()), Random(8)
+        for _ in range(500):
+            change, previous = (2.0 ** random.randint(-52, -40) for _ in range(2))
+            expected = loop.settled(change, previous, 1.0)
+            assert d.settled([1.0], [1.0 + change], previous)[0] == expected
 
     def test_a_large_change_is_not(self):
         assert not FloatDomain(0.1).settled([1.0], [1.1], 0.05)[0]
