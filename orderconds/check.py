@@ -13,6 +13,7 @@ order ``undecided``; one that excludes zero proves that the condition fails.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Context, Decimal
@@ -105,7 +106,8 @@ class FamilyOrder:
             "verdict": self.verdict,
             "certificate": self.certificate,
             "failing": [failure.as_json() for failure in self.failing],
-            "error_norm": self.error_norm,
+            # JSON has no infinity
+            "error_norm": None if self.error_norm == math.inf else self.error_norm,
         }
         return record if self.limit is None else {**record, "limit": self.limit}
 

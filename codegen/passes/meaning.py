@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
+from codegen.errors import SceneError
 from codegen.ir.domain import FloatDomain, NotConverged
 from codegen.ir.expr import evaluate
 from codegen.ir.interpret import flatten, interpret
@@ -13,7 +14,8 @@ from codegen.ir.program import Kind, Program
 from codegen.scene import Setting
 
 STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
-"""Step sizes to try, the largest first: what a wrong rewriting leaves is largest there."""
+"""Step sizes to try, the largest first: what a wrong rewriting leaves is largest there. Where the field is so
+fast that the first reaches too far, all are shortened."""
 
 REACH = 0.5
 """The most that a step may move along the field: beyond, rounding would be amplified."""
@@ -43,20 +45,26 @@ class Reference:
         self.kinds = {v.name: v.kind for v in program.inputs}
         found = (self._first(program, state) for state in _states(scene))
         self.results = [result for result in found if result is not None]
+        if not self.results:
+            raise SceneError(
+                "no step can be computed from the initial state, nor from one nearby",
+                where=scene.name,
+                expected="a field that is finite there, and stages that can be solved for small steps",
+                hint="look for roots of negative numbers, zero denominators and numbers above 1e308",
+            )
 
     def _first(self, program: Program, state: dict[str, Any]) -> Result | None:
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
-        for step in STEPS:
-            if step * speed <= REACH:
-                try:
-                    return (
-                        step,
-                        inputs,
-                        interpret(program, self.scene, FloatDomain(step), inputs, limit=SWEEPS),
-                    )
-                except FAILURES:
-                    continue
+        if not math.isfinite(speed):
+            return None
+        excess = math.frexp(speed * STEPS[0] / REACH)[1]  # a power of two above it
+        for moderate in STEPS:
+            step = math.ldexp(moderate, -max(excess, 0))
+            try:
+                return step, inputs, interpret(program, self.scene, FloatDomain(step), inputs, limit=SWEEPS)
+            except FAILURES:
+                continue
         return None
 
     def differs(self, program: Program) -> str:
@@ -69,7 +77,7 @@ class Reference:
             account = self._gap(before, after)
             if account:
                 return account
-        return "" if self.results else "no step was found with which the program can be interpreted"
+        return ""
 
     def _gap(self, before: dict[str, Any], after: dict[str, Any]) -> str:
         for name, kind in self.kinds.items():

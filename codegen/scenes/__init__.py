@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import ast
 import runpy
+import sys
 import traceback
+from contextlib import redirect_stdout
 from dataclasses import replace
 from importlib import import_module
 from importlib.util import find_spec
@@ -32,7 +34,9 @@ def load(name: str) -> Setting:
     if not path.is_file():
         raise SceneError("no such file", where=name, expected="a Python file that defines `scene`")
     try:
-        found = runpy.run_path(str(path)).get("scene")
+        # What a scene prints is for its author; stdout is for what the command was asked for.
+        with redirect_stdout(sys.stderr):
+            found = runpy.run_path(str(path)).get("scene")
     except InputError as error:
         at = f"{_line(name, path, error)}: {error.where}"
         raise SceneError(error.found, where=at, expected=error.expected, hint=error.hint) from error

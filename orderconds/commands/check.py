@@ -22,7 +22,7 @@ SHOWN = 5
 """How many failing conditions the text names where a verdict is not ``holds``; else one. JSON lists all."""
 
 WIDTH = 200
-"""Where the text cuts the formula of a condition; JSON has it whole."""
+"""Where the text cuts the formula of a condition and its residual; JSON has them whole."""
 
 
 @click.command(name="check", short_help="Find the exact order of tableaux and compare it with their claims.")
@@ -177,7 +177,8 @@ def _print_failing(family: FamilyOrder) -> None:
         formula = failure.condition.expression
         formula = formula if len(formula) <= WIDTH else formula[:WIDTH] + " ..."
         click.echo(f"    {failure.condition.tree}: {formula} = {failure.condition.rhs}")
-        click.echo(f"      residual {failure.residual}{decimal}")
+        residual = failure.residual if len(failure.residual) <= WIDTH else failure.residual[:WIDTH] + " ..."
+        click.echo(f"      residual {residual}{decimal}")
     if count > shown:
         click.echo(f"    ... and {count - shown} more (--json lists all)")
 

@@ -67,7 +67,7 @@ def print_json(value: Any) -> None:
       "order": 4
     }
     """
-    click.echo(json.dumps(value, indent=2))
+    click.echo(json.dumps(value, indent=2, allow_nan=False))
 
 
 def print_table(columns: Sequence[str], rows: Sequence[Sequence[str]], indent: int = 0) -> None:

@@ -79,6 +79,13 @@ def test_whatever_a_file_raises_is_one_message(tmp_path, text, said):
         scenes.load(str(path))
 
 
+def test_what_a_scene_prints_does_not_reach_stdout(capsys, tmp_path):
+    path = tmp_path / "loud.py"
+    path.write_text("print('hello')\nfrom codegen.scenes.dipole import scene\n")
+    scenes.load(str(path))
+    assert capsys.readouterr() == ("", "hello\n")
+
+
 def test_an_interrupt_inside_a_scene_is_an_interrupt(tmp_path):
     path = tmp_path / "odd.py"
     path.write_text("raise KeyboardInterrupt\n")

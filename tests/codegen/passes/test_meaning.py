@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from sympy import Integer, Matrix, sqrt, symbols
 
 from codegen import passes
+from codegen.errors import SceneError
 from codegen.ir.number import Number
 from codegen.ir.program import Coefficient, Operation, Solve
 from codegen.ir.verify import IllFormed
@@ -78,8 +80,6 @@ def test_a_wrong_rewriting_is_seen(family, tableau, scene, cutoff, break_it):
 
 def test_a_program_at_an_equilibrium_is_judged_elsewhere():
     """Where the field vanishes every program stands still; the second point tells them apart."""
-    from sympy import Matrix, symbols
-
     from codegen.groups import SO3, Rotation
     from codegen.scene import FieldScene
 
@@ -107,16 +107,29 @@ def test_a_pass_that_breaks_the_types_is_caught_by_the_verifier(monkeypatch):
         passes.optimise(program, view)
 
 
-def test_a_program_that_cannot_be_interpreted_is_reported():
-    from sympy import Matrix, sqrt, symbols
-
+def on_the_line(field, start):
     from codegen.groups import LeftMultiplication, Rn
     from codegen.scene import FieldScene
 
     y = Matrix(symbols("y0:1", real=True))
-    scene = FieldScene(group=Rn(1), action=LeftMultiplication(), y=y, f=[sqrt(y[0] - 2)], y0=[1], span=(0, 1))
-    view, program = lowered("rk", "euler", scene)
-    assert "no step was found" in Reference(program, view).differs(program)
+    f = [field(y[0])]
+    return FieldScene(group=Rn(1), action=LeftMultiplication(), y=y, f=f, y0=[start], span=(0, 1))
+
+
+@pytest.mark.parametrize("field", [lambda y: sqrt(y - 2), lambda y: y * 10**400], ids=["root", "overflow"])
+def test_a_field_that_is_not_there_around_the_initial_state_is_bad_input(field):
+    view, program = lowered("rk", "euler", on_the_line(field, 1))
+    with pytest.raises(SceneError, match="no step can be computed from the initial state"):
+        Reference(program, view)
+
+
+@pytest.mark.parametrize("power", [0, 9, 12, 200])
+def test_a_field_of_any_speed_is_compared_at_steps_that_show_a_difference(power):
+    scene = on_the_line(lambda y: y * Integer(10) ** power, 1)
+    view, program = lowered("rk", "rk4", scene)
+    other = lowered("rk", "heun", scene)[1]
+    assert Reference(program, view).differs(program) == ""
+    assert "moved by" in Reference(program, view).differs(other)
 
 
 @pytest.mark.parametrize("group", ["SO(3)", "R^3", "GL(2)", "Heisenberg"])

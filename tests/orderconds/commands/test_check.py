@@ -178,3 +178,21 @@ def test_every_tableau_of_the_library_meets_its_claims() -> None:
     names = [line.partition(":")[0] for line in result.stdout.splitlines() if ": holds" in line]
     assert sorted(names) == list(available())
     assert result.stdout.endswith(f"\n{len(names)} tableaux: {len(names)} holds\n")
+
+
+def test_coefficients_of_thousands_of_digits_are_checked_and_json_stays_json(tmp_path: Path) -> None:
+    """Python spells no integer above 4300 digits, and JSON has no infinity."""
+    path = tmp_path / "huge.toml"
+    huge = "*".join(["(2^64)^64"] * 6)
+    path.write_text(f'name = "huge"\nfamily = "rk"\nA = [[], ["{huge}"]]\nb = ["0", "1"]\n')
+    text = run(str(path))
+    assert text.exit_code == 0, text.output
+    assert "e+7398" in text.stdout
+    assert max(map(len, text.stdout.splitlines())) < 300
+
+    def refuse(constant: str) -> None:
+        raise AssertionError(f"{constant} is no JSON")
+
+    (record,) = json.loads(run("--json", str(path)).stdout, parse_constant=refuse)
+    assert record["orders"]["rk"]["error_norm"] is None
+    assert len(record["orders"]["rk"]["failing"][0]["residual"]) > 7000
