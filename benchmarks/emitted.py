@@ -66,6 +66,7 @@ class Case:
 
 
 CASES = {
+    "rkmk4": Case("free_rigid_body", "rkmk:rk4", "free_rigid_body_rkmk4", 0.02, 1_500_000),
     "cf4": Case("free_rigid_body", "cf4", "free_rigid_body_cf4", 0.02, 1_500_000),
     "vcg2": Case("dipole", "vcg:midpoint", "dipole_vcg2", 0.01, 150_000, sweeps=True),
 }

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from codegen.ir.program import Program
 from codegen.ir.verify import IllFormed, verify
-from codegen.passes import abelian, blocks, dead, factor, fuse, sharing, zeros
+from codegen.passes import abelian, blocks, dead, factor, fuse, merge, sharing, zeros
 from codegen.passes.meaning import Reference
 from codegen.scene import Setting
 
@@ -43,6 +43,7 @@ def optimise(program: Program, scene: Setting) -> tuple[Program, tuple[PassRepor
         ("abelian", lambda p: abelian.run(p, scene.group.abelian)),
         ("zeros", zeros.run),
         ("sharing", sharing.run),
+        ("merging", merge.run),
         ("cancellation", zeros.run),
         ("dead code", dead.run),
         ("blocks", blocks.run),

@@ -1,0 +1,49 @@
+"""Unknowns with the same image: one unknown stands for all of them.
+
+Exact. At a solution unknowns that must equal the same value are equal, so the block is solved for the first
+of them, from its start. Stages with equal rows of coefficients become one stage once sharing has seen that
+their equations are the same.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from codegen.ir.program import Program, Solve, Statement, Var
+
+
+def run(program: Program) -> Program:
+    """Return the program with one unknown for each image of a block."""
+    same: dict[Var, Var] = {}
+
+    def now(variables: tuple[Var, ...]) -> tuple[Var, ...]:
+        return tuple(same.get(v, v) for v in variables)
+
+    body: list[Statement] = []
+    for statement in program.body:
+        if isinstance(statement, Solve):
+            pairs, twins = _distinct(statement)
+            same |= twins
+            unknowns, starts, images = zip(*pairs, strict=True)
+            inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
+            statement = replace(
+                statement, unknowns=unknowns, starts=now(starts), images=now(images), body=inner
+            )
+        else:
+            statement = replace(statement, args=now(statement.args))
+        body.append(statement)
+    outputs = tuple((name, same.get(var, var)) for name, var in program.outputs)
+    return replace(program, body=tuple(body), outputs=outputs)
+
+
+def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]:
+    """Return (unknown, start, image) for the first unknown of each image, and what stands for the others."""
+    first: dict[Var, Var] = {}
+    pairs: list[tuple[Var, Var, Var]] = []
+    twins: dict[Var, Var] = {}
+    for unknown, start, image in zip(block.unknowns, block.starts, block.images, strict=True):
+        if image in block.unknowns or first.setdefault(image, unknown) == unknown:
+            pairs.append((unknown, start, image))
+        else:
+            twins[unknown] = first[image]
+    return pairs, twins
