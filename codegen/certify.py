@@ -49,18 +49,23 @@ def family_of(method: Method) -> Family:
         from orderconds.families.rkmk_fewest import FewestBrackets
 
         return FewestBrackets(bracket_program(method))
+    if method.family == "vrkmk_pade":
+        from orderconds.families.vrkmk_pade import VariationalMuntheKaasPade
+
+        return VariationalMuntheKaasPade(method.cutoff or 0)
     return families.get(method.family_label)
 
 
 def certified_order(method: Method) -> CertifiedOrder:
     """Return the order of a method in its family; a MethodError where it cannot be decided.
 
-    For ``rkmk`` without a cut-off the failing conditions are not named: no index sum spells what fails.
+    For ``rkmk`` without a cut-off and ``vrkmk_pade`` the failing conditions are not named: no index sum
+    spells what fails.
     """
     from orderconds.check import check, family_order
 
     family = family_of(method)
-    if method.family == "rkmk" and method.cutoff is None:
+    if method.family == "vrkmk_pade" or (method.family == "rkmk" and method.cutoff is None):
         found = replace(family_order(method.tableau, family), failing=())
     else:
         (found,) = check(method.tableau, family=method.family_label).orders

@@ -189,7 +189,7 @@ def bare(name: str) -> str:
     >>> bare("vcg:some/where/mine.toml"), bare("scenes/top.py")
     ('vcg:mine.toml', 'top.py')
     """
-    family, colon, rest = name.rpartition(":") if re.match(r"[a-z]+(\(\d+\))?:", name) else ("", "", name)
+    family, colon, rest = name.rpartition(":") if re.match(r"[a-z_]+(\(\d+\))?:", name) else ("", "", name)
     return f"{family}{colon}{PurePath(rest).name}"
 
 

@@ -17,11 +17,11 @@ from orderconds.tableau import CommutatorFree, RungeKutta, Tableau, find
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-SPELLING = re.compile(r"(?:(?P<family>[a-z]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<tableau>.+)")
+SPELLING = re.compile(r"(?:(?P<family>[a-z_]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<tableau>.+)")
 
 
-WITH_CUTOFF = ("rkmk", "vrkmk")
-"""Families that cut dexp^{-1} off after a number of brackets."""
+WITH_CUTOFF = ("rkmk", "vrkmk", "vrkmk_pade")
+"""Families that cut dexp^{-1}, or dexp, off after a number of brackets."""
 
 
 FEWEST_UP_TO = 6

@@ -18,10 +18,11 @@ LOWERINGS = {
     "vcg": "vcg",
     "vrkmk": "vrkmk",
     "vcf": "vcf",
+    "vrkmk_pade": "vrkmk_pade",
 }
 """Family name to module."""
 
-ON_COTANGENT = frozenset({"vcg", "vrkmk", "vcf"})
+ON_COTANGENT = frozenset({"vcg", "vrkmk", "vcf", "vrkmk_pade"})
 """Families that need a Hamiltonian scene; all others see it as a field on the group T*G."""
 
 

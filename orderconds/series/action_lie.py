@@ -8,13 +8,18 @@ stage's velocity is one more letter: it stands for that stage alone and occurs o
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import factorial
+from fractions import Fraction
+from functools import lru_cache
+from math import comb, factorial
 
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.action import ActionSeries, Exponential
 from orderconds.series.action_trees import Velocity, Word
 from orderconds.series.b_series import sparse
 from orderconds.series.dexpinv import dexpinv_terms
+
+Terms = tuple[tuple[Fraction, int, int], ...]
+"""Coefficients of X^n xi X^m, with m and n."""
 
 Letters = tuple[Velocity | int, ...]
 """A word in which an int, at most one, is the variation of the velocity of that stage."""
@@ -81,8 +86,7 @@ class MuntheKaasActionSeries(ActionSeries):
         """Return the coefficient of a word in dexpinv_{(r),X_j} xi_j."""
         key = (j, word)
         if key not in self._summands:
-            longest = len(word) - 1 if self._cutoff is None else min(len(word) - 1, self._cutoff)
-            total = self.ring.zero
+            terms, total = self._terms(len(word) - 1), self.ring.zero
             for place, letter in enumerate(word):
                 if isinstance(letter, int) and letter != j:
                     continue
@@ -92,9 +96,43 @@ class MuntheKaasActionSeries(ActionSeries):
                     self.ring.rational(q.numerator, q.denominator)
                     * self._power(j, m, before)
                     * self._power(j, n, behind)
-                    for q, m, n in dexpinv_terms(longest)
+                    for q, m, n in terms
                     if m <= len(before) and n <= len(behind)
                 )
                 total = total + (inner if isinstance(letter, int) else inner * self.tau(letter)[j])
             self._summands[key] = total
         return self._summands[key]
+
+    def _terms(self, most: int) -> Terms:
+        """Return (coefficient, m, n) for the terms X^n xi X^m with m + n <= ``most``."""
+        return dexpinv_terms(most if self._cutoff is None else min(most, self._cutoff))
+
+
+class PadeActionSeries(MuntheKaasActionSeries):
+    """The action series with the inverse of dexp cut off: dexp_(r),X_j v_j = xi_j, X_i = h sum_j a_ij v_j.
+
+    >>> from orderconds.ring import QQ
+    >>> from orderconds.series.action_trees import velocities
+    >>> midpoint = PadeActionSeries(QQ, [[QQ.rational(1, 2)]], [QQ.one], cutoff=1)
+    >>> [str(midpoint.condition(tree)) for tree in velocities(2)]
+    ['1/2', '1/2', '1/2']
+    """
+
+    def _terms(self, most: int) -> Terms:
+        return pade_terms(self._cutoff or 0, most)
+
+
+@lru_cache(maxsize=64)
+def pade_terms(cutoff: int, most: int) -> Terms:
+    """Return (q_k comb(k, m) (-1)^m, m, k - m), k <= ``most``, q_k of the inverse of sum_{j<=r} z^j/(j+1)!.
+
+    >>> [(str(q), m, n) for q, m, n in pade_terms(1, 2)]
+    [('1', 0, 0), ('-1/2', 0, 1), ('1/2', 1, 0), ('1/4', 0, 2), ('-1/2', 1, 1), ('1/4', 2, 0)]
+    """
+    inverse = [Fraction(1)]
+    for k in range(1, most + 1):
+        known = (inverse[k - j] * Fraction(1, factorial(j + 1)) for j in range(1, min(k, cutoff) + 1))
+        inverse.append(-sum(known, Fraction(0)))
+    return tuple(
+        (q * comb(k, m) * (-1) ** m, m, k - m) for k, q in enumerate(inverse) if q for m in range(k + 1)
+    )

@@ -15,7 +15,7 @@ from orderconds.tableau import Tableau
 from tests.strategies import butcher, field_scene, hamiltonian_scene, shipped
 
 FIELD = ("rkmk", "cg", "cf")
-ALL = ("rkmk", "cg", "cf", "vcg", "vrkmk", "vcf")
+ALL = ("rkmk", "cg", "cf", "vcg", "vrkmk", "vcf", "vrkmk_pade")
 
 
 @pytest.mark.parametrize(
@@ -29,6 +29,7 @@ ALL = ("rkmk", "cg", "cf", "vcg", "vrkmk", "vcf")
         ("rkmk:gauss3", FIELD, "rkmk(4):gauss3"),
         ("vrkmk(1):gauss2", ALL, "vrkmk(1):gauss2"),
         ("vrkmk:gauss2", ALL, "vrkmk(2):gauss2"),
+        ("vrkmk_pade(2):gauss2", ALL, "vrkmk_pade(2):gauss2"),
         ("cg:rk4", FIELD, "cg:rk4"),
         ("vcg:triple_jump", ALL, "vcg:triple_jump"),
         (" cf4 ", FIELD, "cf:cf4"),
@@ -62,6 +63,7 @@ def test_a_file_is_a_tableau(tmp_path):
         ("rk44", FIELD, UnknownName, "did you mean rk4"),
         ("nowhere.toml", FIELD, InputError, "nowhere.toml"),
         ("cf4", ("rkmk", "cg"), MethodError, "claims no order under rkmk, cg"),
+        ("vrkmk_pade:rk4", ALL, MethodError, "write vrkmk_pade(2):rk4"),
         ("rkmk:cf4", FIELD, MethodError, "claims no order under rkmk"),
     ],
 )
@@ -89,7 +91,9 @@ def test_plain_runge_kutta_needs_a_vector_space(place):
     assert "expected R^n; use rkmk, cg or cf" in refused(scenes.load(place), Method("rk", shipped("rk4")))
 
 
-@pytest.mark.parametrize(("family", "cutoff"), [("vcg", None), ("vcf", None), ("vrkmk", 1)])
+@pytest.mark.parametrize(
+    ("family", "cutoff"), [("vcg", None), ("vcf", None), ("vrkmk", 1), ("vrkmk_pade", 1)]
+)
 def test_variational_families_divide_by_every_weight(family, cutoff):
     tableau = butcher("zero", [[0, 0], ["1/2", 0]], [0, 1])
     message = refused(scenes.load("dipole"), Method(family, tableau, cutoff), ZeroWeight)

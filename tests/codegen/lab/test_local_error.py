@@ -14,7 +14,7 @@ from codegen.certify import certified_order
 from codegen.errors import SceneError
 from codegen.lab.local_error import leading_term, local_error, predicted, valuation
 from codegen.lower import lower, setting
-from codegen.method import Method
+from codegen.method import WITH_CUTOFF, Method
 from codegen.passes import optimise
 from tests.strategies import butcher, field_scene, full, full_exponentials, hamiltonian_scene, shipped
 
@@ -85,6 +85,10 @@ VARIATIONAL = [
     case("vcg", "heun", 2),
     case("vcg", SUM_OF_CUBES_ZERO, 3),
     case("vcg", full(2), 1),
+    case("vrkmk_pade", "midpoint", 2, 0),
+    case("vrkmk_pade", "kutta3", 3, 1),
+    case("vrkmk_pade", "kutta3", 2, 0),
+    case("vrkmk_pade", full(2), 1, 1),
     case("vcf", "midpoint", 2),
     case("vcf", full_exponentials(2), 1),
     case("vrkmk", "midpoint", 2, 0),
@@ -127,6 +131,14 @@ def test_on_the_cotangent_group():
 @pytest.mark.parametrize(("method", "order"), VARIATIONAL)
 def test_variational_methods_by_action_trees(group, method, order):
     agree(hamiltonian_scene(group), method, order)
+
+
+@pytest.mark.parametrize("family", ["vcf", "vrkmk", "vrkmk_pade"])
+def test_on_a_vector_space_all_variational_families_are_one(family):
+    scene, tableau = hamiltonian_scene("R^3"), shipped("kutta3")
+    cutoff = 2 if family in WITH_CUTOFF else None
+    found = [error_of(scene, m, 4)[1] for m in (Method(family, tableau, cutoff), Method("vcg", tableau))]
+    assert found[0] == found[1]
 
 
 @pytest.mark.parametrize(("method", "order"), PARTITIONED)
@@ -178,6 +190,11 @@ def test_with_the_fewest_brackets_orders_five_and_six_are_kept(tableau, order, b
     assert valuation(error) == order + 1
     assert certified_order(method).order == order
     assert optimise(lower(field_scene("S^2"), method), view)[0].counts()["ad"] == brackets
+
+
+@pytest.mark.parametrize(("cutoff", "order"), [(1, 3), (2, 4)])
+def test_munthe_kaas_with_dexp_cut_off(cutoff, order):
+    agree(hamiltonian_scene("SO(3)"), Method("vrkmk_pade", shipped("gauss2"), cutoff), order)
 
 
 def test_variational_commutator_free_of_order_four():

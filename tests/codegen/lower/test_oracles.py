@@ -8,6 +8,7 @@ after them.
 from __future__ import annotations
 
 from fractions import Fraction
+from math import factorial
 
 import pytest
 
@@ -243,6 +244,64 @@ class Oracle:
         v = self.iterate(sweep, [(d.rational(0),) * self.group.dim] * len(b))
         return {"y": self.act(combination(b, v), y)}
 
+    def vrkmk_pade(self, r):
+        """dexp_(r),X_i v_i = xi_i, and the variation of every v_i by its definition: a sum over pairs."""
+        d, G = self.d, self.group
+        A, b, c = self.butcher()
+        stages = range(len(b))
+        q0, mu0 = self.blocks
+
+        def power(bracket, x, k, y):
+            for _ in range(k):
+                y = bracket(d, x, y)
+            return y
+
+        def tail(bracket, x, y):
+            """(1 - dexp_(r),x) y, or its dual."""
+            terms = [
+                times(d.rational(-1, factorial(k + 1)), power(bracket, x, k, y)) for k in range(1, r + 1)
+            ]
+            return plus(times(d.rational(0), y), *terms)
+
+        def slope(x, v, mu):
+            """R*_(r)(x, v) mu: -1/(k+1)! ad*_{ad_x^{k-1-i} v} (ad*_x)^i mu, summed over k and i < k."""
+            total = times(d.rational(0), mu)
+            for k in range(1, r + 1):
+                for i in range(k):
+                    left = power(G.ad, x, k - 1 - i, v)
+                    term = G.adt(d, left, power(G.adt, x, i, mu))
+                    total = plus(total, times(d.rational(-1, factorial(k + 1)), term))
+            return total
+
+        def combination(row, v):
+            return plus(*(times(d.h * a, x) for a, x in zip(row, v, strict=True)))
+
+        def everything(v, M):
+            X = [combination(row, v) for row in A]
+            both = [self.f(c[i], G.mul(d, G.exp(d, X[i]), q0), M[i]) for i in stages]
+            xi, n = [x[: G.dim] for x in both], [x[G.dim :] for x in both]
+            moved = [G.Adt(d, G.exp(d, X[i]), n[i]) for i in stages]
+            return X, xi, n, plus(mu0, *(times(d.h * b[i], moved[i]) for i in stages))
+
+        def sweep(pair):
+            v, M = pair
+            X, xi, n, mubar = everything(v, M)
+            new = [plus(xi[i], tail(G.ad, X[i], v[i])) for i in stages]
+            Lam = G.dexpt(d, times(d.rational(-1), combination(b, v)), mubar)
+            pulled = []
+            for i in stages:
+                total = times(b[i], Lam)
+                for j in stages:
+                    both = plus(slope(X[j], v[j], M[j]), G.dexpt(d, X[j], n[j]))
+                    total = plus(total, times(-(d.h * (b[j] * A[j][i])), both))
+                pulled.append(plus(times(d.rational(1) / b[i], total), tail(G.adt, X[i], M[i])))
+            return new, pulled
+
+        zero = (d.rational(0),) * G.dim
+        v, M = self.iterate(sweep, ([zero] * len(b), [mu0] * len(b)))
+        g = G.exp(d, combination(b, v))
+        return {"q": G.mul(d, g, q0), "mu": G.Adtinv(d, g, everything(v, M)[3])}
+
     def rkmk4(self):
         """RK4 with the two brackets of Munthe-Kaas and Owren (1999)."""
         d, (y,) = self.d, self.blocks
@@ -384,6 +443,25 @@ class TestVariationalMuntheKaasIsItsEquation:
         method = Method("vrkmk", RATIONAL[tableau], 2)
         scene = hamiltonian_scene("SO(3)", time=True)
         check(scene, method, SeriesDomain(QQ, ORDER), lambda o: o.vrkmk(2))
+
+
+class TestVariationalMuntheKaasWithDexpCutOffIsItsEquation:
+    @pytest.mark.parametrize("cutoff", [0, 1, 2, 3])
+    @pytest.mark.parametrize("tableau", ["kutta3", "full2"])
+    def test_exactly(self, tableau, cutoff):
+        method = Method("vrkmk_pade", RATIONAL[tableau], cutoff)
+        domain = SeriesDomain(QQ, ORDER)
+        check(hamiltonian_scene("SO(3)"), method, domain, lambda o: o.vrkmk_pade(cutoff))
+
+    @pytest.mark.parametrize("group", ["R^3", "GL(2)"])
+    def test_on_other_groups(self, group):
+        method = Method("vrkmk_pade", RATIONAL["full2"], 2)
+        check(hamiltonian_scene(group), method, SeriesDomain(QQ, ORDER), lambda o: o.vrkmk_pade(2))
+
+    @pytest.mark.parametrize("tableau", ["midpoint", "full2"])
+    def test_without_brackets_it_is_vrkmk(self, tableau):
+        method = Method("vrkmk_pade", RATIONAL[tableau], 0)
+        check(hamiltonian_scene("SO(3)"), method, SeriesDomain(QQ, ORDER), lambda o: o.vrkmk(0))
 
 
 FIELDS = ("R^3", "S^2", "SO(3)", "GL(2)", "Heisenberg")

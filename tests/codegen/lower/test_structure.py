@@ -24,6 +24,7 @@ VARIATIONAL = [
     "vrkmk(1):kutta3",
     "vrkmk(2):gauss2",
     "vrkmk(4):gauss3",
+    "vrkmk_pade(2):gauss2",
 ]
 
 

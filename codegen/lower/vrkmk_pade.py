@@ -1,0 +1,119 @@
+"""VRKMK with dexp^{-1} replaced by the inverse of dexp cut off: thesis section 3.4.1, alternative approach.
+
+The unknowns v_i satisfy dexp_{(r),X_i} v_i = xi_i, where dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)! and X_i =
+h sum_j a_ij v_j; so no multipliers are needed. With R*_(r)(x, v) the dual of the derivative of dexp_{(r),x} v
+by x, (xi_i, n_i) = f(exp(X_i) q0, M_i), Y = h sum_j b_j v_j and Lambda = dexp*_{-Y}(mu0 + h sum_j b_j
+Ad*_{exp X_j} n_j),
+
+    b_i dexp*_{(r),X_i} M_i = b_i Lambda - h sum_j b_j a_ji (R*_(r)(X_j, v_j) M_j + dexp*_{X_j} n_j),
+    q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
+
+These are the Hamilton equations of the discrete Lagrangian h sum_i b_i l(Q_i, dexp_{(r),X_i} v_i). The
+unknowns are all v_i and M_i; of each dexp_(r) the identity is solved for, the rest is taken from the sweep
+before.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import factorial
+
+from codegen.errors import MethodError
+from codegen.ir.number import Number
+from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
+from codegen.lower.stages import Stages
+from codegen.method import Method
+from codegen.scene import Setting
+from orderconds.errors import ZeroWeight
+
+Terms = list[tuple[Coefficient, Var]]
+
+
+def lower(scene: Setting, method: Method) -> Program:
+    """Return the program with ``method.cutoff`` brackets in dexp.
+
+    :class:`orderconds.errors.ZeroWeight` where some b_i = 0, :class:`codegen.errors.MethodError` without a
+    cut-off: a program has finitely many brackets.
+    """
+    name, r = method.tableau.name, method.cutoff
+    if r is None:
+        raise MethodError(
+            f"vrkmk_pade:{name} without a cut-off",
+            expected=f"a number of brackets, as vrkmk_pade(2):{name}",
+        )
+    tableau = method.runge_kutta()
+    q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
+    stages = Stages(scene, method, (q, mu))
+    do, s = stages.builder, tableau.s
+    A = [[stages.number(x) for x in row] for row in tableau.A]
+    b = [stages.number(x) for x in tableau.b]
+    for i, weight in enumerate(b):
+        if weight.is_zero:
+            where = f"{method.family_label}:{name}"
+            raise ZeroWeight(f"b_{i + 1} = 0", where=where, expected="all b_i non-zero: it divides by them")
+    v = [do.fresh(f"v{i + 1}", Kind.ALG) for i in range(s)]
+    M = [do.fresh(f"M{i + 1}", Kind.DUAL) for i in range(s)]
+    shared: dict[str, Var] = {}
+
+    def powers(operation: str, x: Var, first: Var) -> list[Var]:
+        """Append ad_x^k first, or its dual, for k = 0..r."""
+        found = [first]
+        for k in range(r):
+            found.append(do.do(operation, f"{first.name}_{k + 1}", x, found[-1]))
+        return found
+
+    def rest(chain: list[Var]) -> Terms:
+        """Return -sum over k >= 1 of ad_x^k/(k+1)!, or of its dual."""
+        return [(_over_factorial(-1, k), power) for k, power in enumerate(chain) if k]
+
+    def slope(name: str, brackets: list[Var], momenta: list[Var]) -> Var:
+        """Append R*_(r) M, the sum over i < r of ad*_{z_i} (ad*_x)^i M, z_i = -sum_k ad_x^{k-1-i} v/(k+1)!."""
+        terms: Terms = []
+        for i in range(r):
+            inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, r + 1)]
+            subscript = do.lin("z", Kind.ALG, inner)
+            terms.append((ONE, do.do("adt", "R", subscript, momenta[i])))
+        return do.lin(name, Kind.DUAL, terms)
+
+    def images() -> list[Var]:
+        X = [stages.combination(f"X{i + 1}", Kind.ALG, row, v) for i, row in enumerate(tableau.A)]
+        g = [do.do("exp", f"g{i + 1}", x) for i, x in enumerate(X)]
+        velocities, forces, slopes, corrections = [], [], [], []
+        for i in range(s):
+            Q = do.do("mul", f"Q{i + 1}", g[i], q)
+            xi, n = do.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M[i], *stages.at(tableau.c[i]))
+            brackets, momenta = powers("ad", X[i], v[i]), powers("adt", X[i], M[i])
+            velocities.append(do.lin(f"u{i + 1}", Kind.ALG, [(ONE, xi), *rest(brackets)]))
+            forces.append(n)
+            slopes.append(slope(f"R{i + 1}", brackets, momenta))
+            corrections.append(rest(momenta))
+        Y = stages.combination("Y", Kind.ALG, tableau.b, velocities)
+        minus = do.lin("y", Kind.ALG, [(Coefficient(-ONE.value), Y)])
+        nu = [do.do("Adt", f"nu{j + 1}", g[j], forces[j]) for j in range(s)]
+        total = [(ONE, mu)] + [(stages.times_h(b[j]), nu[j]) for j in range(s)]
+        shared.update(Y=Y, mubar=do.lin("mubar", Kind.DUAL, total))
+        found = []
+        for i in range(s):
+            terms: Terms = [(ONE, do.do("dexpt", "L", minus, mu)), *corrections[i]]
+            for j in range(s):
+                factor = stages.times_h(-(b[j] * (A[j][i] / b[i])))
+                terms.append((stages.times_h(b[j]), do.do("dexpt", "L", minus, nu[j])))
+                terms.append((factor, do.do("dexpt", f"d{j + 1}", X[j], forces[j])))
+                terms.append((factor, slopes[j]))
+            found.append(do.lin(f"p{i + 1}", Kind.DUAL, terms))
+        return [*velocities, *found]
+
+    def starts() -> list[Var]:
+        xi, _ = do.hamilton("xi0", "n0", q, mu, *stages.at(None))
+        return [xi] * s + [mu] * s
+
+    def update() -> dict[str, Var]:
+        g = do.do("exp", "g", shared["Y"])
+        return {"q": do.do("mul", "q1", g, q), "mu": do.do("Adtinv", "mu1", g, shared["mubar"])}
+
+    return stages.program([*v, *M], images, starts, update)
+
+
+def _over_factorial(sign: int, k: int) -> Coefficient:
+    """Return sign/(k + 1)!."""
+    return Coefficient(Number.rational(*Fraction(sign, factorial(k + 1)).as_integer_ratio()))
