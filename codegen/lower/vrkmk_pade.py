@@ -67,7 +67,7 @@ def lower(scene: Setting, method: Method) -> Program:
         return [(_over_factorial(-1, k), power) for k, power in enumerate(chain) if k]
 
     def slope(name: str, brackets: list[Var], momenta: list[Var]) -> Var:
-        """Append R*_(r) M, the sum over i < r of ad*_{z_i} (ad*_x)^i M, z_i = -sum_k ad_x^{k-1-i} v/(k+1)!."""
+        """Append R*_(r) M, the sum over i < r of ad*_z (ad*_x)^i M, z = -sum_k ad_x^{k-1-i} v/(k+1)!."""
         terms: Terms = []
         for i in range(r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, r + 1)]

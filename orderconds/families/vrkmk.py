@@ -31,7 +31,7 @@ class VariationalMuntheKaas(ActionFamily):
     """
 
     name = "vrkmk"
-    formats = ("rk",)
+    formats: tuple[str, ...] = ("rk",)
 
     def __init__(self, cutoff: int | None = None) -> None:
         self.cutoff = cutoff

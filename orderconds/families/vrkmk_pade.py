@@ -25,7 +25,6 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
     """
 
     name = "vrkmk_pade"
-    cutoff: int
 
     def __init__(self, cutoff: int) -> None:
         super().__init__(cutoff)

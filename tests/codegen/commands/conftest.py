@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import tomllib
+from importlib import metadata
 from importlib.metadata import EntryPoint
 from pathlib import Path
 
 import pytest
-
-from orderconds import cli
 
 PROJECT = Path(__file__).parents[3] / "pyproject.toml"
 
@@ -20,4 +19,4 @@ def registered(monkeypatch: pytest.MonkeyPatch) -> None:
     def entry_points(group: str) -> list[EntryPoint]:
         return [EntryPoint(name, value, group) for name, value in groups.get(group, {}).items()]
 
-    monkeypatch.setattr(cli.metadata, "entry_points", entry_points)
+    monkeypatch.setattr(metadata, "entry_points", entry_points)

@@ -101,3 +101,11 @@ def test_a_page_that_cannot_be_finished_leaves_the_old_one(tmp_path: Path) -> No
         report.place(page, "half a page, then \ud800")
     assert page.read_text(encoding="utf-8") == "old\n"
     assert [p.name for p in tmp_path.iterdir()] == ["index.html"]
+
+
+def test_what_only_the_compiler_writes_is_reported_without_its_conditions(tmp_path):
+    """No index sum spells the conditions of dexp cut off, or what fails of a program of brackets."""
+    methods = {"free_rigid_body": "rkmk:kutta3", "dipole": "vrkmk_pade(0):gauss1"}
+    for scene, method in methods.items():
+        result = run(scene, "-m", method, "-o", str(tmp_path / scene))
+        assert result.exit_code == 0, result.output
