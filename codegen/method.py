@@ -100,6 +100,9 @@ def _file(name: str) -> Path:
     return path if path.suffix == ".toml" else find(name)
 
 
+EXPONENTIALS = ("cf", "vcf")
+"""Families that read tableaux of format cf."""
+
 _RATIONAL = re.compile(r"-?\d+(/\d+)?")
 
 
@@ -128,6 +131,8 @@ def parse(spelling: str, families: Sequence[str]) -> Method:
             where=spelling,
             expected=f"one for {' or '.join(WITH_CUTOFF)} only, as rkmk(2):rk4",
         )
+    if tableau.family == "cf":  # exponentials of several stages: there is no A and b to read
+        families = [f for f in families if f in EXPONENTIALS]
     wanted = [c for c in tableau.claims.orders if c.family == (family or c.family) and c.family in families]
     if family is not None and cutoff is not None:
         return Method(family, tableau, int(cutoff))

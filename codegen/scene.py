@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
+from codegen.consistency import Orbit, check_equal, check_invariants, check_start
 from codegen.errors import SceneError
 from codegen.groups.actions import LeftMultiplication
 from codegen.groups.cotangent import Cotangent
@@ -174,6 +175,7 @@ def FieldScene(
     f: Any,
     y0: Any,
     span: tuple[Any, Any],
+    velocity: Any = None,
     invariants: Mapping[str, Any] | None = None,
     name: str = "scene",
     title: str = "",
@@ -182,7 +184,9 @@ def FieldScene(
 
     ``y`` is a sympy column of coordinate symbols, ``f`` a column of ``group.dim`` components in them, in
     the symbol ``t`` and parameters, ``y0`` the exact initial point, ``span`` the rational time interval,
-    ``invariants`` a mapping from names to scalar formulas. :class:`SceneError` for a wrong shape or symbol.
+    ``invariants`` a mapping from names to scalar formulas. ``velocity``, where it is given, is y' as an
+    ambient formula; f must generate it. :class:`SceneError` for a wrong shape or symbol, a start that is not on
+    the group, an f that does not generate the velocity, an invariant that is none.
     """
     reader = _Reader(name, list(y))
     _acts(reader, group, action)
@@ -190,10 +194,13 @@ def FieldScene(
     start = reader.column(y0, len(y), "y0", constant=True)
     state = (StateField("y", Kind.POINT, tuple(reader.coordinates), start),)
     known = {key: reader.scalar(value, f"invariant {key}") for key, value in (invariants or {}).items()}
-    return Setting(
+    stated = () if velocity is None else reader.column(velocity, len(y), "velocity")
+    setting = Setting(
         *(name, title or name, group, action, state, roots, None, known, _span(name, span)),
         reader.parameters(),
     )
+    _check(setting, {"velocity": (stated, None)} if stated else {})
+    return setting
 
 
 def HamiltonianScene(
@@ -206,6 +213,8 @@ def HamiltonianScene(
     mu0: Any,
     span: tuple[Any, Any],
     parts: Mapping[str, Any] | None = None,
+    xi: Any = None,
+    n: Any = None,
     invariants: Mapping[str, Any] | None = None,
     name: str = "scene",
     title: str = "",
@@ -214,7 +223,9 @@ def HamiltonianScene(
 
     ``q`` and ``mu`` are sympy matrices of symbols (``group.point``, ``group.dual``), ``q0`` and ``mu0`` exact
     initial values, ``parts`` named summands of H. xi = D_2 H and n = -(D_1 H).q^-1, that is n_a = -d/deps
-    H(exp(eps e_a) q, mu) (thesis eq. 3.4), are found by differentiation. The energy is an invariant.
+    H(exp(eps e_a) q, mu) (thesis eq. 3.4), are found by differentiation; where ``xi`` or ``n`` is given by hand
+    it must agree. The energy is an invariant of a Hamiltonian without time. :class:`SceneError` as for
+    :func:`FieldScene`.
     """
     reader = _Reader(name, [*q, *mu])
     if (len(q), len(mu)) != (group.size, group.dim):
@@ -234,13 +245,34 @@ def HamiltonianScene(
         StateField("q", Kind.GROUP, qs, reader.column(q0, len(qs), "q0", constant=True)),
         StateField("mu", Kind.DUAL, mus, reader.column(mu0, len(mus), "mu0", constant=True)),
     )
-    known = {"energy": hamiltonian}
+    timeless = not any(node.op == "sym" and node.payload == TIME for node in walk([hamiltonian]))
+    known = {"energy": hamiltonian} if timeless else {}
     known |= {key: reader.scalar(value, f"invariant {key}") for key, value in (invariants or {}).items()}
-    return Setting(
+    stated = {
+        key: (reader.column(column, group.dim, key), derived)
+        for key, column, derived in (("xi", xi, roots[: group.dim]), ("n", n, roots[group.dim :]))
+        if column is not None
+    }
+    setting = Setting(
         *(name, title or name, group, LeftMultiplication(), state, roots, hamiltonian, known),
         *(_span(name, span), reader.parameters()),
         paired=True,
     )
+    _check(setting, stated)
+    return setting
+
+
+def _check(setting: Setting, stated: Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]) -> None:
+    """Raise :class:`SceneError` where the scene does not hold what it says (:mod:`codegen.consistency`)."""
+    view = setting.as_field()
+    start = tuple(e for block in view.state for e in block.initial)
+    orbit = Orbit(
+        *(view.name, view.group, view.action, view.symbols, start, view.roots, view.span, view.parameters)
+    )
+    check_start(orbit)
+    for what, (formulas, derived) in stated.items():
+        check_equal(orbit, formulas, what, derived)
+    check_invariants(orbit, setting.invariants)
 
 
 def _force(space: Space, group: Any, qs: tuple[str, ...], slope: list[Expr]) -> tuple[Expr, ...]:

@@ -52,6 +52,10 @@ class Cotangent(LieGroup):
         bracket: Scalars = self.base.ad(d, a, b)
         return bracket + tuple(p - q for p, q in pairs)
 
+    def laws(self, d: Domain, g: Scalars) -> tuple[tuple[str, Any], ...]:
+        """Return those of the base; every covector is a momentum."""
+        return tuple(self.base.laws(d, self._split(g)[0]))
+
     def velocity(self, d: Domain, x: Scalars, g: Scalars) -> Scalars:
         """Return (xi.q, n - ad*_xi mu)."""
         (xi, n), (q, mu) = self._split(x), self._split(g)

@@ -78,6 +78,10 @@ class LieGroup:
         """Return x.g, the derivative of exp(eps x) g at eps = 0."""
         raise AttributeError(f"{self.name} has no velocity")
 
+    def laws(self, d: Domain, g: Scalars) -> tuple[tuple[str, Any], ...]:
+        """Return the equations that coordinates of an element satisfy: a name, and what must be zero."""
+        return ()
+
     def dexpinv(self, d: Domain, x: Scalars, y: Scalars, order: int) -> Scalars:
         """Return dexp^{-1}_{(order),x} y = sum over k <= order of B_k/k! ad_x^k y."""
         return self._bernoulli_sum(d, lambda power: self.ad(d, x, power), y, order)

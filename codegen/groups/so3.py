@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from codegen.groups.protocol import LieGroup, Scalars, cross, dot, matmul, matvec
 from codegen.ir.domain import Domain
 
@@ -81,6 +83,13 @@ class SO3(LieGroup):
         v = cross(x, y)
         w = cross(x, v)
         return tuple(a + c1 * b + c2 * c for a, b, c in zip(y, v, w, strict=True))
+
+    def laws(self, d: Domain, g: Scalars) -> tuple[tuple[str, Any], ...]:
+        """Return g^T g = 1 and det g = 1."""
+        one, columns = d.rational(1), [g[j::3] for j in range(3)]
+        gram = [dot(columns[i], columns[j]) - (one if i == j else 0) for i in range(3) for j in range(i, 3)]
+        determinant = dot(columns[0], cross(columns[1], columns[2])) - one
+        return (*(("g^T g = 1", x) for x in gram), ("det g = 1", determinant))
 
     def hat(self, d: Domain, x: Scalars) -> Scalars:
         """Return the skew matrix of x, row by row."""

@@ -1,7 +1,7 @@
 """How far a computed state is from the reference: the scene's own measure.
 
-Each block of the state adds its own norm: the spectral norm for group elements in matrix coordinates, the
-Euclidean norm for points, momenta and everything else. For the dipole on a stick that is
+Each block of the state adds its own norm: the spectral norm for group elements that are matrices, the
+Euclidean norm for points, vectors, momenta and everything else. For the dipole on a stick that is
 |mu - mu_ref|_2 + |g - g_ref|_2 (thesis Fig. 3.2), for a point on the sphere the chord.
 """
 
@@ -11,6 +11,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from codegen.groups import Rn
 from codegen.ir.program import Kind
 from codegen.scene import Setting
 
@@ -27,7 +28,8 @@ def distance(scene: Setting, state: Sequence[Any], exact: Sequence[Any]) -> floa
     total, start = 0.0, 0
     for block in scene.state:
         end = start + len(block.symbols)
-        norm = spectral_norm if block.kind is Kind.GROUP else euclidean_norm
+        matrix = block.kind is Kind.GROUP and not isinstance(scene.group, Rn)
+        norm = spectral_norm if matrix else euclidean_norm
         total += norm(gap[start:end])
         start = end
     return total

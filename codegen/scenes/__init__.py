@@ -16,7 +16,16 @@ from codegen.errors import SceneError
 from codegen.scene import Setting
 from orderconds.errors import InputError, UnknownName
 
-GALLERY = ("dipole", "free_rigid_body")
+GALLERY = (
+    "dipole",
+    "driven_spin",
+    "fast_heavy_top",
+    "free_rigid_body",
+    "free_rigid_body_attitude",
+    "heavy_top",
+    "linear_oscillator",
+    "stiff_driven_spin",
+)
 
 
 def load(name: str) -> Setting:

@@ -20,6 +20,11 @@ def test_the_sphere_takes_the_chord() -> None:
     assert distance(load("free_rigid_body"), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)) == math.sqrt(2)
 
 
+def test_a_vector_of_four_numbers_is_no_matrix() -> None:
+    exact = [0.0] * 8
+    assert distance(load("linear_oscillator"), [1.0, 2, 2, 4, 0, 0, 0, 2], exact) == 5 + 2
+
+
 def test_the_spectral_norm_of_a_rotation_is_one() -> None:
     c, s = math.cos(0.7), math.sin(0.7)
     assert spectral_norm([c, -s, 0, s, c, 0, 0, 0, 1]) == pytest.approx(1, abs=1e-15)

@@ -1,0 +1,37 @@
+"""Driven spin on the sphere: the Landau-Lifshitz equation with anisotropy, damping and a rotating field.
+
+m' = w x m with w = H + alpha m x H and H = (a cos nu t, a sin nu t, K m_3 + b): it depends on time, is
+dissipative, and its generator has a component along m, so that faults hide nowhere. ``stiff_driven_spin`` is
+the same equation with fast rates.
+"""
+
+from typing import Any
+
+from sympy import Matrix, Rational, Symbol, cos, sin
+
+from codegen.groups import SO3, Rotation
+from codegen.scene import FieldScene, Setting, param
+
+
+def driven_spin(title: str, anisotropy: Any, damping: Any, drive: Any, end: Any) -> Setting:
+    """Return the scene with the constants K, alpha and a as parameters, from 0 to ``end``."""
+    G, t = SO3(), Symbol("t")
+    m = G.dual("m")
+    K, alpha, a = param("K", anisotropy), param("alpha", damping), param("a", drive)
+    nu, b = param("nu", 2), param("b", Rational(1, 5))
+    H = Matrix([a * cos(nu * t), a * sin(nu * t), K * m[2] + b])
+    w = H + alpha * m.cross(H)
+    return FieldScene(
+        title=title,
+        group=G,
+        action=Rotation(),
+        y=m,
+        f=w,
+        y0=[Rational(3, 5), 0, Rational(4, 5)],
+        span=(0, end),
+        velocity=H.cross(m) + alpha * (H * m.dot(m) - m * m.dot(H)),
+        invariants={"radius": m.dot(m)},
+    )
+
+
+scene = driven_spin("Driven spin on the sphere", 3, Rational(1, 10), Rational(1, 2), 10)

@@ -1,0 +1,36 @@
+"""Fast heavy top: a symmetric top with its inertia fixed in the body, spinning at 150 rad/s, on T*SO(3).
+
+The benchmark of multibody dynamics (Brüls and Cardona 2010) with the inertia about the fixed point: I W' =
+(I W) x W + X x R^T (0, 0, -m g), R' = R hat(W). The momentum mu = R I W is that of space, and
+mu' = n - ad*_xi mu = (R X) x (0, 0, -m g). The energy and the momenta about the vertical and about the body's axis X are kept.
+"""
+
+from sympy import Matrix, Rational, diag, eye
+
+from codegen.groups import SO3
+from codegen.scene import HamiltonianScene
+
+G = SO3()
+g, mu = G.point("g"), G.dual("mu")
+I = diag(Rational("15.234375"), Rational("0.46875"), Rational("15.234375"))  # noqa: E741 (the tensor's name)
+mass, gravity, X = 15, Rational("9.81"), Matrix([0, 1, 0])
+W0 = Matrix([0, 150, Rational("-4.61538")])
+e3 = Matrix([0, 0, 1])
+w = g * I.inv() * g.T * mu
+T = mu.dot(w) / 2
+V = mass * gravity * e3.dot(g * X)
+
+scene = HamiltonianScene(
+    title="Fast heavy top with body inertia, T*SO(3) (Brüls and Cardona 2010)",
+    group=G,
+    q=g,
+    mu=mu,
+    H=T + V,
+    parts={"T": T, "V": V},
+    q0=eye(3),
+    mu0=I * W0,
+    span=(0, 2),
+    xi=w,
+    n=(g * X).cross(-mass * gravity * e3) + mu.cross(w),
+    invariants={"momentum_about_vertical": mu[2], "momentum_about_body_axis": mu.dot(g * X)},
+)

@@ -1,0 +1,30 @@
+"""Heavy top as printed in thesis section 2.5: kinetic energy of the right-trivialised momentum itself, on T*SO(3).
+
+With a constant inertia tensor the kinetic energy is right-invariant, so that this is no top with an inertia
+fixed in the body (that one is ``fast_heavy_top``); the momentum about the body's third axis is kept.
+"""
+
+from sympy import Matrix, diag, eye
+
+from codegen.groups import SO3
+from codegen.scene import HamiltonianScene
+
+G = SO3()
+g, mu = G.point("g"), G.dual("mu")
+I = 1000 * diag(1, 5, 6)  # noqa: E741 (the inertia tensor's name)
+e3 = Matrix([0, 0, 1])
+T = mu.dot(I.inv() * mu) / 2
+V = e3.dot(g * e3)
+
+scene = HamiltonianScene(
+    title="Heavy top as printed, T*SO(3) (thesis section 2.5)",
+    group=G,
+    q=g,
+    mu=mu,
+    H=T + V,
+    parts={"T": T, "V": V},
+    q0=eye(3),
+    mu0=10 * I * Matrix([1, 1, 1]),
+    span=(0, 1),
+    invariants={"momentum_about_body_axis": mu.dot(g * e3)},
+)
