@@ -1,4 +1,4 @@
-"""What a scene says of itself, checked when it is read: its start, its field, its Hamiltonian, its invariants.
+"""What a scene says of itself, checked when it is read: its start, field, Hamiltonian and invariants.
 
 Derivatives are exact, by reverse differentiation of the formulas; they are compared with 40 digits at points
 of the orbit of the initial state, moved by elements of the group, and at times of the span. Formulas that
@@ -130,8 +130,10 @@ def check_start(orbit: Orbit) -> None:
             )
 
 
-def check_equal(orbit: Orbit, stated: Sequence[Expr], what: str, derived: Sequence[Expr] | None = None) -> None:
-    """Raise :class:`SceneError` where stated formulas differ from f (``derived``), or from f.y if that is None.
+def check_equal(
+    orbit: Orbit, stated: Sequence[Expr], what: str, derived: Sequence[Expr] | None = None
+) -> None:
+    """Raise :class:`SceneError` where stated formulas differ from derived ones, or from f.y without these.
 
     ``what`` names the stated formulas in the message.
     """
@@ -141,7 +143,7 @@ def check_equal(orbit: Orbit, stated: Sequence[Expr], what: str, derived: Sequen
         for k, (x, y) in enumerate(zip(left or (), right or (), strict=True)):
             if not orbit.sized(x - y, (x, y)):
                 raise SceneError(
-                    f"{what}[{k}] is {orbit.text(x)} where {_place(orbit, point)}",
+                    f"{what}[{k}] is {orbit.text(x)} {_place(orbit, point)}",
                     where=orbit.name,
                     expected=f"{orbit.text(y)}, by {'f.y' if derived is None else 'differentiating H'}",
                 )
@@ -162,7 +164,7 @@ def check_invariants(orbit: Orbit, invariants: Mapping[str, Expr]) -> None:
             total = sum(terms[1:], terms[0])
             if not orbit.sized(total, terms):
                 raise SceneError(
-                    f"the invariant {name} changes at the rate {orbit.text(total)} where {_place(orbit, point)}",
+                    f"the invariant {name} changes at the rate {orbit.text(total)}, {_place(orbit, point)}",
                     where=orbit.name,
                     expected="a function that is constant along the field",
                     hint="leave it out of invariants",
@@ -171,4 +173,4 @@ def check_invariants(orbit: Orbit, invariants: Mapping[str, Expr]) -> None:
 
 def _place(orbit: Orbit, point: dict[str, Any]) -> str:
     shown = [f"{s} = {orbit.text(point[s])}" for s in (*orbit.symbols[:3], "t")]
-    return ", ".join(shown)
+    return "where " + ", ".join(shown)

@@ -185,8 +185,8 @@ def FieldScene(
     ``y`` is a sympy column of coordinate symbols, ``f`` a column of ``group.dim`` components in them, in
     the symbol ``t`` and parameters, ``y0`` the exact initial point, ``span`` the rational time interval,
     ``invariants`` a mapping from names to scalar formulas. ``velocity``, where it is given, is y' as an
-    ambient formula; f must generate it. :class:`SceneError` for a wrong shape or symbol, a start that is not on
-    the group, an f that does not generate the velocity, an invariant that is none.
+    ambient formula; f must generate it. :class:`SceneError` for a wrong shape or symbol, a start that is not
+    on the group, an f that does not generate the velocity, an invariant that is none.
     """
     reader = _Reader(name, list(y))
     _acts(reader, group, action)
@@ -223,8 +223,8 @@ def HamiltonianScene(
 
     ``q`` and ``mu`` are sympy matrices of symbols (``group.point``, ``group.dual``), ``q0`` and ``mu0`` exact
     initial values, ``parts`` named summands of H. xi = D_2 H and n = -(D_1 H).q^-1, that is n_a = -d/deps
-    H(exp(eps e_a) q, mu) (thesis eq. 3.4), are found by differentiation; where ``xi`` or ``n`` is given by hand
-    it must agree. The energy is an invariant of a Hamiltonian without time. :class:`SceneError` as for
+    H(exp(eps e_a) q, mu) (thesis eq. 3.4), are found by differentiation; where ``xi`` or ``n`` is given by
+    hand it must agree. The energy is an invariant of a Hamiltonian without time. :class:`SceneError` as for
     :func:`FieldScene`.
     """
     reader = _Reader(name, [*q, *mu])

@@ -2,7 +2,7 @@
 
 The benchmark of multibody dynamics (Brüls and Cardona 2010) with the inertia about the fixed point: I W' =
 (I W) x W + X x R^T (0, 0, -m g), R' = R hat(W). The momentum mu = R I W is that of space, and
-mu' = n - ad*_xi mu = (R X) x (0, 0, -m g). The energy and the momenta about the vertical and about the body's axis X are kept.
+mu' = n - ad*_xi mu = (R X) x (0, 0, -m g). Energy and the momenta about the vertical and about X are kept.
 """
 
 from sympy import Matrix, Rational, diag, eye
@@ -12,7 +12,7 @@ from codegen.scene import HamiltonianScene
 
 G = SO3()
 g, mu = G.point("g"), G.dual("mu")
-I = diag(Rational("15.234375"), Rational("0.46875"), Rational("15.234375"))  # noqa: E741 (the tensor's name)
+I = diag(Rational("15.234375"), Rational("0.46875"), Rational("15.234375"))  # noqa: E741
 mass, gravity, X = 15, Rational("9.81"), Matrix([0, 1, 0])
 W0 = Matrix([0, 150, Rational("-4.61538")])
 e3 = Matrix([0, 0, 1])

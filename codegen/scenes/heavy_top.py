@@ -1,7 +1,7 @@
-"""Heavy top as printed in thesis section 2.5: kinetic energy of the right-trivialised momentum itself, on T*SO(3).
+"""Heavy top as printed in thesis section 2.5, on T*SO(3): the kinetic energy is right-invariant.
 
-With a constant inertia tensor the kinetic energy is right-invariant, so that this is no top with an inertia
-fixed in the body (that one is ``fast_heavy_top``); the momentum about the body's third axis is kept.
+The inertia tensor acts on the right-trivialised momentum, so it is fixed in space; a top with its inertia in
+the body is ``fast_heavy_top``. The momentum about the body's third axis is kept.
 """
 
 from sympy import Matrix, diag, eye

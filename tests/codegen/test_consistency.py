@@ -103,9 +103,7 @@ class TestTheInitialState:
     def test_of_a_field_on_the_group_is_on_the_group(self):
         q = SO3().point("q")
         with pytest.raises(SceneError, match=r"det g = 1 off by -2"):
-            FieldScene(
-                group=SO3(), action=LeftMultiplication(), y=q, f=[1, 2, 3], y0=-eye(3), span=(0, 1)
-            )
+            FieldScene(group=SO3(), action=LeftMultiplication(), y=q, f=[1, 2, 3], y0=-eye(3), span=(0, 1))
 
 
 @pytest.mark.parametrize("name", GALLERY)

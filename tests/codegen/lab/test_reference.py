@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import mpmath
 import pytest
-from sympy import Matrix, sqrt, symbols
+from sympy import Matrix, Rational, sqrt, symbols
 
 from codegen.errors import SceneError
 from codegen.groups import LeftMultiplication, Rn
@@ -67,8 +67,8 @@ def test_a_solution_that_blows_up_within_the_span_is_an_error_of_the_scene() -> 
 
 
 def test_a_field_with_a_pole_on_the_way_is_an_error_of_the_scene() -> None:
-    with pytest.raises(SceneError, match=r"beyond t = 0;|beyond t = 0:"):
-        reference(scene(lambda y: Matrix([1 / y[0]]), [0], (0, 1)))
+    with pytest.raises(SceneError, match=r"beyond t = 0\.12[45]"):
+        reference(scene(lambda y: Matrix([-1 / y[0]]), [Rational(1, 2)], (0, 1)))
 
 
 def test_a_solution_that_ends_within_the_span_is_an_error_that_says_when() -> None:

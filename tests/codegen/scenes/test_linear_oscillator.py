@@ -1,7 +1,7 @@
 """On R^n every family is its classical method, and time enters at the stages: the oscillator of Paper 3.
 
-The classical methods are written once more here, in 40 digits at a time that is not zero, so that a stage time
-that is wrong in any family shows. The exact step over Q[[h]] gives the orders.
+The classical methods are written once more here, in 40 digits at a time that is not zero, so that a stage
+time that is wrong in any family shows. The exact step over Q[[h]] gives the orders.
 """
 
 from __future__ import annotations
@@ -53,7 +53,9 @@ def stiffness(c):
 
 
 def combined(start, row, slopes):
-    return [x + DOMAIN.h * sum(a * s[k] for a, s in zip(row, slopes, strict=True)) for k, x in enumerate(start)]
+    return [
+        x + DOMAIN.h * sum(a * s[k] for a, s in zip(row, slopes, strict=True)) for k, x in enumerate(start)
+    ]
 
 
 Q0, P0 = [DOMAIN.rational(n) for n in (1, 2, 3, 4)], [DOMAIN.rational(n) for n in (4, 1, 2, 3)]
@@ -88,12 +90,18 @@ def coefficients(name):
     for stage in (*free.stages, free.update):
         exponentials = numbers(method, stage.exponentials)
         own = [sum(column) for column in zip(*exponentials, strict=True)] or [0] * free.s
-        rows.append(own if stage.start is None else [x + y for x, y in zip(own, rows[stage.start], strict=True)])
+        rows.append(
+            own if stage.start is None else [x + y for x, y in zip(own, rows[stage.start], strict=True)]
+        )
     return rows[:-1], rows[-1]
 
 
 COLLAPSED = [
-    *((family, name, cutoff) for name in ("rk4", "gauss2") for family, cutoff in (("rk", None), ("cg", None))),
+    *(
+        (family, name, cutoff)
+        for name in ("rk4", "gauss2")
+        for family, cutoff in (("rk", None), ("cg", None))
+    ),
     *(("rkmk", name, cutoff) for name in ("kutta3", "gauss2") for cutoff in (0, 1, 2)),
     ("cg", "cg3", None),
     ("rkmk", full(2), 2),
@@ -129,7 +137,9 @@ def test_variational_methods_are_symplectic_partitioned_ones(name):
 
 def test_another_tableau_is_told_apart():
     """The check itself."""
-    assert not close(stepped(Method("rk", shipped("rk4"))), partitioned(*[coefficients("gauss2")[0]] * 2, [0.5, 0.5]))
+    assert not close(
+        stepped(Method("rk", shipped("rk4"))), partitioned(*[coefficients("gauss2")[0]] * 2, [0.5, 0.5])
+    )
 
 
 METHODS = [
@@ -195,7 +205,7 @@ def test_emitted_code_reads_the_time(check_codegen, spelling):
 
 
 def test_the_reference_is_the_solution_by_its_power_series():
-    """q'' = -(1 + eps sin(alpha t)) q for the first coordinate, by the recursion of its Taylor coefficients."""
+    """q'' = -(1 + eps sin(alpha t)) q for one coordinate, by the recursion of Taylor coefficients."""
     context = mpmath.mp.clone()
     context.dps = 40
     terms, alpha = 120, context.mpf(123) / 1000
