@@ -1,4 +1,4 @@
-"""A field on the sphere that depends on time and is dissipative: orders hold with time, and fail without it."""
+"""A field on the sphere that depends on time and is dissipative: orders hold with time, fail without."""
 
 from __future__ import annotations
 
