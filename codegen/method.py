@@ -131,9 +131,9 @@ def parse(spelling: str, families: Sequence[str]) -> Method:
             where=spelling,
             expected=f"one for {' or '.join(WITH_CUTOFF)} only, as rkmk(2):rk4",
         )
-    if tableau.family == "cf":  # exponentials of several stages: there is no A and b to read
-        families = [f for f in families if f in EXPONENTIALS]
-    wanted = [c for c in tableau.claims.orders if c.family == (family or c.family) and c.family in families]
+    # A tableau of exponentials has no A and b to read, even where it claims the order of its sums as rk.
+    readable = [f for f in families if tableau.family != "cf" or f in EXPONENTIALS]
+    wanted = [c for c in tableau.claims.orders if c.family == (family or c.family) and c.family in readable]
     if family is not None and cutoff is not None:
         return Method(family, tableau, int(cutoff))
     if family is not None and family not in WITH_CUTOFF:
