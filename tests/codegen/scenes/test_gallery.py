@@ -37,7 +37,7 @@ KEPT = {
         -0.0419938903722052921480378173 -0.0272033241964122829054381142 0.9987474617359846355346751341
     """,
 }
-"""States at the end of the span, by extrapolation with Arb's numbers; but for :data:`MINUTES` mpmath's agree."""
+"""States at the end of the span, by extrapolation with Arb's numbers; mpmath's agree but for MINUTES."""
 
 MINUTES = ("fast_heavy_top", "stiff_driven_spin")
 NAMES = [pytest.param(n, marks=pytest.mark.slow) if n in MINUTES else n for n in KEPT]
