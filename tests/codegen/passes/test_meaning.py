@@ -91,7 +91,7 @@ def test_a_program_at_an_equilibrium_is_judged_elsewhere():
     assert "moved by" in Reference(program, view).differs(mapped(program, fewer_brackets))
 
 
-@pytest.mark.parametrize("name", ["abelian", "zeros", "sharing", "blocks", "factor", "fuse"])
+@pytest.mark.parametrize("name", ["abelian", "zeros", "sharing", "merge", "blocks", "factor", "fuse"])
 def test_a_broken_pass_is_the_compilers_fault(monkeypatch, name):
     view, program = lowered("vcg", full(2), hamiltonian_scene("SO(3)"))
     broken = getattr(passes, name).run
