@@ -248,5 +248,10 @@ def load(source: Emission | str | Path, module: str = "", target: str = "") -> I
     interface = Interface.from_json(emission.manifest["interface"])
     defaults = emission.manifest["defaults"]
     if emission.manifest["target"] == "c":
-        return CompiledIntegrator(interface, defaults, build(emission.files))
+        path = build(emission.files)
+        try:
+            return CompiledIntegrator(interface, defaults, path)
+        except OSError:  # a damaged file in the cache; what is built anew and fails again is told
+            path.unlink(missing_ok=True)
+            return CompiledIntegrator(interface, defaults, build(emission.files))
     return InterpretedIntegrator(interface, defaults, emission.files[f"{interface.module}.py"])

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from sympy import Matrix, cos, exp, sin, symbols
 
-from codegen.build import CompileError, Compiler, compile_files
+from codegen.build import CompileError, Compiler, build, compile_files
 from codegen.emit import emit, prefix_of
 from codegen.groups import SO3, Rotation
 from codegen.load import Statistics, Status, StepFailed, load
@@ -332,3 +332,12 @@ def test_headers_are_read_by_c_plus_plus_whatever_parameters_are_called(tmp_path
 def test_a_prefix_that_no_file_or_name_can_take_is_refused(prefix):
     with pytest.raises(InputError, match="--prefix: the prefix"):
         prefix_of(prefix)
+
+
+def test_a_damaged_file_in_the_cache_is_built_anew(kernels, monkeypatch, tmp_path):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    emission = kernels.emission(kernels.rigid(), "c")
+    damaged = build(emission.files)
+    damaged.unlink()
+    damaged.write_bytes(b"no shared object")
+    assert load(emission).run([0.4, -0.3, 0.9], 0.0, 1) == [0.4, -0.3, 0.9]
