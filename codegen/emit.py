@@ -54,7 +54,8 @@ class Compiled:
 def compile_method(scene: Setting | str, method: Method | str, parameters: Sequence[str] = ()) -> Compiled:
     """Return a method on a scene (or their names) lowered, optimised and made a kernel.
 
-    ``parameters`` stay run-time arguments; all others are folded at the scene's values. SceneError,
+    ``parameters`` stay run-time arguments, or are folded at the value given (``alpha=1/2``); all others are
+    folded at the scene's values. SceneError,
     MethodError, UnknownName or TableauError for what cannot be read or does not fit.
     """
     if isinstance(scene, str):
@@ -107,6 +108,7 @@ def emit_compiled(
     order = order or certified_order(method)
     options = [f"--prefix {chosen}"] if prefix else []
     options += [f"--parameter {p}" for p in scene.runtime]
+    options += [f"--parameter {p}={value}" for p, value in scene.fixed if p not in scene.runtime]
     words = ["orderconds emit", named["scene"], "--method", quoted(named["method"]), "--target", target]
     command = " ".join([*words, *options, "-o", "."])
     first, last = scene.span

@@ -84,6 +84,7 @@ class Setting:
     parameters: Mapping[str, Number]
     runtime: tuple[str, ...] = ()
     paired: bool = False
+    fixed: tuple[tuple[str, str], ...] = ()
 
     @property
     def symbols(self) -> tuple[str, ...]:
@@ -105,12 +106,35 @@ class Setting:
         return int(self.group.dim)
 
     def with_runtime(self, names: Sequence[str]) -> Setting:
-        """Return this scene with those parameters kept as run-time inputs."""
-        for name in names:
+        """Return this scene with those parameters kept as run-time inputs, or folded at another value.
+
+        ``alpha`` keeps alpha an input, ``alpha=1/2`` folds it at 1/2; the scene is then checked anew.
+        """
+        values = dict(self.parameters)
+        runtime, fixed = set(self.runtime), dict(self.fixed)
+        for spelled in names:
+            name, given, text = spelled.partition("=")
             if name not in self.parameters:
                 known = ", ".join(sorted(self.parameters)) or "none"
                 raise SceneError(f"unknown parameter {name!r}", where=self.name, expected=f"one of: {known}")
-        return replace(self, runtime=tuple(sorted(names)))
+            if not given:
+                runtime.add(name)
+                continue
+            try:
+                values[name] = Number.rational(*Fraction(text).as_integer_ratio())
+            except (ValueError, ZeroDivisionError):
+                raise SceneError(
+                    f"the value {text!r} of the parameter {name}",
+                    where=self.name,
+                    expected="a rational number, as 1/2 or 0.25",
+                ) from None
+            fixed[name] = values[name].text()
+        changed = replace(
+            self, parameters=values, runtime=tuple(sorted(runtime)), fixed=tuple(sorted(fixed.items()))
+        )
+        if fixed:
+            _check(changed, {})
+        return changed
 
     def as_field(self) -> Setting:
         """Return a Hamiltonian scene as the field f = (xi, n) on the group T*G acting on itself."""

@@ -18,7 +18,11 @@ from orderconds.commands import screen
 @click.option("--output", "-o", metavar="DIR", help="The folder to write to.")
 @click.option("--prefix", default="", help="Start of every external name; by default scene and method.")
 @click.option(
-    "--parameter", "-p", "parameters", multiple=True, help="Keep this parameter a run-time argument."
+    "--parameter",
+    "-p",
+    "parameters",
+    multiple=True,
+    help="A parameter to keep a run-time argument, or NAME=VALUE to fold.",
 )
 @click.option("--explain", is_flag=True, help="Print the program after each pass, and what was left out.")
 @click.option("--json", "as_json", is_flag=True, help="One record a module on stdout, nothing else.")

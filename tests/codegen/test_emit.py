@@ -146,6 +146,20 @@ def test_a_parameter_is_folded_unless_it_is_asked_for():
     )
 
 
+def test_the_isotropy_of_the_rigid_body_is_an_option_of_its_scene():
+    """f + alpha m gives the same field and another method (thesis 2.19)."""
+    kept = emit("free_rigid_body", "cf4", "c", parameters=["alpha"])
+    fixed = emit("free_rigid_body", "cf4", "c", parameters=["alpha=3/2"])
+    assert "--parameter alpha=3/2 " in fixed.manifest["command"]
+    assert fixed.manifest["interface"]["parameters"] == []
+    start = kept.manifest["initial"]
+    one = load(fixed).run(start, 0.1, 5)
+    assert one == pytest.approx(load(kept).run(start, 0.1, 5, alpha=1.5), abs=1e-14)
+    assert one != pytest.approx(load(kept).run(start, 0.1, 5), abs=1e-9)
+    fine = [load(kept).run(start, 2 / 4000, 4000, alpha=a) for a in (0.0, 1.5)]
+    assert fine[0] == pytest.approx(fine[1], abs=1e-11)
+
+
 def test_no_path_reaches_emitted_text(tmp_path):
     path = tmp_path / "my_top.py"
     path.write_text(

@@ -145,6 +145,22 @@ class TestParameters:
         kept = scene.with_runtime(["a"]).apply(space, "field", None, (state,))[0]
         assert str(kept[0]) in ("(a * y0)", "(y0 * a)")
 
+    def test_can_be_folded_at_another_value(self):
+        scene = sphere(f=param("a", 3) * y + param("b", 1) * y).with_runtime(["a=-1/4"])
+        assert {k: v.text() for k, v in scene.parameters.items()} == {"a": "-1/4", "b": "1"}
+        assert scene.fixed == (("a", "-1/4"),)
+        assert scene.runtime == ()
+
+    def test_at_another_value_keep_what_the_scene_says(self):
+        scene = sphere(f=param("a", 0) * Matrix([1, 0, 0]) - y, invariants={"height": y[2] ** 2 + y.dot(y)})
+        with pytest.raises(SceneError, match="the invariant height changes"):
+            scene.with_runtime(["a=1"])
+
+    @pytest.mark.parametrize("value", ["", "x", "1/0", "nan", "sqrt(2)"])
+    def test_are_rational(self, value):
+        with pytest.raises(SceneError, match="of the parameter a; expected a rational number"):
+            sphere(f=param("a", 3) * y).with_runtime([f"a={value}"])
+
     def test_of_one_scene_mean_nothing_in_another(self):
         sphere(f=param("leaked", 3) * y)
         with pytest.raises(SceneError, match="the symbol leaked in"):
