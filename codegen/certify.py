@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from codegen.errors import MethodError
 from codegen.lower.fewest import bracket_program
 from codegen.method import Method
+from codegen.scene import Setting
 
 if TYPE_CHECKING:
     from orderconds.check import Failure
@@ -18,13 +19,15 @@ if TYPE_CHECKING:
 class CertifiedOrder:
     """An order with how it is known, and the conditions of the next order that fail.
 
-    ``bound`` says that the search ended before a condition failed.
+    ``bound`` says that the search ended before a condition failed; ``classical`` names the family that the
+    method is on an abelian group, where the order was found for that one.
     """
 
     order: int
     certificate: str
     bound: bool = False
     failing: tuple[Failure, ...] = ()
+    classical: str = ""
 
     def text(self) -> str:
         """Say it in words."""
@@ -35,7 +38,12 @@ class CertifiedOrder:
         }
         least = "at least " if self.bound else ""
         explained = f" ({how[self.certificate]})" if self.certificate in how else ""
-        return f"{least}{self.order}, certificate: {self.certificate}{explained}"
+        where = f", as {self.classical} on an abelian group" if self.classical else ""
+        return f"{least}{self.order}, certificate: {self.certificate}{explained}{where}"
+
+
+CLASSICAL = {"rkmk": "rk", "cg": "rk", "cf": "rk", "vcg": "sprk", "vrkmk": "sprk", "vrkmk_pade": "sprk"}
+"""What a family is where brackets vanish and exponentials are sums."""
 
 
 def family_of(method: Method) -> Family:
@@ -56,14 +64,23 @@ def family_of(method: Method) -> Family:
     return families.get(method.family_label)
 
 
-def certified_order(method: Method) -> CertifiedOrder:
+def certified_order(method: Method, scene: Setting | None = None) -> CertifiedOrder:
     """Return the order of a method in its family; a MethodError where it cannot be decided.
+
+    On a ``scene`` whose group is abelian it is the order of the classical family that the method is there.
 
     For ``rkmk`` without a cut-off and ``vrkmk_pade`` the failing conditions are not named: no index sum
     spells what fails.
     """
     from orderconds.check import check, family_order
 
+    classical = CLASSICAL.get(method.family, "") if scene is not None and scene.group.abelian else ""
+    if classical:
+        (found,) = check(method.tableau, family=classical).orders
+        if found.decided:
+            return CertifiedOrder(
+                found.order, found.certificate, found.limit is not None, found.failing, classical
+            )
     family = family_of(method)
     if method.family == "vrkmk_pade" or (method.family == "rkmk" and method.cutoff is None):
         found = replace(family_order(method.tableau, family), failing=())

@@ -105,7 +105,7 @@ def emit_compiled(
     scene, method = compiled.scene, compiled.method
     named = named or {"scene": scene.name, "method": method.label}
     chosen = prefix_of(prefix) if prefix else default_prefix(scene, method)
-    order = order or certified_order(method)
+    order = order or certified_order(method, scene)
     options = [f"--prefix {chosen}"] if prefix else []
     options += [f"--parameter {p}" for p in scene.runtime]
     options += [f"--parameter {p}={value}" for p, value in scene.fixed if p not in scene.runtime]

@@ -34,7 +34,7 @@ def command(
     setting = load(scene)
     chosen = [parse(spelling, families_for(setting)) for spelling in methods]
     with working("order conditions") as tell:
-        pairs = [(method, certified_order(method)) for method in chosen]
+        pairs = [(method, certified_order(method, setting)) for method in chosen]
         tell("compiling")
         runners = [(runner(setting, method, target, digits, order), order) for method, order in pairs]
         tell("reference solution")

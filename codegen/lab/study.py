@@ -92,7 +92,7 @@ def study(spelled: str, scene: Setting, methods: Sequence[Method], tell: Tell) -
 def _study(scene: Setting, method: Method, exact: Reference, tell: Tell) -> MethodStudy:
     name = f"{scene.name}, {method.label}"
     tell(f"{name}: order conditions")
-    order = certified_order(method)
+    order = certified_order(method, scene)
     tell(f"{name}: compiling")
     compiled = compile_method(scene, method)
     c, python = Emitted(compiled, "c", order), Emitted(compiled, "python", order)

@@ -37,7 +37,7 @@ def test_json_holds_the_measurements_and_stdout_nothing_else(tmp_path: Path) -> 
 def test_an_order_that_is_not_observed_exits_1_and_stands_in_the_page(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(study, "certified_order", lambda method: CertifiedOrder(4, "exact"))
+    monkeypatch.setattr(study, "certified_order", lambda method, scene: CertifiedOrder(4, "exact"))
     result = run("free_rigid_body", "-m", "cg:cg3", "-o", str(tmp_path))
     assert result.exit_code == 1
     assert "fails: observed order 3.00, stated 4" in result.stdout

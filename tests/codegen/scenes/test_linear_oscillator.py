@@ -11,11 +11,14 @@ from fractions import Fraction
 import mpmath
 import pytest
 
+from codegen.certify import certified_order
 from codegen.emit import compile_method, emit_compiled
 from codegen.ir.domain import FloatDomain, PreciseDomain
 from codegen.ir.interpret import interpret
+from codegen.lab.converge import converge
 from codegen.lab.local_error import local_error, valuation
 from codegen.lab.reference import reference
+from codegen.lab.runner import Emitted
 from codegen.lower import lower, setting
 from codegen.method import Method
 from codegen.passes import optimise
@@ -221,3 +224,16 @@ def test_the_reference_is_the_solution_by_its_power_series():
     found = reference(SCENE)
     assert abs(found.state[0] - q0) < 1e-30
     assert abs(found.state[4] - p0) < 1e-30
+
+
+@pytest.mark.parametrize(
+    ("spelling", "order", "elsewhere"), [("vcg:gauss2", 4, 2), ("rkmk(0):rk4", 4, 2), ("cf:cf4", 4, 4)]
+)
+def test_the_stated_order_is_the_classical_one_and_is_observed(spelling, order, elsewhere):
+    made = compile_method(SCENE, spelling)
+    stated = certified_order(made.method, SCENE)
+    assert stated.order == emit_compiled(made, "c").manifest["order"] == order
+    assert "on an abelian group" in stated.text()
+    assert certified_order(made.method).order == elsewhere
+    found = converge(Emitted(made, "c", stated), stated, reference(SCENE))
+    assert found.verdict == "holds", found.sentence()
