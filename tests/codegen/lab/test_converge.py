@@ -79,7 +79,7 @@ ORDERS = {
         "rkmk:kutta3": 3,
     },
     "dipole": {"vcg:gauss1": 2, "vcg:triple_jump": 4, "vcg:triple_jump6": 6, "vcg:gauss2": 2, "cf:cf4": 4}
-    | {"vrkmk(2):gauss2": 4, "vrkmk(0):gauss2": 2},
+    | {"vrkmk(2):gauss2": 4, "vrkmk(0):gauss2": 2, "vrkmk_pade(2):gauss2": 4},
 }
 
 
@@ -90,6 +90,11 @@ def test_emitted_c_shows_its_order_and_no_other(scene: str, method: str, exact: 
     assert found.verdict == "holds", found.sentence()
     for other in (order - 1, order + 1):
         assert replace(found, stated=CertifiedOrder(other, "exact")).verdict == "fails"
+
+
+def test_vrkmk6_shows_its_order_on_the_dipole(exact: Exact) -> None:
+    found = measure(exact, "dipole", "vrkmk(4):gauss3", 6, steps=(5, 10, 20))
+    assert all(5.9 < slope < 6.1 for slope in found.ladder.slopes)
 
 
 def test_thirty_digits_decide_what_rounding_hides_from_doubles(exact: Exact) -> None:

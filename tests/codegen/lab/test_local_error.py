@@ -12,6 +12,8 @@ import pytest
 
 from codegen.certify import certified_order
 from codegen.errors import SceneError
+from codegen.ir.number import Number
+from codegen.ir.program import Coefficient, Operation, Solve
 from codegen.lab.local_error import leading_term, local_error, predicted, valuation
 from codegen.lower import lower, setting
 from codegen.method import WITH_CUTOFF, Method
@@ -190,6 +192,34 @@ def test_with_the_fewest_brackets_orders_five_and_six_are_kept(tableau, order, b
     assert valuation(error) == order + 1
     assert certified_order(method).order == order
     assert optimise(lower(field_scene("S^2"), method), view)[0].counts()["ad"] == brackets
+
+
+def test_without_the_derivative_of_dexpinv_vrkmk_loses_its_order():
+    """P* left out, and P* with the wrong sign: order 1 in place of 3, and the check of the order sees it."""
+    scene, method = hamiltonian_scene("SO(3)"), Method("vrkmk", shipped("kutta3"), 1)
+    view, right = setting(scene, method), lower(scene, method)
+
+    made = {x.targets[0].name for x in right.assigns() if x.operation.name == "P"}
+
+    def altered(factor):
+        def change(assign):
+            if assign.operation.name != "lin":
+                return assign
+            pairs = zip(assign.operation.coefficients, assign.args, strict=True)
+            scaled = tuple(
+                Coefficient(c.value * Number.rational(factor), c.power) if a.name in made else c
+                for c, a in pairs
+            )
+            return replace(assign, operation=Operation("lin", scaled))
+
+        body = tuple(
+            replace(s, body=tuple(map(change, s.body))) if isinstance(s, Solve) else change(s)
+            for s in right.body
+        )
+        return replace(right, body=body)
+
+    found = [valuation(local_error(altered(factor), view, method.ring, 4)) for factor in (1, 0, -1)]
+    assert found == [4, 2, 2]
 
 
 @pytest.mark.parametrize(("cutoff", "order"), [(1, 3), (2, 4)])
