@@ -118,9 +118,14 @@ def on_the_line(field, start):
 
 @pytest.mark.parametrize("field", [lambda y: sqrt(y - 2), lambda y: y * 10**400], ids=["root", "overflow"])
 def test_a_field_that_is_not_there_around_the_initial_state_is_bad_input(field):
-    view, program = lowered("rk", "euler", on_the_line(field, 1))
-    with pytest.raises(SceneError, match="no step can be computed from the initial state"):
-        Reference(program, view)
+    """The scene's own check sees it first where the field is not real there."""
+
+    def compared():
+        view, program = lowered("rk", "euler", on_the_line(field, 1))
+        return Reference(program, view)
+
+    with pytest.raises(SceneError, match=r"no step can be computed from|f at the initial state is no finite"):
+        compared()
 
 
 @pytest.mark.parametrize("power", [0, 9, 12, 200])
