@@ -37,6 +37,6 @@ def drift(spelling, steps):
 
 
 def test_a_variational_method_keeps_both_momenta_to_rounding_and_munthe_kaas_does_not():
-    """Rotations about the vertical and about the body's axis leave H, and the discrete action, as they are."""
+    """Rotations about the vertical and about the body's axis leave H and the discrete action as they are."""
     assert max(drift("vcg:midpoint", 4000)) < 1e-11
     assert min(drift("rkmk(2):rk4", 4000)) > 1e-8
