@@ -13,7 +13,7 @@ from orderconds.commands.screen import print_json, working
 @click.option("--output", "-o", metavar="DIR", required=True, help="The folder to write index.html to.")
 @click.option("--json", "as_json", is_flag=True, help="The measurements on stdout, nothing else.")
 def command(scenes: tuple[str, ...], methods: tuple[str, ...], output: str, as_json: bool) -> int:
-    """Measure SCENEs (names of the gallery or Python files; all of the gallery by default).
+    """Measure SCENEs (names of the gallery or Python files; dipole and free_rigid_body by default).
 
     The page needs no network. The exit status is 1 when an observed order is not the computed one; the page
     is written in any case.

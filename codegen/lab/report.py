@@ -15,13 +15,16 @@ from orderconds.errors import InputError
 
 PAGE = "index.html"
 
+USUAL = ("dipole", "free_rigid_body")
+"""The scenes that are studied where nobody chose: a Hamiltonian and a field, in under a minute."""
+
 
 def measure(names: Sequence[str], spellings: Sequence[str], tell: Tell) -> tuple[Study, ...]:
-    """Study scenes (all of the gallery where none is named), with the methods named or the usual ones.
+    """Study scenes (:data:`USUAL` where none is named), with the methods named or the usual ones.
 
     Names and spellings are read before anything is measured, so that a mistake shows at once.
     """
-    chosen = [(name, scenes.load(name)) for name in (names or scenes.GALLERY)]
+    chosen = [(name, scenes.load(name)) for name in (names or USUAL)]
     planned = [(name, scene, methods_for(scene, spellings)) for name, scene in chosen]
     return tuple(study(name, scene, methods, tell) for name, scene, methods in planned)
 
