@@ -34,6 +34,10 @@ BUILT_IN = {
         "Find the exact order of tableaux and compare it with their claims.",
     ),
     "cite": ("orderconds.commands.cite", "Print the BibTeX of a tableau's source."),
+    "construct": (
+        "orderconds.commands.construct",
+        "Make a Gauss, Radau or Lobatto method from its definition.",
+    ),
     "convert": (
         "orderconds.commands.convert",
         "Convert a tableau from and to JSON, CSV, NumPy, SymPy, LaTeX and C arrays.",

@@ -26,11 +26,11 @@ def isolate(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_
     found = []
     for factor, _ in polynomial.factor()[1]:
         monic = factor / factor.leading_coefficient()
-        found += [(monic, k) for k, x in enumerate(_real_roots(monic, 256)) if _meets(x, near, unit)]
+        found += [(monic, k) for k, x in enumerate(real_roots(monic, 256)) if _meets(x, near, unit)]
     if len(found) != 1:
         raise ValueError(f"{len(found) or 'no'} real roots within {unit} of {near}")
     monic, k = found[0]
-    return monic, lambda bits: _real_roots(monic, bits)[k]
+    return monic, lambda bits: real_roots(monic, bits)[k]
 
 
 def isolating(monic: fmpq_poly, root: Enclosure) -> str:
@@ -64,7 +64,7 @@ def _meets(x: arb, near: fmpq, unit: fmpq) -> bool:
     return bool(low <= near + unit and near - unit <= high)
 
 
-def _real_roots(monic: fmpq_poly, bits: int) -> tuple[arb, ...]:
+def real_roots(monic: fmpq_poly, bits: int) -> tuple[arb, ...]:
     """Return balls around the real roots, ascending: an index names the same root at any precision."""
     return _ascending(tuple(str(c) for c in monic.coeffs()), bits)
 

@@ -12,6 +12,10 @@ from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
 from orderconds.tableau.record import Claims, Tableau
 
 
+WIDTH = 110
+"""Matrices on longer lines are broken by rows."""
+
+
 def dumps(tableau: Tableau) -> str:
     """Return the tableau as TOML text.
 
@@ -29,15 +33,14 @@ def dumps(tableau: Tableau) -> str:
     elif isinstance(method, AdjointComposition | Splitting | Magnus):
         lines += _product(method, tableau)
     elif not isinstance(method, CommutatorFree):
-        rows = ", ".join(_row(row, tableau) for row in method.A)
-        lines += [f"A = [{rows}]", f"b = {_full(method.b, tableau)}"]
+        lines += [_matrix("A", method.A, tableau), f"b = {_full(method.b, tableau)}"]
     if isinstance(method, PartitionedRungeKutta):
-        rows = ", ".join(_row(row, tableau) for row in method.A_hat)
-        lines += [f"A_hat = [{rows}]", f"b_hat = {_full(method.b_hat, tableau)}"]
+        lines += [_matrix("A_hat", method.A_hat, tableau), f"b_hat = {_full(method.b_hat, tableau)}"]
     if tableau.embedded:
         weights = _row(tableau.embedded.b, tableau)
         lines.append(f"embedded = {{ b = {weights}, order = {tableau.embedded.order} }}")
     lines += [f"{key} = {_quoted(x)}" for key in ("source", "bibtex") if (x := getattr(tableau, key))]
+    lines = _named_radicals(lines, tableau)
     lines += _named_roots(tableau)
     if isinstance(method, CommutatorFree):
         for stage in method.stages:
@@ -85,6 +88,35 @@ def _row(row: Row, tableau: Tableau) -> str:
     while kept and tableau.ring.is_zero(kept[-1]) is True:
         kept.pop()
     return _full(kept, tableau)
+
+
+def _matrix(key: str, A: Sequence[Row], tableau: Tableau) -> str:
+    """Spell a matrix on one line, or one line a row where that is too long."""
+    rows = [_row(row, tableau) for row in A]
+    line = f"{key} = [{', '.join(rows)}]"
+    if len(line) <= WIDTH:
+        return line
+    return "\n".join([f"{key} = [", *(f"  {row}," for row in rows), "]"])
+
+
+def _named_radicals(lines: list[str], tableau: Tableau) -> list[str]:
+    """Name square roots where some stand inside others: r1, r2, ... in place of their spellings."""
+    generators = getattr(tableau.ring, "generators", ())
+    if not any("sqrt" in g.spelling for g in generators) or any(g.index != 2 for g in generators):
+        return lines
+    names = {g.power(1): f"r{k + 1}" for k, g in enumerate(generators)}
+    inside = list(names)
+
+    def named(text: str, known: Sequence[str]) -> str:
+        for spelling in reversed(known):
+            text = text.replace(spelling, names[spelling])
+        return text
+
+    numbers = [
+        f'{names[x]} = "sqrt({named(g.spelling, inside[:k])})"'
+        for k, (x, g) in enumerate(zip(inside, generators, strict=True))
+    ]
+    return [*(named(line, inside) for line in lines), "[numbers]", *numbers]
 
 
 def _stage(stage: Stage, tableau: Tableau) -> list[str]:

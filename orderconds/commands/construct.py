@@ -1,0 +1,41 @@
+"""``orderconds construct``: a Gauss, Radau or Lobatto method of any number of stages, as a tableau file."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import click
+
+from orderconds.commands import screen
+from orderconds.errors import TableauError
+
+
+@click.command(name="construct", short_help="Make a Gauss, Radau or Lobatto method from its definition.")
+@click.argument("kind")
+@click.option(
+    "--stages", "-s", type=click.IntRange(1, 50), required=True, help="The number of stages."
+)
+@click.option("--output", "-o", metavar="FILE", help="Write here instead of stdout.")
+@click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
+def command(kind: str, stages: int, output: str | None, as_json: bool) -> int:
+    """Write the tableau of KIND with so many stages, its coefficients exact: gauss, radau1a, radau2a, lobatto3a,
+    lobatto3b, lobatto3c, lobatto3c_star, lobatto3d or lobatto3e."""
+    from orderconds.tableau import dumps
+    from orderconds.tableau.collocation import KINDS, construct
+
+    tableau = construct(kind, stages)
+    name = f"{KINDS[kind].called}, {stages} {'stage' if stages == 1 else 'stages'}"
+    text = dumps(replace(tableau, source=f"{name}: orderconds construct {kind} --stages {stages}"))
+    if output is not None:
+        try:
+            Path(output).write_text(text, encoding="utf-8")
+        except OSError as problem:
+            reason = (problem.strerror or "unwritable").lower()
+            raise TableauError(reason, where=output, expected="a file that can be written") from None
+    if as_json:
+        record = {"name": tableau.name, "kind": kind, "stages": stages, "order": KINDS[kind].order(stages)}
+        screen.print_json({**record, "tableau": text})
+    elif output is None:
+        click.echo(text, nl=False)
+    return 0

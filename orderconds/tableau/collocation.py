@@ -1,0 +1,232 @@
+"""Gauss, Radau and Lobatto methods of any number of stages, made from their definitions, exactly.
+
+The nodes c are the roots of a polynomial M, the s-th Legendre polynomial or its kin, given by Rodrigues'
+formula; the weights integrate the polynomials of degree below s. What fixes A, with the Lagrange polynomials
+l_j of the nodes:
+
+==================  ======================================================================================
+rows                C(s): a_ij is the integral of l_j from 0 to c_i, as in collocation
+columns             D(s): a_ij is b_j / b_i times the integral of l_i from c_j to 1
+first, last column  C(s - 1), with a_i1 = b_1 (IIIC) or a_is = 0 (IIIC*, Butcher's Lobatto III)
+mean                of two of the others (IIID: IIIC and IIIC*; IIIE: IIIA and IIIB)
+==================  ======================================================================================
+
+No coefficient is typed in: nodes are algebraic numbers, and the rest is rational arithmetic with them.
+
+Sources: Hairer and Wanner, *Solving Ordinary Differential Equations II*, Section IV.5; Jay, *Lobatto
+methods*, Encyclopedia of Applied and Computational Mathematics, 2015.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from flint import fmpq, fmpq_poly
+
+from orderconds.errors import InputError, UnknownName
+from orderconds.ring.decimals import endpoints
+from orderconds.ring.field import Algebraic
+from orderconds.ring.roots import real_roots
+from orderconds.ring.tower import DegreeError, Tower
+from orderconds.tableau.methods import RungeKutta
+from orderconds.tableau.record import Tableau
+
+Matrix = list[list[Algebraic]]
+
+
+class Nodes:
+    """The nodes c, ascending, as numbers of one field, with the weights and Lagrange polynomials over them.
+
+    ``ends`` says how many of the ends 0 and 1 are nodes: M is the derivative of order s - ends of
+    x^(s - right) (x - 1)^(s - left), which has them as roots.
+    """
+
+    def __init__(self, s: int, left: bool, right: bool) -> None:
+        tower = Tower()
+        found = roots(nodal_polynomial(s, left, right), tower)
+        field = tower.field
+        self.c = sorted((field.lift(x) for x in found), key=float)
+        self.tower, self.s = tower, s
+        self.lagrange = [self._lagrange(j) for j in range(s)]
+        self.b = [self.integral(j, self.one) for j in range(s)]
+
+    @property
+    def one(self) -> Algebraic:
+        """The number 1 of the field."""
+        return self.tower.field.one
+
+    def _lagrange(self, j: int) -> list[Algebraic]:
+        """Return l_j by ascending powers."""
+        result = [self.one]
+        for k, node in enumerate(self.c):
+            if k != j:
+                scale = 1 / (self.c[j] - node)
+                shifted = [self.tower.field.zero, *result]
+                result = [
+                    (x - node * y) * scale
+                    for x, y in zip(shifted, [*result, self.tower.field.zero], strict=True)
+                ]
+        return result
+
+    def integral(self, j: int, x: Algebraic) -> Algebraic:
+        """Return the integral of l_j from 0 to x, by Horner's rule."""
+        result = self.tower.field.zero
+        for k in reversed(range(self.s)):
+            result = (result + self.lagrange[j][k] * self.tower.rational(1, k + 1)) * x
+        return result
+
+    def rows(self) -> Matrix:
+        """Return the A of C(s)."""
+        return [[self.integral(j, x) for j in range(self.s)] for x in self.c]
+
+    def columns(self) -> Matrix:
+        """Return the A of D(s)."""
+        b, stages = self.b, range(self.s)
+        return [[b[j] / b[i] * (b[i] - self.integral(i, self.c[j])) for j in stages] for i in stages]
+
+    def column(self, k: int, value: Algebraic) -> Matrix:
+        """Return the A of C(s - 1) whose column k is ``value`` in each row.
+
+        The rows that satisfy C(s - 1) differ by multiples of the leading coefficients of l_1, ..., l_s.
+        """
+        leading = [polynomial[-1] for polynomial in self.lagrange]
+        return [
+            [x + (value - row[k]) / leading[k] * y for x, y in zip(row, leading, strict=True)]
+            for row in self.rows()
+        ]
+
+    def first_column(self) -> Matrix:
+        """Return the A of Lobatto IIIC."""
+        return self.column(0, self.b[0])
+
+    def last_column(self) -> Matrix:
+        """Return the A of Lobatto IIIC*."""
+        return self.column(self.s - 1, self.tower.field.zero)
+
+
+def mean(one: Callable[[Nodes], Matrix], other: Callable[[Nodes], Matrix]) -> Callable[[Nodes], Matrix]:
+    """Return the rule that takes the mean of two matrices."""
+
+    def rule(nodes: Nodes) -> Matrix:
+        half = nodes.tower.rational(1, 2)
+        pairs = zip(one(nodes), other(nodes), strict=True)
+        return [[(x + y) * half for x, y in zip(p, q, strict=True)] for p, q in pairs]
+
+    return rule
+
+
+@dataclass(frozen=True)
+class Kind:
+    """Whether 0 and 1 are nodes, the rule for A, and the name; the order is 2s less one for each end."""
+
+    left: bool
+    right: bool
+    matrix: Callable[[Nodes], Matrix]
+    called: str
+
+    @property
+    def least(self) -> int:
+        """The least number of stages."""
+        return 2 if self.left and self.right else 1
+
+    def order(self, s: int) -> int:
+        """Return the order of the method with s stages, that of its quadrature."""
+        return 2 * s - self.left - self.right
+
+
+KINDS = {
+    "gauss": Kind(False, False, Nodes.rows, "Gauss"),
+    "radau1a": Kind(True, False, Nodes.columns, "Radau IA"),
+    "radau2a": Kind(False, True, Nodes.rows, "Radau IIA"),
+    "lobatto3a": Kind(True, True, Nodes.rows, "Lobatto IIIA"),
+    "lobatto3b": Kind(True, True, Nodes.columns, "Lobatto IIIB"),
+    "lobatto3c": Kind(True, True, Nodes.first_column, "Lobatto IIIC"),
+    "lobatto3c_star": Kind(True, True, Nodes.last_column, "Lobatto IIIC*"),
+    "lobatto3d": Kind(True, True, mean(Nodes.first_column, Nodes.last_column), "Lobatto IIID"),
+    "lobatto3e": Kind(True, True, mean(Nodes.rows, Nodes.columns), "Lobatto IIIE"),
+}
+"""What can be constructed."""
+
+
+def construct(kind: str, s: int) -> Tableau:
+    """Return the method of this kind with s stages, its coefficients in the field of its nodes.
+
+    Raises :class:`UnknownName` for another kind and :class:`InputError` for too few stages, or for nodes
+    whose field has a degree above :data:`orderconds.ring.tower.MAX_DEGREE`.
+
+    >>> construct("radau2a", 2).method
+    RungeKutta(A=((5/12, -1/12), (3/4, 1/4)), b=(3/4, 1/4))
+    """
+    if kind not in KINDS:
+        raise UnknownName(f"unknown kind {kind!r}", expected=f"one of {', '.join(KINDS)}")
+    rule = KINDS[kind]
+    if s < rule.least:
+        raise InputError(f"{kind} with {s} stages", expected=f"at least {rule.least} stages")
+    try:
+        nodes = Nodes(s, rule.left, rule.right)
+    except DegreeError as problem:
+        raise InputError(
+            f"{kind} with {s} stages: {problem}", expected="nodes in a field of degree at most 24"
+        ) from None
+    ring, lift = nodes.tower.ring()
+    A = tuple(tuple(lift(x) for x in row) for row in rule.matrix(nodes))
+    return Tableau(f"{kind}{s}", "rk", ring, RungeKutta(A, tuple(lift(x) for x in nodes.b)))
+
+
+def nodal_polynomial(s: int, left: bool, right: bool) -> fmpq_poly:
+    """Return a polynomial of degree s with the nodes as roots, by Rodrigues' formula.
+
+    >>> nodal_polynomial(2, False, False)
+    12*x^2 + (-12)*x + 2
+    """
+    x = fmpq_poly([0, 1])
+    result = x ** (s - right) * (x - 1) ** (s - left)
+    for _ in range(s - left - right):
+        result = result.derivative()
+    return result
+
+
+def roots(polynomial: fmpq_poly, tower: Tower) -> list[Algebraic]:
+    """Return the roots of a polynomial with real roots only, as radicals where squares suffice.
+
+    Roots of irreducible factors beyond those are named c1, c2, ... in ascending order.
+    """
+    found: list[Algebraic] = []
+    for factor, _ in polynomial.factor()[1]:
+        found += _roots_of_irreducible(factor, tower)
+    return found
+
+
+def _roots_of_irreducible(factor: fmpq_poly, tower: Tower) -> list[Algebraic]:
+    degree = int(factor.degree())
+    if degree <= 2:
+        return _quadratic(factor, tower)
+    middle = -factor[degree - 1] / (degree * factor[degree])
+    centred = factor(fmpq_poly([middle, 1]))
+    if all(centred[k] == 0 for k in range(1, degree + 1, 2)):
+        squares = roots(fmpq_poly([centred[k] for k in range(0, degree + 1, 2)]), tower)
+        sides = [tower.root(x, 2) for x in squares]
+        return [tower.constant(_fraction(middle), Fraction(0)) + sign * x for x in sides for sign in (-1, 1)]
+    monic = factor / factor.leading_coefficient()
+    coefficients = [_fraction(x) for x in monic.coeffs()]
+    found = []
+    for k, enclosed in enumerate(real_roots(monic, 256)[:-1]):
+        near = endpoints(enclosed)[0]
+        places = Fraction(1, 10**40)
+        found.append(tower.named_root(coefficients, _fraction(near), places, f"c{k + 1}"))
+    last = tower.constant(-coefficients[-2], Fraction(0))
+    return [*found, last - sum(found[1:], found[0])]
+
+
+def _quadratic(factor: fmpq_poly, tower: Tower) -> list[Algebraic]:
+    c, b, a = (_fraction(factor[k]) for k in range(3))
+    if a == 0:
+        return [tower.constant(-c / b, Fraction(0))]
+    root = tower.root(tower.constant(b * b - 4 * a * c, Fraction(0)), 2)
+    return [(root * sign - tower.constant(b, Fraction(0))) / tower.constant(2 * a, Fraction(0)) for sign in (-1, 1)]
+
+
+def _fraction(x: fmpq) -> Fraction:
+    return Fraction(int(x.p), int(x.q))
