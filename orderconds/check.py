@@ -211,7 +211,7 @@ def check(
         broken += _broken_claims(tableau, embedded)
     if complete:
         broken += [f"no order is claimed in family {name}, which it can serve" for name in unclaimed(tableau)]
-    orders = tuple(_certified(family_order(enclosed, f, claimed, order), f, facts) for f, claimed in wanted)
+    orders = _orders(enclosed, wanted, facts, order)
     if certified:
         broken += [f"{f.family}: certificate decimal" for f in orders if f.certificate == "decimal"]
     return Report(
@@ -255,6 +255,49 @@ def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
         return certify(tableau), []
     except NotProved as problem:
         return None, [f"no proof: {problem}"]
+
+
+def _orders(
+    tableau: Tableau,
+    wanted: Sequence[tuple[Family, int | None]],
+    facts: tuple[Fact, ...],
+    required: int | None,
+) -> tuple[FamilyOrder, ...]:
+    """Return the order in each family, from theorems where evaluating it goes beyond the family's limit."""
+    found: list[FamilyOrder] = []
+    for family, claimed in wanted:
+        known = _settled(tableau, family, found, facts)
+        if known is None:
+            known = _certified(family_order(tableau, family, claimed, required), family, facts)
+        else:
+            known = replace(known, claimed=claimed, required=required)
+        found.append(known)
+    return tuple(found)
+
+
+def _settled(
+    tableau: Tableau, family: Family, found: Sequence[FamilyOrder], facts: tuple[Fact, ...]
+) -> FamilyOrder | None:
+    """Return an order that follows from those found before, where it is at least the family's search limit.
+
+    The conditions that fail are those of the family that bounds it from above.
+    """
+    known = {f.family: f for f in found if f.decided and f.failing and f.certificate != "decimal"}
+    beyond = getattr(family, "search_limit", SEARCH_LIMIT)
+    if all(f.order < beyond for f in known.values()):
+        return None
+    from orderconds.proof.implications import settled
+    from orderconds.proof.simplifying import simplified_order
+
+    facts += tuple((label, f.order) for label, f in known.items())
+    if family.name == "sprk" and "rk" in known and isinstance(tableau.method, RungeKutta):
+        facts += (("sprk", simplified_order(tableau.method, tableau.ring, known["rk"].order)),)
+    order = settled(facts, {label: f.order for label, f in known.items()}, family)
+    if order is None or order < beyond:
+        return None
+    bound = min(known.values(), key=lambda f: (f.order != order, f.certificate != "exact"))
+    certificate = "ball" if any(f.certificate == "ball" for f in known.values()) else "exact"
+    return FamilyOrder(family.label(), order, certificate, True, bound.failing, None)
 
 
 def _certified(found: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> FamilyOrder:

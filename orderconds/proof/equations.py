@@ -23,13 +23,14 @@ rooted trees.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 from orderconds import families
 from orderconds.errors import InputError
 from orderconds.proof.krawczyk import NotProved
+from orderconds.proof.simplifying import simplifying, simplifying_order
 from orderconds.ring.jets import Jet, Jets
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau import Composition, Tableau
@@ -119,47 +120,6 @@ def _reached(proof: Proof, order: int) -> int:
     if proof.order > order:
         raise NotProved(f"reduction: it implies order {order}, the file says {proof.order}")
     return proof.order
-
-
-def simplifying_order(B: int, C: int, D: int) -> int:
-    """Return the order that B(p), C(q), D(r) imply.
-
-    >>> simplifying_order(6, 3, 2), simplifying_order(10, 5, 5)
-    (6, 10)
-    """
-    return min(B, C + D + 1, 2 * C + 2)
-
-
-def simplifying(method: Any, ring: Ring, assumptions: Mapping[str, int]) -> Iterator[Element]:
-    """Yield the simplifying assumptions B(p), C(q), D(r), for k = 1, ... up to p, q, r.
-
-    B: sum b_i c_i^(k-1) = 1/k; C: sum_j a_ij c_j^(k-1) = c_i^k/k, where k = 1 defines c;
-    D: sum_i b_i c_i^(k-1) a_ij = b_j (1 - c_j^k)/k.
-
-    >>> from orderconds.ring import QQ
-    >>> from orderconds.tableau import find
-    >>> gauss1 = Tableau.load(find("gauss1"))
-    >>> [int(QQ.is_zero(x)) for x in simplifying(gauss1.method, QQ, {"B": 2, "C": 1, "D": 1})]
-    [1, 1, 1]
-    """
-    A, b, stages = method.A, method.b, range(method.s)
-    c = [sum(row, ring.zero) for row in A]
-    powers = [[ring.one] * method.s]
-    for _ in range(max(assumptions.values())):
-        powers.append([x * y for x, y in zip(powers[-1], c, strict=True)])
-    for k in range(1, assumptions.get("B", 0) + 1):
-        yield _dot(b, powers[k - 1], ring) - ring.rational(1, k)
-    for k in range(2, assumptions.get("C", 0) + 1):
-        for i in stages:
-            yield _dot(A[i], powers[k - 1], ring) - powers[k][i] * ring.rational(1, k)
-    for k in range(1, assumptions.get("D", 0) + 1):
-        for j in stages:
-            column = _dot([b[i] * A[i][j] for i in stages], powers[k - 1], ring)
-            yield column - b[j] * (ring.one - powers[k][j]) * ring.rational(1, k)
-
-
-def _dot(x: Sequence[Element], y: Sequence[Element], ring: Ring) -> Element:
-    return sum((p * q for p, q in zip(x, y, strict=True)), ring.zero)
 
 
 def independent(system: Equations, box: Sequence[Jet], ring: Jets) -> list[int]:

@@ -6,7 +6,7 @@ has the conditions of ``rk`` up to order 2, since no bracket or momentum enters 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from orderconds.families import Family
@@ -60,6 +60,33 @@ def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
     >>> implied(facts, families.get("vcg"), 2), implied(facts, families.get("vcg"), 3)
     (True, False)
     """
+    return order <= least_order(facts, family)
+
+
+def least_order(facts: Iterable[Fact], family: Family) -> int:
+    """Return the order that ``facts`` about a tableau imply that it has in ``family``, 0 where they say nothing.
+
+    >>> from orderconds import families
+    >>> least_order([("sprk", 6), ("rk", 6)], families.get("vrkmk(2)"))
+    5
+    """
+    known = consequences(facts)
+    best = known.get(family.label(), 0)
+    if family.name == "splitting":
+        best = max(best, min(3, known.get("rkn", 0)))  # brackets vanish from order four on
+    if family.name in ONE_TABLEAU:
+        best = max(best, min(2, known.get("rk", 0)))
+    if family.name in ("rkmk", "vrkmk"):
+        best = max(best, _truncated(known.get("rk" if family.name == "rkmk" else "sprk", 0), family))
+    return best
+
+
+def consequences(facts: Iterable[Fact]) -> dict[str, int]:
+    """Return the order, by label of a family, of each family whose conditions are among those of the facts.
+
+    >>> consequences([("vrkmk(1)", 3)])
+    {'vrkmk(1)': 3, 'sprk': 3, 'rk': 3, 'symplectic_rk': 3}
+    """
     known = dict[str, int]()
     waiting = list(facts)
     while waiting:
@@ -70,14 +97,24 @@ def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
             waiting += [(other, proved) for other in ABELIAN.get(base, ())]
             if base in ("rkmk", "vrkmk"):
                 waiting.append(("rk" if base == "rkmk" else "sprk", proved))
-    best = known.get(family.label(), 0)
-    if family.name == "splitting":
-        best = max(best, min(3, known.get("rkn", 0)))  # brackets vanish from order four on
-    if family.name in ONE_TABLEAU:
-        best = max(best, min(2, known.get("rk", 0)))
-    if family.name in ("rkmk", "vrkmk"):
-        best = max(best, _truncated(known.get("rk" if family.name == "rkmk" else "sprk", 0), family))
-    return order <= best
+    return known
+
+
+def settled(facts: Iterable[Fact], orders: Mapping[str, int], family: Family) -> int | None:
+    """Return the order in ``family`` where theorems leave one only, else None.
+
+    ``facts`` are lower bounds, ``orders`` exact orders by label: no family has a higher order than one whose
+    conditions are among its own.
+
+    >>> from orderconds import families
+    >>> settled([("composition", 8)], {"composition": 8, "rk": 8}, families.get("vcg"))
+    8
+    >>> settled([("rk", 4)], {"rk": 4}, families.get("cg")) is None
+    True
+    """
+    among = consequences([(family.label(), 1)])
+    upper = min((order for label, order in orders.items() if label in among), default=None)
+    return upper if upper is not None and upper <= least_order(facts, family) else None
 
 
 def _truncated(abelian: int, family: Any) -> int:
