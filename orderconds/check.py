@@ -27,7 +27,7 @@ from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
 from orderconds.families import Family
 from orderconds.ring import Element, Ring
-from orderconds.served import unclaimed
+from orderconds.served import served, unclaimed
 from orderconds.tableau import Magnus, RungeKutta, Splitting, Tableau, find
 from orderconds.tableau.properties import properties
 from orderconds.tableau.work import Work, work
@@ -42,6 +42,9 @@ exact value that an elementary integral of that order takes."""
 
 SEARCH_LIMIT = 8
 """How far to search where a family has no ``search_limit`` of its own; one beyond the claim in any case."""
+
+BOUNDS = ("composition", "rk", "sprk")
+"""Families whose orders bound those of others from below or above."""
 
 EXHAUSTIVE = 2000
 """An order with more conditions than this is evaluated in batches, the simplest trees first, up to the first
@@ -264,15 +267,30 @@ def _orders(
     required: int | None,
 ) -> tuple[FamilyOrder, ...]:
     """Return the order in each family, from theorems where evaluating it goes beyond the family's limit."""
+    beside = _beside(tableau, wanted)
     found: list[FamilyOrder] = []
-    for family, claimed in wanted:
+    for family, claimed in (*beside, *wanted):
         known = _settled(tableau, family, found, facts)
         if known is None:
             known = _certified(family_order(tableau, family, claimed, required), family, facts)
         else:
             known = replace(known, claimed=claimed, required=required)
         found.append(known)
-    return tuple(found)
+    return tuple(found[len(beside) :])
+
+
+def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]]) -> list[tuple[Family, int | None]]:
+    """Return families, beside those wanted, from whose orders a claim beyond a family's limit may follow."""
+    if all((claimed or 0) < _limit(family) for family, claimed in wanted):
+        return []
+    labels = {family.label() for family, _ in wanted}
+    names = [name for name in BOUNDS if name in served(tableau) and name not in labels]
+    return [(families.get(name), tableau.claims.order(name)) for name in names]
+
+
+def _limit(family: Family) -> int:
+    limit: int = getattr(family, "search_limit", SEARCH_LIMIT)
+    return limit
 
 
 def _settled(
@@ -283,7 +301,7 @@ def _settled(
     The conditions that fail are those of the family that bounds it from above.
     """
     known = {f.family: f for f in found if f.decided and f.failing and f.certificate != "decimal"}
-    beyond = getattr(family, "search_limit", SEARCH_LIMIT)
+    beyond = _limit(family)
     if all(f.order < beyond for f in known.values()):
         return None
     from orderconds.proof.implications import settled
@@ -329,7 +347,7 @@ def family_order(
 def _search(
     family: Family, method: Any, ring: Ring, claimed: int | None = None, required: int | None = None
 ) -> FamilyOrder:
-    limit = max(getattr(family, "search_limit", SEARCH_LIMIT), (claimed or 0) + 1, (required or 0) + 1)
+    limit = max(_limit(family), (claimed or 0) + 1, (required or 0) + 1)
     certificate = "exact"
     for n in range(1, limit + 1):
         conditions = _conditions(family, n)

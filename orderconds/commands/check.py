@@ -3,14 +3,19 @@ claim."""
 
 from __future__ import annotations
 
+import io
+import json
 import os
 from collections.abc import Iterator, Sequence
+from contextlib import redirect_stdout
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from orderconds.commands import screen
+from orderconds.commands.processes import in_processes
 from orderconds.errors import InputError, TableauError
 
 if TYPE_CHECKING:
@@ -49,35 +54,85 @@ def command(
 
     Exits with 0 if all holds, 1 if a claim fails or is undecided, 2 if something could not be read.
     """
-    from orderconds.check import check
     from orderconds.families import get
 
     if family is not None:
         get(family)  # an unknown family is one error, not one a file
-    reports: list[Report] = []
-    unread = 0
     excused = _excused(tableaux)
-    for path in _files(tableaux):
-        try:
-            with screen.working(f"checking {path}"):
-                demanded = certified and Path(path).stem not in excused
-                report = check(path, family=family, order=order, complete=complete, certified=demanded)
-        except InputError as error:
-            # The other files are still worth checking; the status tells that one was not.
-            message = str(error)
-            click.echo(f"orderconds: {message if path in message else f'{path}: {message}'}", err=True)
-            unread += 1
-            continue
-        reports.append(report)
-        if not as_json:
-            _print_report(report, detailed=len(tableaux) == 1 and not os.path.isdir(tableaux[0]))
+    paths = list(_files(tableaux))
+    detailed = len(tableaux) == 1 and not os.path.isdir(tableaux[0])
+    jobs = [
+        _Job(
+            path=path,
+            family=family,
+            order=order,
+            complete=complete,
+            certified=certified and Path(path).stem not in excused,
+            as_json=as_json,
+            detailed=detailed,
+            one_of_many=len(paths) > 1,
+        )
+        for path in paths
+    ]
+    outcomes: list[_Outcome] = []
+    with screen.working(f"checking {paths[0] if len(paths) == 1 else f'{len(paths)} tableaux'}"):
+        for outcome in in_processes(_checked, jobs):
+            outcomes.append(outcome)
+            if outcome.verdict is None:
+                click.echo(outcome.text, err=True)
+            elif not as_json:
+                click.echo(outcome.text, nl=False)
+    verdicts = [outcome.verdict for outcome in outcomes]
     if as_json:
-        screen.print_json([report.as_json() for report in reports])
-    elif len(reports) + unread > 1:
-        _print_summary(reports, unread)
-    if unread:
+        screen.print_json([json.loads(outcome.text) for outcome in outcomes if outcome.verdict])
+    elif len(outcomes) > 1:
+        _print_summary(verdicts)
+    if None in verdicts:
         return 2
-    return 0 if all(report.verdict == "holds" for report in reports) else 1
+    return 0 if all(verdict == "holds" for verdict in verdicts) else 1
+
+
+@dataclass(frozen=True)
+class _Job:
+    """What to check, and how."""
+
+    path: str
+    family: str | None
+    order: int | None
+    complete: bool
+    certified: bool
+    as_json: bool
+    detailed: bool
+    one_of_many: bool
+
+
+@dataclass(frozen=True)
+class _Outcome:
+    """A verdict with what to print of it; None with the message where a file could not be read."""
+
+    verdict: str | None
+    text: str
+
+
+def _checked(job: _Job) -> _Outcome:
+    """Check one tableau. What cannot be read is told: the other files are still worth checking."""
+    from orderconds.check import check
+
+    try:
+        report = check(
+            job.path, family=job.family, order=job.order, complete=job.complete, certified=job.certified
+        )
+    except InputError as error:
+        message = str(error)
+        return _Outcome(None, f"orderconds: {message if job.path in message else f'{job.path}: {message}'}")
+    if job.as_json:
+        return _Outcome(report.verdict, json.dumps(report.as_json()))
+    if not job.one_of_many:  # here, where a terminal is a terminal
+        _print_report(report, detailed=job.detailed)
+        return _Outcome(report.verdict, "")
+    with redirect_stdout(io.StringIO()) as printed:
+        _print_report(report, detailed=job.detailed)
+    return _Outcome(report.verdict, printed.getvalue())
 
 
 def _excused(arguments: Sequence[str]) -> set[str]:
@@ -183,10 +238,7 @@ def _print_failing(family: FamilyOrder) -> None:
         click.echo(f"    ... and {count - shown} more (--json lists all)")
 
 
-def _print_summary(reports: Sequence[Report], unread: int) -> None:
-    counts = dict.fromkeys(("holds", "fails", "undecided"), 0)
-    for report in reports:
-        counts[report.verdict] += 1
-    told = [f"{count} {verdict}" for verdict, count in counts.items() if count]
-    told += [f"{unread} not read"] * bool(unread)
-    click.echo(f"{len(reports) + unread} tableaux: {', '.join(told)}")
+def _print_summary(verdicts: Sequence[str | None]) -> None:
+    told = [f"{n} {verdict}" for verdict in ("holds", "fails", "undecided") if (n := verdicts.count(verdict))]
+    told += [f"{n} not read"] if (n := verdicts.count(None)) else []
+    click.echo(f"{len(verdicts)} tableaux: {', '.join(told)}")

@@ -32,7 +32,7 @@ from orderconds.errors import InputError
 from orderconds.proof.krawczyk import NotProved
 from orderconds.proof.simplifying import simplifying, simplifying_order
 from orderconds.ring.jets import Jet, Jets
-from orderconds.ring.protocol import Element, Ring
+from orderconds.ring.protocol import Element
 from orderconds.tableau import Composition, Tableau
 from orderconds.tableau.properties import properties
 from orderconds.tableau.unknowns import Proof

@@ -64,7 +64,7 @@ def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
 
 
 def least_order(facts: Iterable[Fact], family: Family) -> int:
-    """Return the order that ``facts`` about a tableau imply that it has in ``family``, 0 where they say nothing.
+    """Return the order that ``facts`` about a tableau imply that it has in ``family``, or 0.
 
     >>> from orderconds import families
     >>> least_order([("sprk", 6), ("rk", 6)], families.get("vrkmk(2)"))

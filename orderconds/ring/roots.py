@@ -65,7 +65,11 @@ def _meets(x: arb, near: fmpq, unit: fmpq) -> bool:
 
 
 def real_roots(monic: fmpq_poly, bits: int) -> tuple[arb, ...]:
-    """Return balls around the real roots, ascending: an index names the same root at any precision."""
+    """Return balls around the real roots, ascending: an index names the same root at any precision.
+
+    >>> [float(x) for x in real_roots(fmpq_poly([-1, 0, 4]), 64)]
+    [-0.5, 0.5]
+    """
     return _ascending(tuple(str(c) for c in monic.coeffs()), bits)
 
 

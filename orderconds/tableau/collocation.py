@@ -19,7 +19,7 @@ methods*, Encyclopedia of Applied and Computational Mathematics, 2015.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -107,7 +107,12 @@ class Nodes:
 
 
 def mean(one: Callable[[Nodes], Matrix], other: Callable[[Nodes], Matrix]) -> Callable[[Nodes], Matrix]:
-    """Return the rule that takes the mean of two matrices."""
+    """Return the rule that takes the mean of two matrices.
+
+    >>> rule = mean(Nodes.first_column, Nodes.last_column)
+    >>> rule(Nodes(2, True, True))[0]
+    [Algebraic(1/4), Algebraic(-1/4)]
+    """
 
     def rule(nodes: Nodes) -> Matrix:
         half = nodes.tower.rational(1, 2)
@@ -192,6 +197,9 @@ def roots(polynomial: fmpq_poly, tower: Tower) -> list[Algebraic]:
     """Return the roots of a polynomial with real roots only, as radicals where squares suffice.
 
     Roots of irreducible factors beyond those are named c1, c2, ... in ascending order.
+
+    >>> roots(fmpq_poly([0, -2, 0, 1]), Tower())
+    [Algebraic(0), Algebraic(-sqrt(2)), Algebraic(sqrt(2))]
     """
     found: list[Algebraic] = []
     for factor, _ in polynomial.factor()[1]:
@@ -225,7 +233,10 @@ def _quadratic(factor: fmpq_poly, tower: Tower) -> list[Algebraic]:
     if a == 0:
         return [tower.constant(-c / b, Fraction(0))]
     root = tower.root(tower.constant(b * b - 4 * a * c, Fraction(0)), 2)
-    return [(root * sign - tower.constant(b, Fraction(0))) / tower.constant(2 * a, Fraction(0)) for sign in (-1, 1)]
+    return [
+        (root * sign - tower.constant(b, Fraction(0))) / tower.constant(2 * a, Fraction(0))
+        for sign in (-1, 1)
+    ]
 
 
 def _fraction(x: fmpq) -> Fraction:

@@ -11,7 +11,6 @@ from orderconds.tableau.methods import CommutatorFree, Composition, PartitionedR
 from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
 from orderconds.tableau.record import Claims, Tableau
 
-
 WIDTH = 110
 """Matrices on longer lines are broken by rows."""
 
