@@ -14,13 +14,13 @@ PUBLISHED = {
         "lobatto3a2 lobatto3b2 lobatto3c2 lobatto3d2 gauss1",
         3: "kutta3 heun3 runge3 ralston3 ssp33 ssp43 van_der_houwen3 bogacki_shampine3 alexander3 crouzeix3 "
         "kvaerno3 hammer_hollingsworth3 radau1a2 radau2a2",
-        4: "rk4 three_eighths gill4 ralston4 ssp104 merson4 zonneveld4 crouzeix4 hairer_wanner4 gauss2 "
+        4: "rk4 three_eighths gill4 ralston4 ssp104 merson4 zonneveld4 crouzeix4 hairer_wanner4 ssp54 gauss2 "
         "lobatto3a3 lobatto3b3 lobatto3c3 lobatto3d3 kahan_triple_jump",
         5: "nystrom5 butcher5 lawson5 fehlberg5 england5 cash_karp5 dormand_prince5 bogacki_shampine5 "
         "radau1a3 radau2a3",
         6: "butcher6 luther6 verner6 gauss3 lobatto3a4 lobatto3b4 lobatto3c4 lobatto3d4",
         7: "radau1a4 radau2a4",
-        8: "cooper_verner8 fehlberg8 gauss4 lobatto3a5 lobatto3b5 lobatto3c5 lobatto3d5",
+        8: "cooper_verner8 fehlberg8 dop853 gauss4 lobatto3a5 lobatto3b5 lobatto3c5 lobatto3d5",
         9: "radau1a5 radau2a5",
         10: "gauss5",
     },
@@ -41,7 +41,14 @@ PUBLISHED = {
     },
     "rkn": {4: "mclachlan_atela4 blanes_moan_rkn4", 6: "blanes_moan_rkn6 blanes_moan_rkn6a"},
     "magnus": {1: "lie_euler", 2: "magnus2", 4: "magnus4 fer4 cf_magnus4", 6: "magnus6"},
-    "sprk_separable": {1: "symplectic_euler", 2: "stormer_verlet", 3: "ruth3_pair", 4: "lobatto3ab3"},
+    "sprk_separable": {
+        1: "symplectic_euler",
+        2: "stormer_verlet",
+        3: "ruth3_pair",
+        4: "lobatto3ab3",
+        6: "lobatto3ab4",
+        8: "lobatto3ab5",
+    },
 }
 STATED = [
     (name, family, order)
@@ -76,6 +83,7 @@ PAIRS = {
     "bogacki_shampine5": 4,
     "verner6": 5,
     "fehlberg8": 7,
+    "dop853": 5,
 }
 
 
