@@ -58,7 +58,7 @@ class Program(click.Group):
     """The group of all commands, with this program's exit statuses.
 
     >>> program.list_commands(click.Context(program))[:3]
-    ['check', 'cite', 'convert']
+    ['check', 'cite', 'construct']
     """
 
     def list_commands(self, ctx: click.Context) -> list[str]:
