@@ -7,7 +7,10 @@ makes the others follow is verified exactly, on the file and not on its decimals
                  of a composition only those of odd order count, one a Lyndon word in the letters 1, 3, 5,
                  ... (HLW V.3.1-3.2). Midpoints composed are the method with the composed tableau, in every
                  family whose step is that of the tableau's midpoints one after the other (Bogfjellmo and
-                 Marthinsen, Lemma 3.5.4).
+                 Marthinsen, Lemma 3.5.4). A Magnus method on s Gauss nodes sees A(t) through the polynomial
+                 that agrees with it there, which changes the flow of Y' = A(t) Y by h^(2s + 1), being
+                 orthogonal to lower degrees: up to order 2s the letters 1, ..., s suffice (Iserles and
+                 Norsett 1999).
 ``low-storage``  a 2N scheme: on a group it has the order that it has on a vector space (see below).
 ``simplifying``  B(p), C(q), D(r) imply order min(p, q + r + 1, 2q + 2) (Butcher 1964; Hairer, Norsett and
                  Wanner, Theorem II.7.4).
@@ -23,17 +26,19 @@ rooted trees.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 from orderconds import families
-from orderconds.errors import InputError
+from orderconds.errors import InputError, TableauError
 from orderconds.proof.krawczyk import NotProved
 from orderconds.proof.simplifying import simplifying, simplifying_order
 from orderconds.ring.jets import Jet, Jets
-from orderconds.ring.protocol import Element
-from orderconds.tableau import Composition, Tableau
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau import Composition, Magnus, Tableau
+from orderconds.tableau.evaluate import evaluate, rounded_and_exact
 from orderconds.tableau.properties import properties
 from orderconds.tableau.unknowns import Proof
 
@@ -54,6 +59,8 @@ class Equations:
     tableau: Tableau
     proof: Proof
     facts: tuple[tuple[str, int], ...]
+    letters: int | None = None
+    """Conditions on words with letters beyond this follow from the others (Gauss nodes)."""
 
     def __call__(self, point: Sequence[Element], ring: Any) -> list[Element]:
         """Return left-hand sides less right-hand sides; ``point`` are the unknowns' values in ``ring``."""
@@ -74,6 +81,8 @@ class Equations:
             )
         step = 2 if self.proof.reduction == "symmetric" else 1
         conditions = [c for n in range(1, self.proof.order + 1, step) for c in family.conditions(n)]
+        if self.letters is not None:
+            conditions = [c for c in conditions if max(c.key) <= self.letters]
         return list(families.residuals(family, read, ring, conditions))
 
 
@@ -106,7 +115,7 @@ def equations(tableau: Tableau) -> Equations:
         if label == "rkn":
             # [V,[V,[V,T]]] = 0 concerns words of four letters and more; the order is even.
             facts.append(("splitting", min(proof.order, 4)))
-        return Equations(tableau, proof, tuple(facts))
+        return Equations(tableau, proof, tuple(facts), _letters(tableau, proof))
     if proof.reduction == "low-storage":
         if not any(place.startswith("low_storage.") for place in proof.spelled.expressions):
             raise NotProved("reduction: the file gives no low_storage scheme")
@@ -114,6 +123,43 @@ def equations(tableau: Tableau) -> Equations:
             raise NotProved(f'reduction: low-storage takes conditions = "rk" up to order {LOW_STORAGE_ORDER}')
         return Equations(tableau, proof, (("rk", proof.order), ("cf", proof.order)))
     return Equations(tableau, proof, ((families.get(proof.conditions).label(), proof.order),))
+
+
+def _letters(tableau: Tableau, proof: Proof) -> int | None:
+    """Return s for a Magnus method of order at most 2s on the s Gauss nodes, else None.
+
+    The nodes are read exactly, without the decimals of the file.
+    """
+    method = tableau.method
+    if not isinstance(method, Magnus) or proof.order > 2 * method.s:
+        return None
+    spelled = proof.spelled
+    nodes = {place: x for place, x in spelled.expressions.items() if re.fullmatch(r"c\[\d+\]", place)}
+    exact = {name: x for name, x in spelled.numbers.items() if not any(c.unit for c in rounded_and_exact(x))}
+    try:
+        ring, values = evaluate(nodes, exact, spelled.where)
+    except TableauError:  # nodes that depend on a decimal
+        return None
+    return method.s if gauss_nodes(list(values.values()), ring) else None
+
+
+def gauss_nodes(nodes: Sequence[Element], ring: Ring) -> bool:
+    """Say whether the product of t - c_i is orthogonal on [0, 1] to all polynomials of lower degree.
+
+    >>> from orderconds.ring import QQ
+    >>> gauss_nodes([QQ.rational(1, 2)], QQ), gauss_nodes([QQ.zero, QQ.one], QQ)
+    (True, False)
+    """
+    polynomial = [ring.one]
+    for node in nodes:
+        polynomial = [
+            x - node * y for x, y in zip([ring.zero, *polynomial], [*polynomial, ring.zero], strict=True)
+        ]
+    return all(
+        ring.is_zero(sum((x * ring.rational(1, j + k + 1) for j, x in enumerate(polynomial)), ring.zero))
+        is True
+        for k in range(len(nodes))
+    )
 
 
 def _reached(proof: Proof, order: int) -> int:
@@ -140,11 +186,11 @@ def independent(system: Equations, box: Sequence[Jet], ring: Jets) -> list[int]:
     flat = [i for i, f in enumerate(values) if f.value.contains(0) and all(g.contains(0) for g in f.gradient)]
     if not flat:
         return list(range(len(values)))
-    from orderconds.ring.polynomials import Polynomials
+    from orderconds.tableau.indeterminates import Indeterminates
 
-    R = Polynomials([f"x{i}" for i in range(len(box))])
+    R = Indeterminates(system.proof.spelled)
     try:
-        exact = system(R.generators, R)
+        exact = system([R.variable(u) for u in system.proof.unknowns], R)
     except (AttributeError, ArithmeticError, ValueError, TypeError):  # radicals or quotients of unknowns
         return list(range(len(values)))
     identical = {i for i in flat if R.is_zero(exact[i])}

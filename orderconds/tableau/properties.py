@@ -34,8 +34,24 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
     if isinstance(method, PartitionedRungeKutta):
         return {"symplectic": symplectic_pair(method, ring)}
     if isinstance(method, AdjointComposition | Splitting | Magnus):
-        return {"symmetric": symmetric_product(method, ring)}
+        verdict = symmetric_product(method, ring)
+        return {"symmetric": _symmetric_by_spelling(tableau) if verdict is None else verdict}
     return {**_of_tableau(method, ring), **stability(method, ring)}
+
+
+def _symmetric_by_spelling(tableau: Tableau) -> Verdict:
+    """Say whether a product is symmetric whatever its decimals stand for; None where that does not tell."""
+    if tableau.proof is None:
+        return None
+    from orderconds.tableau.indeterminates import Indeterminates
+
+    ring = Indeterminates(tableau.proof.spelled)
+    try:
+        method = ring.method()
+    except (ArithmeticError, AttributeError, TypeError, ValueError):  # quotients, named roots
+        return None
+    assert isinstance(method, AdjointComposition | Splitting | Magnus)
+    return symmetric_product(method, ring) or None
 
 
 def _of_tableau(method: RungeKutta, ring: Ring) -> dict[str, Verdict]:

@@ -1,0 +1,64 @@
+"""A file's method with its rounded decimals and its radicals as indeterminates.
+
+What holds there, as an identity between polynomials, holds whatever numbers they stand for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from orderconds.ring.polynomials import Polynomials
+from orderconds.ring.protocol import Element
+from orderconds.tableau.evaluate import Definition
+from orderconds.tableau.grammar import Chain, Power
+from orderconds.tableau.products import Method
+from orderconds.tableau.unknowns import Spelled, Unknown
+
+
+class Indeterminates(Polynomials):
+    """Polynomials over Q in the decimals of a file, and in one more variable for each radical in it."""
+
+    def __init__(self, spelled: Spelled) -> None:
+        decimals = spelled.decimals()
+        definitions = (*spelled.numbers.values(), *spelled.expressions.values())
+        radicals = sum(1 for x in definitions for _ in _radicals(x))
+        super().__init__([f"x{i}" for i in range(len(decimals) + radicals)])
+        self._known = {u.constant: x for u, x in zip(decimals, self.generators, strict=False)}
+        self._free = iter(self.generators[len(decimals) :])
+        self._roots: dict[tuple[str, int], Element] = {}
+        self._spelled = spelled
+
+    def variable(self, unknown: Unknown) -> Element:
+        """Return the variable that stands for a decimal."""
+        return self._known[unknown.constant]
+
+    def root(self, x: Element, index: int) -> Element:
+        """Return the variable that stands for this root."""
+        key = self.text(x), index
+        if key not in self._roots:
+            self._roots[key] = next(self._free)
+        return self._roots[key]
+
+    def method(self) -> Method:
+        """Return the method over this ring.
+
+        Raises ArithmeticError, AttributeError, TypeError or ValueError where quotients or named roots
+        leave it.
+
+        >>> from orderconds.tableau import Tableau
+        >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\nnumbers = { a = "0.5~" }\\n'
+        >>> proof = Tableau.loads(text + '[proof]\\nconditions = "rk"\\norder = 1').proof
+        >>> Indeterminates(proof.spelled).method()
+        RungeKutta(A=((x0,),), b=(2*x0,))
+        """
+        return self._spelled.method(self, self._known)[0]
+
+
+def _radicals(x: Definition) -> Iterator[Power]:
+    if isinstance(x, Power):
+        if x.exponent.denominator > 1:
+            yield x
+        yield from _radicals(x.base)
+    elif isinstance(x, Chain):
+        for operand in x.operands:
+            yield from _radicals(operand)
