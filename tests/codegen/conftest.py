@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 import random
-import re
 import shutil
-import subprocess
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import SimpleNamespace
@@ -15,18 +13,15 @@ from typing import Any
 import mpmath
 import pytest
 
-from codegen.build import Compiler, build, compile_files
+from codegen.build import Compiler, build
 from codegen.emission import Emission
 from codegen.emit import emit_kernel
 from codegen.ir.expr import Expr, Space, evaluate
 from codegen.ir.kernel import Field, Kernel, Let, Loop
 from codegen.ir.number import Number
 from codegen.load import load
-from codegen.printers.c.module import FLAGS
 from codegen.printers.recipe import Recipe
-
-COMPILERS = ("gcc", "clang")
-SANITIZE = (*FLAGS[:1], "-g", "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+from tests.promises import COMPILERS, SANITIZE, clean_c
 
 
 class Doubles:
@@ -189,24 +184,11 @@ def private_cache(tmp_path_factory: pytest.TempPathFactory) -> Any:
         yield
 
 
-def exported(path: Path) -> list[str]:
-    """Return the names that an object file defines for others."""
-    listing = subprocess.run(["nm", "-g", "--defined-only", path], capture_output=True, text=True, check=True)
-    return [line.split()[-1] for line in listing.stdout.splitlines() if line]
-
-
-def usage_program(source: str) -> str:
-    """Return the example in the head of an emitted C file."""
-    example = source.partition(" * Use:\n *\n")[2].partition(" */")[0]
-    return "".join(re.sub(r"^ \*( {5})?", "", line) for line in example.splitlines(keepends=True))
-
-
 @pytest.fixture
 def check_codegen(compiler: Compiler, tmp_path: Path) -> Callable[..., None]:
     """Return the check of one C emission and its Python twin.
 
-    The C compiles without a warning under the promised flags, exports only its prefix, gives with its example
-    what ``expected`` says, and does so under the sanitizers; the loaded C and Python agree with ``step``, a
+    The C keeps what :func:`tests.promises.clean_c` checks; the loaded C and Python agree with ``step``, a
     function from (state, h, t) to a state, within ``ulps`` units in the last place of the largest component.
     """
 
@@ -218,17 +200,7 @@ def check_codegen(compiler: Compiler, tmp_path: Path) -> Callable[..., None]:
         h: float,
         ulps: float = 8,
     ) -> None:
-        (tmp_path / "object").mkdir()
-        compile_files(c.files, tmp_path / "object", tmp_path / "object/out.o", (*FLAGS, "-c"), compiler)
-        names = exported(tmp_path / "object/out.o")
-        prefix = c.manifest["interface"]["prefix"]
-        assert sorted(names) == [f"{prefix}run", f"{prefix}step"]
-        source = next(text for name, text in c.files.items() if name.endswith(".c"))
-        files = {**c.files, "example.c": usage_program(source)}
-        (tmp_path / "sanitized").mkdir()
-        compile_files(files, tmp_path / "sanitized", tmp_path / "sanitized/example", SANITIZE, compiler)
-        run = subprocess.run([tmp_path / "sanitized/example"], capture_output=True, text=True, check=False)
-        assert run.returncode == 0, run.stdout + run.stderr
+        clean_c(c, compiler, tmp_path)
         loaded = load(c), load(python)
         generator = random.Random(20)
         for _ in range(5):

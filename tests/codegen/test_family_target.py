@@ -1,0 +1,230 @@
+"""Every family in every target: emitted clean, equal to the interpreter, of the stated order and no other.
+
+One table over both registries. A family is tried with an explicit and an implicit tableau where it has both,
+on a polynomial scene without symmetry, where the order of the very program that is printed follows from its
+exact local error over Q[[h]], and on a scene of the gallery with transcendental functions, where the local
+error is measured against an extrapolation code with 40 digits. A family or a target that is not in the tables
+below fails here.
+"""
+
+from __future__ import annotations
+
+import random
+import shutil
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cache
+from typing import Any
+
+import mpmath
+import pytest
+
+from codegen.build import Compiler
+from codegen.certify import certified_order
+from codegen.emission import Emission
+from codegen.emit import Compiled, compile_method, emit_compiled
+from codegen.ir.domain import FloatDomain
+from codegen.ir.interpret import interpret
+from codegen.ir.number import Number
+from codegen.lab.local_error import local_error, valuation
+from codegen.lab.reference import reference
+from codegen.lab.runner import Interpreted
+from codegen.load import load
+from codegen.lower import LOWERINGS, setting
+from codegen.printers import TARGETS
+from codegen.scene import Setting
+from codegen.scenes import load as gallery
+from tests.promises import clean_c, clean_python, ulps
+from tests.strategies import field_scene, hamiltonian_scene
+
+EXPLICIT_ULPS = 8
+"""How far emitted code may be from the interpreter: only Stumpff functions are rounded otherwise there."""
+
+IMPLICIT_ULPS = 32
+"""The same where equations are solved: their solutions are as sharp as the stopping rule, 2^-44."""
+
+ROUNDING_ULPS = 256
+"""How far the ends of a hundred steps may be apart: -O1 and -O2 call other library functions."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """A method, a polynomial scene and one of the gallery that it is tried on, and the order it has."""
+
+    method: str
+    order: int
+    polynomial: Callable[[], Setting]
+    gallery: str
+
+
+SHORT = (Fraction(0), Fraction(1, 4))
+"""The span of polynomial scenes: their solutions may reach infinity soon after."""
+
+
+def place(name: str) -> Callable[[], Setting]:
+    return lambda: replace(field_scene(name), span=SHORT)
+
+
+def cotangent(name: str = "SO(3)") -> Callable[[], Setting]:
+    return lambda: replace(hamiltonian_scene(name), span=SHORT)
+
+
+CASES = {
+    "rk": (
+        Case("rk:kutta3", 3, place("R^3"), "linear_oscillator"),
+        Case("rk:gauss2", 4, place("R^3"), "linear_oscillator"),
+    ),
+    "rkmk": (
+        Case("rkmk:rk4", 4, place("S^2"), "driven_spin"),
+        Case("rkmk(1):kutta3", 3, place("SO(3)"), "dipole"),
+        Case("rkmk(2):gauss2", 4, place("S^2"), "driven_spin"),
+    ),
+    "cg": (
+        Case("cg:cg3", 3, place("S^2"), "driven_spin"),
+        Case("cg:gauss1", 2, place("SO(3)"), "driven_spin"),
+    ),
+    "cf": (
+        Case("cf:cf4", 4, place("S^2"), "driven_spin"),
+        Case("cf:gauss1", 2, place("SO(3)"), "driven_spin"),
+    ),
+    "vcg": (
+        Case("vcg:midpoint", 2, cotangent(), "dipole"),
+        Case("vcg:triple_jump", 4, cotangent(), "dipole"),
+    ),
+    "vrkmk": (
+        Case("vrkmk(1):kutta3", 3, cotangent(), "dipole"),
+        Case("vrkmk(2):gauss2", 4, cotangent(), "dipole"),
+    ),
+    "vcf": (
+        Case("vcf:midpoint", 2, cotangent(), "dipole"),
+        Case("vcf:cf4", 4, cotangent(), "dipole"),
+    ),
+    "vrkmk_pade": (
+        Case("vrkmk_pade(1):kutta3", 3, cotangent(), "dipole"),
+        Case("vrkmk_pade(2):gauss2", 4, cotangent(), "dipole"),
+    ),
+}
+"""Family to what it is tried with."""
+
+CLEAN = {"c": ("gcc", "clang"), "python": ("",)}
+"""Target to the compilers that its texts are checked with."""
+
+ALL = [pytest.param(case, id=case.method) for cases in CASES.values() for case in cases]
+
+
+def test_every_family_and_every_target_is_tried():
+    assert sorted(CASES) == sorted(LOWERINGS)
+    assert sorted(CLEAN) == sorted(TARGETS)
+    assert all(case.method.startswith(family) for family, cases in CASES.items() for case in cases)
+
+
+@cache
+def compiled(method: str, scene: str | Callable[[], Setting]) -> Compiled:
+    return compile_method(scene if isinstance(scene, str) else scene(), method)
+
+
+@cache
+def emitted(method: str, scene: Any, target: str) -> Emission:
+    return emit_compiled(compiled(method, scene), target, prefix="tried_")
+
+
+def stepper(made: Compiled) -> Callable[[list[float], float, float], list[float]]:
+    """One step by the interpreter, of the program as lowered: no pass has touched it."""
+    view = setting(made.scene, made.method)
+
+    def step(state: list[float], h: float, t: float) -> list[float]:
+        values: dict[str, Any] = {"t": t}
+        first = 0
+        for block in view.state:
+            values[block.name] = tuple(state[first : first + len(block.symbols)])
+            first += len(block.symbols)
+        after = interpret(made.lowered, view, FloatDomain(h), values)
+        return [x for block in view.state for x in after[block.name]]
+
+    return step
+
+
+@pytest.mark.parametrize(("target", "compiler"), [(t, c) for t in CLEAN for c in CLEAN[t]])
+@pytest.mark.parametrize("case", ALL)
+def test_emitted_code_is_clean_and_its_example_runs(case, target, compiler, tmp_path):
+    """The example's answer is that of the loaded module."""
+    made, emission = compiled(case.method, case.polynomial), emitted(case.method, case.polynomial, target)
+    if compiler and shutil.which(compiler) is None:
+        pytest.skip(f"{compiler} is not installed")
+    if target == "c":
+        printed = clean_c(emission, Compiler((compiler,), compiler), tmp_path)
+    else:
+        printed = clean_python(emission, tmp_path)
+    first, last = made.scene.span
+    found = load(emission).run(emission.manifest["initial"], float((last - first) / 100), 100, float(first))
+    assert ulps(printed, found) <= ROUNDING_ULPS
+
+
+@pytest.mark.parametrize("target", sorted(TARGETS))
+@pytest.mark.parametrize("where", ["polynomial", "gallery"])
+@pytest.mark.parametrize("case", ALL)
+def test_emitted_steps_are_those_of_the_interpreter(case, where, target):
+    scene = getattr(case, where)
+    made, emission = compiled(case.method, scene), emitted(case.method, scene, target)
+    integrator, step = load(emission), stepper(made)
+    allowed = IMPLICIT_ULPS if emission.manifest["interface"]["blocks"] else EXPLICIT_ULPS
+    state, rng = list(emission.manifest["initial"]), random.Random(case.method)
+    for _ in range(4):
+        h, t = rng.uniform(-1, 1) / 32, rng.uniform(0, 3)
+        new = step(state, h, t)
+        assert ulps(integrator.step(state, h, t), new) <= allowed
+        state = new
+
+
+@pytest.mark.parametrize("case", ALL)
+def test_the_order_is_exact_where_the_scene_is_polynomial(case):
+    made = compiled(case.method, case.polynomial)
+    assert certified_order(made.method, made.scene).order == case.order
+    view = setting(made.scene, made.method)
+    for program in (made.lowered, made.program):
+        error = local_error(program, view, made.method.ring, case.order + 1)
+        assert valuation(error) == case.order + 1
+
+
+def spanned(scene: Setting, h: Fraction) -> Setting:
+    """The scene from its beginning to the time h later."""
+    return replace(scene, span=(scene.span[0], scene.span[0] + h))
+
+
+@cache
+def underway(name: str) -> Setting:
+    """A scene of the gallery that starts where it is after an eighth: what is special at first is over."""
+    scene = gallery(name)
+    constants = iter(reference(spanned(scene, Fraction(1, 8))).digits(34))
+    space = scene.roots[0].space
+    state = tuple(
+        replace(block, initial=tuple(space.const(decimal(next(constants))) for _ in block.symbols))
+        for block in scene.state
+    )
+    begin, end = scene.span
+    return replace(scene, state=state, span=(begin + Fraction(1, 8), end))
+
+
+def decimal(text: str) -> Number:
+    return Number.rational(*Fraction(text).as_integer_ratio())
+
+
+@cache
+def exact(name: str, h: Fraction) -> tuple[Any, ...]:
+    """The solution after the time h, to 28 digits."""
+    return reference(spanned(underway(name), h)).state
+
+
+@pytest.mark.parametrize("case", ALL)
+def test_the_order_is_seen_from_below_and_above_with_forty_digits(case):
+    """The local error is O(h^(p+1)), and not smaller: halving h divides it by 2^(p+1), up to O(h)."""
+    made = compiled(case.method, case.gallery)
+    errors = []
+    for h in (Fraction(1, 256), Fraction(1, 512)):
+        scene = spanned(underway(case.gallery), h)
+        state = Interpreted(replace(made, scene=scene), digits=40).final(1)
+        errors.append(max(abs(x - y) for x, y in zip(state, exact(case.gallery, h), strict=True)))
+    assert errors[1] > 1e-24
+    slope = float(mpmath.log(errors[0] / errors[1], 2))
+    assert slope == pytest.approx(case.order + 1, abs=0.1)
