@@ -28,7 +28,6 @@ Use:
 from math import cos, isfinite, sin, sqrt
 
 OK = 0
-NOT_CONVERGED = 1
 NOT_FINITE = 2
 BAD_STEP = 3
 
