@@ -46,6 +46,9 @@ SEARCH_LIMIT = 8
 BOUNDS = ("composition", "rk", "sprk")
 """Families whose orders bound those of others from below or above."""
 
+FREE_STAGES = ("rk", "cg", "cf", "rkmk")
+"""Families in which two rows of weights share their stages, so that their difference estimates the error."""
+
 EXHAUSTIVE = 2000
 """An order with more conditions than this is evaluated in batches, the simplest trees first, up to the first
 batch in which one fails; those that fail in it are named, and the error norm is left out."""
@@ -117,10 +120,16 @@ class FamilyOrder:
 
 @dataclass(frozen=True)
 class EmbeddedOrder:
-    """The order that the embedded weights were said to have on a vector space, and their order by family."""
+    """The order that the embedded row was said to have in the family ``own``, and its orders by family.
+
+    ``own`` is ``rk`` for weights, ``cf`` for an update of exponentials; ``failing`` are the conditions of the
+    next order that fail in it.
+    """
 
     claimed: int
     orders: dict[str, int]
+    own: str = "rk"
+    failing: tuple[Failure, ...] = ()
 
     def as_json(self) -> dict[str, object]:
         """Return the JSON object of an embedded row."""
@@ -235,16 +244,19 @@ def _work(tableau: Tableau, family: Family) -> Work | None:
 
 
 def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | None:
-    """Return the orders of the embedded weights with the stages of the tableau, always that under ``rk``."""
-    if tableau.embedded is None:
+    """Return the orders of the embedded row in the families whose stages do not depend on the weights.
+
+    Those of them that are wanted, always ``rk`` and, of a commutator-free method, ``cf``.
+    """
+    lower = tableau.lower()
+    if lower is None or tableau.embedded is None:
         return None
-    pair = replace(tableau.abelian(), b=tableau.embedded.b)
-    claimed = tableau.embedded.order
-    found = {"rk": _search(families.get("rk"), pair, tableau.ring, claimed).order}
-    for family in wanted:
-        if family.name in ("cg", "rkmk") and isinstance(tableau.method, RungeKutta):
-            found[family.label()] = _search(family, pair, tableau.ring, claimed).order
-    return EmbeddedOrder(claimed, found)
+    claimed, own = tableau.embedded.order, "cf" if lower.family == "cf" else "rk"
+    asked = {family.label(): family for family in wanted if family.name in FREE_STAGES}
+    asked = {"rk": families.get("rk"), own: families.get(own)} | asked
+    found = {label: family_order(lower, family, claimed) for label, family in asked.items()}
+    orders = {label: family.order for label, family in found.items()}
+    return EmbeddedOrder(claimed, orders, own, found[own].failing)
 
 
 def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
@@ -453,8 +465,10 @@ def _broken_claims(tableau: Tableau, embedded: EmbeddedOrder | None) -> Iterator
         if found is not claimed:
             said = "undecided" if found is None else str(found).lower()
             yield f"{name} is {said}, claimed {str(claimed).lower()}"
-    if embedded is not None and embedded.orders["rk"] != embedded.claimed:
-        yield f"the embedded row has order {embedded.orders['rk']}, claimed {embedded.claimed}"
+    if embedded is not None and embedded.orders[embedded.own] != embedded.claimed:
+        order = embedded.orders[embedded.own]
+        reason = f"; {embedded.failing[0]}" if order < embedded.claimed and embedded.failing else ""
+        yield f"the embedded row has order {order} ({embedded.own}), claimed {embedded.claimed}{reason}"
 
 
 def _judge(ring: Ring, residual: Element, n: int) -> str:

@@ -3,7 +3,7 @@
 ``rk`` gives A, b and embedded_b with embedded_order; ``prk`` A, b, A_hat, b_hat; ``composition`` gamma, or
 alpha and beta. ``cf`` gives the exponentials of all stages and of the update as rows of ``exponentials``;
 ``count`` says how many belong to each stage and, last, to the update, ``start`` which stage each starts
-from, 0 for y0.
+from, 0 for y0; with embedded_order the update is the last but one and the embedded update the last.
 """
 
 from __future__ import annotations
@@ -71,9 +71,11 @@ def _filled(rows: Sequence[Sequence[Any]], width: int) -> list[Row]:
 
 
 def _products(data: Mapping[str, Any]) -> Arrays:
-    products = [*data["stage"], data["update"]]
+    embedded = data.get("embedded")
+    products = [*data["stage"], data["update"], *([embedded] if embedded else [])]
     width = len(data["stage"])
-    return {
+    order = {"embedded_order": str(embedded["order"])} if embedded else {}
+    return order | {
         "start": [str(product.get("from", 0)) for product in products],
         "count": [str(len(product.get("exp", []))) for product in products],
         "exponentials": [row for product in products for row in _filled(product.get("exp", []), width)],
@@ -124,8 +126,12 @@ def _stages(found: Arrays, where: str) -> dict[str, Any]:
         product: dict[str, Any] = {"exp": rows[:many]} if many else {}
         rows = rows[many:]
         products.append(product | ({"from": begin} if begin else {}))
-    if rows or not products:
+    pair = "embedded_order" in found
+    if rows or len(products) <= pair:
         raise TableauError("count that does not add up", where=where, expected="one row for each exponential")
+    if pair:
+        lower = products.pop() | {"order": _integer(found["embedded_order"], where)}
+        return {"stage": products[:-1], "update": products[-1], "embedded": lower}
     return {"stage": products[:-1], "update": products[-1]}
 
 

@@ -17,8 +17,10 @@ from orderconds.tableau.evaluate import Definition, NamedRoot, evaluate
 from orderconds.tableau.formats import (
     FORMATS,
     Claim,
+    CommutatorFreeFile,
     CutoffClaim,
     EmbeddedEntry,
+    EmbeddedProduct,
     Format,
     LowStorage,
     Number,
@@ -34,8 +36,9 @@ from orderconds.tableau.unknowns import Proof, Spelled
 MAX_BYTES = 1_000_000
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.+-]*")
 _NUMBER = re.compile(r"[A-Za-z_]\w*", re.ASCII)
-_NESTED: dict[str, type[Struct]] = {
+_NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
     "embedded": EmbeddedEntry,
+    (CommutatorFreeFile, "embedded"): EmbeddedProduct,
     "stage": StageEntry,
     "update": StageEntry,
     "low_storage": LowStorage,
@@ -167,7 +170,8 @@ def _explained(message: str, kind: type[Struct], prefix: str, where: str) -> Tab
     key = (prefix + key).removeprefix(".")
     place = f"{where}: {key}" if key else where
     if unknown := re.fullmatch(r"Object contains unknown field `(.*)`", found, re.DOTALL):
-        struct = _NESTED.get(re.split(r"[.\[]", key)[0], kind)
+        inner = re.split(r"[.\[]", key)[0]
+        struct = _NESTED.get((kind, inner), _NESTED.get(inner, kind))
         keys = ", ".join(sorted(struct.__struct_encode_fields__))
         return TableauError(f"unknown key {unknown[1]!r}", where=place, expected=f"one of {keys}")
     if missing := re.fullmatch(r"Object missing required field `(.*)`", found, re.DOTALL):

@@ -21,6 +21,8 @@ from orderconds.tableau.methods import (
     CommutatorFree,
     Composition,
     Embedded,
+    EmbeddedUpdate,
+    LowerOrder,
     PartitionedRungeKutta,
     Row,
     RungeKutta,
@@ -83,7 +85,7 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     def verify(self, where: str) -> None:
         """Raise :class:`TableauError` unless the shapes fit."""
 
-    def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, Embedded | None]:
+    def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
         """Return the method, given the value at every place."""
         raise TypeError(f"{type(self).__name__} is the part that formats share")
 
@@ -130,8 +132,8 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
         if self.embedded:
             yield from _row(self.embedded.b, "embedded.b")
 
-    def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, Embedded | None]:
-        """Return the Runge-Kutta method."""
+    def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
+        """Return the Runge-Kutta method, and its embedded weights."""
         s = len(self.b)
         A = tuple(_filled(values, f"A[{i + 1}]", s, ring) for i in range(s))
         method, embedded = RungeKutta(A, _filled(values, "b", s, ring)), None
@@ -140,11 +142,7 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
         if self.embedded:
             embedded = Embedded(_filled(values, "embedded.b", s, ring), self.embedded.order)
             if all(ring.is_zero(x - y) for x, y in zip(method.b, embedded.b, strict=True)):
-                raise TableauError(
-                    "an embedded row equal to the main one: its error estimate is identically zero",
-                    where=f"{self.name}: embedded.b",
-                    expected="other weights than b",
-                )
+                raise _identically_zero(f"{self.name}: embedded.b", "other weights than b")
         return method, embedded
 
     def _compare(self, method: RungeKutta, c: Row, ring: Ring) -> None:
@@ -197,7 +195,7 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
                 yield from _row(row, f"{name}[{i + 1}]")
             yield from _row(b, weights)
 
-    def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, Embedded | None]:
+    def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
         """Return the partitioned method."""
         s = len(self.b)
         A, A_hat = (
@@ -214,6 +212,12 @@ class StageEntry(Struct, forbid_unknown_fields=True):
     start: int | None = field(default=None, name="from")
 
 
+class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
+    """A second update of lower order, from the same stages."""
+
+    order: Annotated[int, Meta(ge=1)]
+
+
 class LowStorage(Struct, forbid_unknown_fields=True):
     """K <- A_i K + F(Y), Y <- exp(h B_i K) Y, in two registers (2N)."""
 
@@ -222,11 +226,15 @@ class LowStorage(Struct, forbid_unknown_fields=True):
 
 
 class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "cf"``: either stages and an update, or a low-storage scheme, expanded on load."""
+    """``family = "cf"``: either stages and an update, or a low-storage scheme, expanded on load.
+
+    ``embedded`` is a second update from the same stages.
+    """
 
     stage: list[StageEntry] = []
     update: StageEntry | None = None
     low_storage: LowStorage | None = None
+    embedded: EmbeddedProduct | None = None
 
     def verify(self, where: str) -> None:
         """Check that one of the two forms is given and that stages start from earlier ones."""
@@ -242,19 +250,16 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
                     where=f"{where}: low_storage.A",
                     expected="A and B of one length",
                 )
-            return
-        if self.update is None:
-            raise TableauError("no update", where=where, expected="[[stage]] and [update], or [low_storage]")
-        s = _stages(len(self.stage), f"{where}: stage")
-        for i, (place, entry) in enumerate(self._entries()):
-            for r, row in enumerate(entry.exp):
-                _short_enough(row, s, f"{where}: {place}.exp[{r + 1}]")
-            if entry.start is not None and not 1 <= entry.start <= i:
+        else:
+            if self.update is None:
                 raise TableauError(
-                    f"from = {entry.start}",
-                    where=f"{where}: {place}",
-                    expected=f"an earlier stage, 1 to {i}" if i else "no from: nothing comes before stage 1",
+                    "no update", where=where, expected="[[stage]] and [update], or [low_storage]"
                 )
+            s = _stages(len(self.stage), f"{where}: stage")
+        for i, (place, entry) in enumerate(self._entries()):
+            _verify_product(entry, min(i, s), s, f"{where}: {place}")
+        if self.embedded:
+            _verify_product(self.embedded, s, s, f"{where}: embedded")
 
     def _entries(self) -> Iterator[tuple[str, StageEntry]]:
         for i, entry in enumerate(self.stage):
@@ -270,22 +275,53 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
         for place, entry in self._entries():
             for r, row in enumerate(entry.exp):
                 yield from _row(row, f"{place}.exp[{r + 1}]")
+        if self.embedded:
+            for r, row in enumerate(self.embedded.exp):
+                yield from _row(row, f"embedded.exp[{r + 1}]")
 
-    def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, Embedded | None]:
-        """Return the commutator-free method."""
+    def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
+        """Return the commutator-free method, and its embedded update."""
         if self.low_storage:
             s = len(self.low_storage.B)
             A, B = (_filled(values, f"low_storage.{key}", s, ring) for key in "AB")
-            return _low_storage(A, B, ring), None
-        s = len(self.stage)
-        products = [
-            Stage(
-                None if entry.start is None else entry.start - 1,
-                tuple(_filled(values, f"{place}.exp[{r + 1}]", s, ring) for r in range(len(entry.exp))),
-            )
-            for place, entry in self._entries()
-        ]
-        return CommutatorFree(tuple(products[:-1]), products[-1]), None
+            method = _low_storage(A, B, ring)
+        else:
+            s = len(self.stage)
+            *stages, update = (_product(entry, place, values, s, ring) for place, entry in self._entries())
+            method = CommutatorFree(tuple(stages), update)
+        if self.embedded is None:
+            return method, None
+        lower = _product(self.embedded, "embedded", values, s, ring)
+        if method.same_update(lower, ring):
+            raise _identically_zero(f"{self.name}: embedded", "another product than the update")
+        return method, EmbeddedUpdate(lower, self.embedded.order)
+
+
+def _verify_product(entry: StageEntry, before: int, s: int, where: str) -> None:
+    """Check that rows are no longer than s and that the product starts from one of the stages before it."""
+    for r, row in enumerate(entry.exp):
+        _short_enough(row, s, f"{where}.exp[{r + 1}]")
+    if entry.start is not None and not 1 <= entry.start <= before:
+        raise TableauError(
+            f"from = {entry.start}",
+            where=where,
+            expected=f"an earlier stage, 1 to {before}"
+            if before
+            else "no from: nothing comes before stage 1",
+        )
+
+
+def _product(entry: StageEntry, place: str, values: Mapping[str, Element], s: int, ring: Ring) -> Stage:
+    rows = tuple(_filled(values, f"{place}.exp[{r + 1}]", s, ring) for r in range(len(entry.exp)))
+    return Stage(None if entry.start is None else entry.start - 1, rows)
+
+
+def _identically_zero(where: str, expected: str) -> TableauError:
+    return TableauError(
+        "an embedded row equal to the main one: its error estimate is identically zero",
+        where=where,
+        expected=expected,
+    )
 
 
 def _low_storage(A: Row, B: Row, ring: Ring) -> CommutatorFree:
@@ -340,7 +376,7 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
         for key, row in self._rows():
             yield from _row(row, key)
 
-    def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, Embedded | None]:
+    def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
         """Return the composition."""
         rows = {key: _filled(values, key, len(row), ring) for key, row in self._rows()}
         if self.base == "adjoint-pair":
@@ -384,7 +420,7 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
         for k, (_, spelled) in enumerate(self.step):
             yield f"step[{k + 1}]", spelled
 
-    def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, Embedded | None]:
+    def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
         """Return the splitting."""
         steps = tuple(
             (self.parts.index(name), values[f"step[{k + 1}]"]) for k, (name, _) in enumerate(self.step)
@@ -458,7 +494,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             for key, spelled in table.items():
                 yield f"{place}.{key}", spelled
 
-    def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, Embedded | None]:
+    def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
         """Return the method; TableauError where products do not pair up to elements of quadratic groups."""
         tables = {
             place: tuple((parse_term(key, place), values[f"{place}.{key}"]) for key in table)

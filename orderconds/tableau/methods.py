@@ -123,6 +123,20 @@ class CommutatorFree:
         before = () if stage.start is None else self.from_start(self.stages[stage.start])
         return before + stage.exponentials
 
+    def same_update(self, other: Stage, ring: Ring) -> bool:
+        """Whether ``other`` is proved to be the update for any fields, so that their difference is zero.
+
+        Exponentials of zero are left out and neighbours with proportional exponents, which commute, joined:
+        such products are equal for all fields only where their exponents are (Chen 1958, of piecewise linear
+        paths).
+        """
+        one, two = (_reduced(self.from_start(stage), ring) for stage in (self.update, other))
+        return len(one) == len(two) and all(
+            ring.is_zero(x - y) is True
+            for row, same in zip(one, two, strict=True)
+            for x, y in zip(row, same, strict=True)
+        )
+
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
         """Return the tableau of the same method on an abelian group: exponents add up."""
 
@@ -132,6 +146,22 @@ class CommutatorFree:
             return reduce(lambda x, y: tuple(map(add, x, y)), rows, zero)
 
         return RungeKutta(tuple(total(stage) for stage in self.stages), total(self.update))
+
+
+def _reduced(rows: tuple[Row, ...], ring: Ring) -> list[Row]:
+    """Return a product of exponentials without those of zero, neighbours that commute joined."""
+    kept: list[Row] = []
+    for row in rows:
+        if kept and _proportional(kept[-1], row, ring):
+            row = tuple(x + y for x, y in zip(kept.pop(), row, strict=True))
+        if any(ring.is_zero(x) is not True for x in row):
+            kept.append(row)
+    return kept
+
+
+def _proportional(x: Row, y: Row, ring: Ring) -> bool:
+    pairs = ((i, j) for i in range(len(x)) for j in range(i))
+    return all(ring.is_zero(x[i] * y[j] - x[j] * y[i]) is True for i, j in pairs)
 
 
 @dataclass(frozen=True)
@@ -173,3 +203,23 @@ class Embedded:
 
     b: Row
     order: int
+
+    def map(self, convert: Convert) -> Embedded:
+        """Return the same weights with every coefficient converted."""
+        return Embedded(_converted(self.b, convert), self.order)
+
+
+@dataclass(frozen=True)
+class EmbeddedUpdate:
+    """A second update of lower ``order`` from the stages of a commutator-free method."""
+
+    update: Stage
+    order: int
+
+    def map(self, convert: Convert) -> EmbeddedUpdate:
+        """Return the same update with every coefficient converted."""
+        return EmbeddedUpdate(self.update.map(convert), self.order)
+
+
+LowerOrder = Embedded | EmbeddedUpdate
+"""What estimates the error: weights of a Runge-Kutta method, an update of a commutator-free one."""

@@ -19,7 +19,7 @@ Verdict = bool | None
 def properties(tableau: Tableau) -> dict[str, Verdict]:
     """Return every property of :data:`PROPERTIES` that has a meaning for this tableau, in that order.
 
-    A commutator-free method is asked through its tableau on an abelian group only whether it is explicit.
+    A commutator-free method is asked whether it is explicit and whether its last stage is its update.
 
     >>> from orderconds.tableau import Tableau
     >>> midpoint = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["1/2"]]\\nb = ["1"]')
@@ -28,7 +28,10 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
     """
     ring, method = tableau.ring, tableau.method
     if isinstance(method, CommutatorFree):
-        return {"explicit": all(_commutator_free_explicit(method, ring))}
+        return {
+            "explicit": all(_commutator_free_explicit(method, ring)),
+            "fsal": _ends_at_update(method, ring),
+        }
     if isinstance(method, Composition):
         return _of_composition(method, ring)
     if isinstance(method, PartitionedRungeKutta):
@@ -227,6 +230,13 @@ def symmetric_product(method: AdjointComposition | Splitting | Magnus, ring: Rin
             v: Element = mirror.get(word, ring.zero)
             verdicts.append(ring.is_zero(u - v if len(word) % 2 else u + v))
     return _all(verdicts)
+
+
+def _ends_at_update(method: CommutatorFree, ring: Ring) -> bool:
+    """First same as last: the first stage is the start value, the last one the update."""
+    first = [x for row in method.from_start(method.stages[0]) for x in row]
+    starts = all(ring.is_zero(x) is True for x in first)
+    return method.s > 1 and starts and method.same_update(method.stages[-1], ring)
 
 
 def _commutator_free_explicit(method: CommutatorFree, ring: Ring) -> Iterable[bool]:

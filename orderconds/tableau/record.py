@@ -12,6 +12,8 @@ from orderconds.tableau.methods import (
     CommutatorFree,
     Composition,
     Embedded,
+    EmbeddedUpdate,
+    LowerOrder,
     PartitionedRungeKutta,
     RungeKutta,
 )
@@ -59,7 +61,7 @@ class Tableau:
     source: str = ""
     bibtex: str = ""
     claims: Claims = field(default_factory=Claims)
-    embedded: Embedded | None = None
+    embedded: LowerOrder | None = None
     path: str | None = None
     proof: Proof | None = field(default=None, compare=False)
     """Which equations the rounded decimals solve, where the file says so."""
@@ -88,10 +90,22 @@ class Tableau:
             from orderconds.ring.embed import embedding
 
             convert = embedding(self.ring, ring)
-        embedded = self.embedded
-        if embedded is not None:
-            embedded = replace(embedded, b=tuple(convert(x) for x in embedded.b))
+        embedded = None if self.embedded is None else self.embedded.map(convert)
         return replace(self, ring=ring, method=self.method.map(convert), embedded=embedded, proof=None)
+
+    def lower(self) -> Tableau | None:
+        """Return the method that the embedded row makes of the same stages, None where there is none.
+
+        >>> from orderconds.tableau import find
+        >>> [str(x) for x in Tableau.load(find("cg3")).lower().method.b]
+        ['17/54', '19/54', '1/3']
+        """
+        method, embedded = self.method, self.embedded
+        if isinstance(embedded, Embedded) and isinstance(method, RungeKutta):
+            return replace(self, method=replace(method, b=embedded.b), embedded=None, proof=None)
+        if isinstance(embedded, EmbeddedUpdate) and isinstance(method, CommutatorFree):
+            return replace(self, method=replace(method, update=embedded.update), embedded=None, proof=None)
+        return None
 
     def read_as(self, formats: tuple[str, ...]) -> Method | None:
         """Return the method in the first of these formats that it can be read in, or None.

@@ -25,11 +25,11 @@ from typing import Any, Protocol
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.evaluate import Definition, evaluate_in, rounded_and_exact
 from orderconds.tableau.grammar import Constant, Expression, Name
-from orderconds.tableau.methods import Embedded
+from orderconds.tableau.methods import LowerOrder
 from orderconds.tableau.products import Method
 
-Built = tuple[Method, Embedded | None]
-"""A method and its embedded weights."""
+Built = tuple[Method, LowerOrder | None]
+"""A method and what estimates its error."""
 
 
 class RootedRing(Ring, Protocol):

@@ -7,7 +7,15 @@ from collections.abc import Sequence
 
 from orderconds.ring.protocol import Element
 from orderconds.tableau.brackets import Combination, spell
-from orderconds.tableau.methods import CommutatorFree, Composition, PartitionedRungeKutta, Row, Stage
+from orderconds.tableau.methods import (
+    CommutatorFree,
+    Composition,
+    Embedded,
+    EmbeddedUpdate,
+    PartitionedRungeKutta,
+    Row,
+    Stage,
+)
 from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
 from orderconds.tableau.record import Claims, Tableau
 
@@ -35,7 +43,7 @@ def dumps(tableau: Tableau) -> str:
         lines += [_matrix("A", method.A, tableau), f"b = {_full(method.b, tableau)}"]
     if isinstance(method, PartitionedRungeKutta):
         lines += [_matrix("A_hat", method.A_hat, tableau), f"b_hat = {_full(method.b_hat, tableau)}"]
-    if tableau.embedded:
+    if isinstance(tableau.embedded, Embedded):
         weights = _row(tableau.embedded.b, tableau)
         lines.append(f"embedded = {{ b = {weights}, order = {tableau.embedded.order} }}")
     lines += [f"{key} = {_quoted(x)}" for key in ("source", "bibtex") if (x := getattr(tableau, key))]
@@ -45,6 +53,9 @@ def dumps(tableau: Tableau) -> str:
         for stage in method.stages:
             lines += ["[[stage]]", *_stage(stage, tableau)]
         lines += ["[update]", *_stage(method.update, tableau)]
+    if isinstance(tableau.embedded, EmbeddedUpdate):
+        lines += ["[embedded]", f"order = {tableau.embedded.order}"]
+        lines += _stage(tableau.embedded.update, tableau)
     return "\n".join(lines + _claims(tableau.claims)) + "\n"
 
 

@@ -50,9 +50,10 @@ WRONG_ORDER = {
 """File: family, the order it has, the first condition that fails, the first digits of its residual."""
 
 BROKEN_CLAIM = {
+    "cf43_embedded_exchanged": "the embedded row has order 2 (cf), claimed 3; [.] .: ",
     "cg4a_proof_digit": "no proof: the box is not mapped into itself",
     "dormand_prince_fsal": "fsal is false, claimed true",
-    "fehlberg_embedded": "the embedded row has order 4, claimed 5",
+    "fehlberg_embedded": "the embedded row has order 4 (rk), claimed 5; [[[[.]]]]: ",
     "lobatto3a_l_stable": "l_stable is false, claimed true",
     "rk4_symplectic": "symplectic is false, claimed true",
     "sdirk3_stable": "a_stable is false, claimed true",
@@ -60,6 +61,7 @@ BROKEN_CLAIM = {
 }
 
 REFUSED = {
+    "cf4_embedded_equal": "embedded: an embedded row equal to the main one",
     "coefficient_code": 'b[1]: "\'" in',
     "coefficient_divides_by_zero": "b[1]: division by zero",
     "coefficient_explodes": "b[1]: a tower of powers in '9^9^9^9'",
