@@ -199,9 +199,13 @@ class Steps:
             total = self.add(total, term)
         return total
 
-    def trace(self, x, y):
-        """Return the series tr(x y)."""
-        return self.numbers.sum(self.times(x, y).trace(axis1=1, axis2=2))
+    def trace(self, x, matrix):
+        """Return the series tr(x A) for a constant A."""
+        return self.numbers.sum(self.numbers.product(x * matrix.T).sum(axis=(1, 2)))
+
+    def right(self, x, matrix):
+        """Return the series x A for a constant A."""
+        return self.numbers.sum(self.numbers.product(np.matmul(x, matrix)))
 
     def scalar_product(self, a, b):
         total = np.zeros_like(a)
@@ -220,7 +224,7 @@ class Steps:
         """Return the element of the dual that pairs with the algebra as P does."""
         total = self.zero
         for E, D in zip(self.basis, self.dual, strict=True):
-            total = self.add(total, self.spread(self.trace(P, self.constant(E)), D))
+            total = self.add(total, self.spread(self.trace(P, E), D))
         return total
 
     def coadjoint(self, g, inverse, P):
@@ -279,10 +283,8 @@ class Steps:
         def f(q):
             total = self.zero
             for E, u, v, w in forms:
-                quadratic = self.scalar_product(
-                    self.trace(q, self.constant(u)), self.trace(q, self.constant(v))
-                )
-                value = self.numbers.sum(quadratic + self.trace(q, self.constant(w)))
+                quadratic = self.scalar_product(self.trace(q, u), self.trace(q, v))
+                value = self.numbers.sum(quadratic + self.trace(q, w))
                 total = self.add(total, self.spread(value, E))
             return total
 
@@ -300,15 +302,30 @@ class Steps:
             q = self.add(self.one, self.integral(self.times(f(q), q)))
         return q
 
-    def settle(self, sweep, start, most):
-        """Return the fixed point of a sweep that gains a power of h each time or two."""
-        state = start
-        for _ in range(most):
-            new = sweep(state)
-            if all((x == y).all() for x, y in zip(state, new, strict=True)):
-                return new
-            state = new
-        return state
+    def settle(self, sweep, unknowns, explicit):
+        """Return the fixed point of a sweep over so many series that gains a power of h each time.
+
+        The sweeps keep powers up to h^0, h^1, ..., unless stages are explicit, when the first finds all of
+        them. The last is to leave every power as it was.
+        """
+        full, state = self.order, [self.zero] * unknowns
+        for kept in (full,) if explicit else range(full + 1):
+            self.resize(kept)
+            state = sweep([self.resized(x) for x in state])
+        again = sweep(state)
+        assert all((x == y).all() for x, y in zip(state, again, strict=True)), "the stages have not settled"
+        return again
+
+    def resize(self, order):
+        """Keep powers of h up to this order from now on."""
+        self.order = order
+        self.one, self.zero = self.resized(self.one), self.resized(self.zero)
+
+    def resized(self, x):
+        """Return x with as many powers of h as are kept, unknown ones zero."""
+        if len(x) > self.order:
+            return x[: self.order + 1]
+        return np.concatenate([x, np.zeros((self.order + 1 - len(x), *x.shape[1:]), dtype=x.dtype)])
 
     def exponentials(self, rows, k):
         """Return the product of exponentials, the first row acts first."""
@@ -326,7 +343,7 @@ class Steps:
                 k[i] = f(self.exponentials(rows, k))
             return k
 
-        k = self.settle(sweep, [f(self.one)] * len(stages), self.order + 2)
+        k = self.settle(sweep, len(stages), _explicit(stages))
         return self.exponentials(update, k)
 
     def munthe_kaas(self, f, A, b, cutoff):
@@ -337,7 +354,7 @@ class Steps:
                 F[i] = self.dexpinv(X, f(self.exp(X)), cutoff)
             return F
 
-        F = self.settle(sweep, [f(self.one)] * len(b), self.order + 2)
+        F = self.settle(sweep, len(b), _explicit([[row] for row in A]))
         return self.exp(self.combine(b, F))
 
     # --- a random energy on the cotangent bundle and its methods
@@ -349,15 +366,12 @@ class Steps:
         def hamilton(q, P):
             xi = n = self.zero
             for product in forms:
-                values = [
-                    self.numbers.sum(self.trace(q, self.constant(u)) + self.trace(P, self.constant(v)))
-                    for u, v in product
-                ]
+                values = [self.numbers.sum(self.trace(q, u) + self.trace(P, v)) for u, v in product]
                 for place, (u, v) in enumerate(product):
                     others = [x for m, x in enumerate(values) if m != place]
                     slope = self.scalar_product(*others)
                     xi = self.add(xi, self.spread(slope, v))
-                    force = self.times(q, self.constant(u))
+                    force = self.right(q, u)
                     weighted = np.zeros_like(force)
                     for i in range(self.order + 1):
                         if slope[i]:
@@ -403,18 +417,16 @@ class Steps:
                 points.append((x, g, inverse))
             return points or [(self.zero, self.one, self.one)]
 
-        def bar(q, Q, n):
-            nbar = [self.coadjoint(Q[j][-1][1], Q[j][-1][2], n[j]) for j in s]
-            return nbar, self.add(P0, self.combine(b, nbar))
+        def products(xi):
+            return partial(update, xi), [partial(rows, xi) for rows in stages]
 
-        def sweep(state):
-            xi, M = state[: len(s)], state[len(s) :]
-            q, Q = partial(update, xi), [partial(rows, xi) for rows in stages]
-            both = [hamilton(Q[i][-1][1], M[i]) for i in s]
-            xi, n = [x for x, _ in both], [y for _, y in both]
-            nbar, mubar = bar(q, Q, n)
+        def bar(Q, n):
+            nbar = [self.coadjoint(Q[j][-1][1], Q[j][-1][2], n[j]) for j in s]
+            return nbar, self.add(self.resized(P0), self.combine(b, nbar))
+
+        def momenta(q, Q, n):
+            nbar, mubar = bar(Q, n)
             carried = [self.dexp_dual(x, self.coadjoint(inv, g, mubar)) for x, g, inv in q]
-            M = []
             pulled = [[self.dexp_dual(x, self.coadjoint(inv, g, nbar[j])) for x, g, inv in Q[j]] for j in s]
             for i in s:
                 total = self.zero
@@ -425,14 +437,17 @@ class Steps:
                         if row[i]:
                             weight = self.numbers.product(b[j] * row[i])
                             total = self.add(total, -self.h(self.scaled(weight, m)))
-                M.append(self.scaled(reciprocal[i], total))
-            return [*xi, *M]
+                yield self.scaled(reciprocal[i], total)
 
-        state = self.settle(sweep, [*[self.zero] * len(b), *[P0] * len(b)], 2 * self.order + 3)
-        xi, M = state[: len(s)], state[len(s) :]
-        q, Q = partial(update, xi), [partial(rows, xi) for rows in stages]
-        n = [hamilton(Q[i][-1][1], M[i])[1] for i in s]
-        _, mubar = bar(q, Q, n)
+        def sweep(state):
+            xi, n = state[: len(s)], state[len(s) :]
+            q, Q = products(xi)
+            fields = [hamilton(Q[i][-1][1], M) for i, M in enumerate(momenta(q, Q, n))]
+            return [x for field in zip(*fields, strict=True) for x in field]
+
+        state = self.settle(sweep, 2 * len(b), explicit=False)
+        q, Q = products(state[: len(s)])
+        _, mubar = bar(Q, state[len(s) :])
         return q[-1][1], self.coadjoint(q[-1][2], q[-1][1], mubar)
 
     def variational_munthe_kaas(self, hamilton, P0, A, b, cutoff):
@@ -459,33 +474,36 @@ class Steps:
 
         def ends(X, xi, n):
             f = [self.dexpinv(X[i], xi[i], cutoff) for i in s]
-            Y = self.combine(b, f)
             moved = [self.coadjoint(self.exp(X[i]), self.exp(-X[i]), n[i]) for i in s]
-            return f, Y, self.add(P0, self.combine(b, moved))
+            return self.combine(b, f), self.add(self.resized(P0), self.combine(b, moved))
 
         def sweep(state):
-            X, M, lam = (list(state[len(s) * k : len(s) * (k + 1)]) for k in range(3))
-            both = [hamilton(self.exp(X[i]), M[i]) for i in s]
-            xi, n = [x for x, _ in both], [y for _, y in both]
-            f, Y, mu = ends(X, xi, n)
+            X, xi, n, multipliers = (state[len(s) * k : len(s) * (k + 1)] for k in range(4))
+            f = [self.dexpinv(X[i], xi[i], cutoff) for i in s]
             X = [self.combine(row, f) for row in A]
+            Y, mu = ends(X, xi, n)
             Lambda = self.dexp_dual(-Y, mu)
-            new = []
-            for i in s:
-                inner = self.scaled(b[i], Lambda)
+
+            def inner(i, multipliers):
+                total = self.scaled(b[i], Lambda)
                 for j in s:
                     if A[j][i]:
-                        inner = self.add(inner, self.scaled(A[j][i], lam[j]))
-                M[i] = self.scaled(reciprocal[i], self.dexpinv_dual(X[i], inner, cutoff))
-                turned = self.h(self.scaled(b[i], self.dexp_dual(X[i], n[i])))
-                new.append(self.add(self.h(operator(X[i], xi[i], inner)), -turned))
-            return [*X, *M, *new]
+                        total = self.add(total, self.scaled(A[j][i], multipliers[j]))
+                return total
 
-        start = [*[self.zero] * len(b), *[P0] * len(b), *[self.zero] * len(b)]
-        state = self.settle(sweep, start, 2 * self.order + 3)
-        X, M = state[: len(b)], state[len(b) : 2 * len(b)]
-        both = [hamilton(self.exp(X[i]), M[i]) for i in s]
-        _, Y, mu = ends(X, [x for x, _ in both], [y for _, y in both])
+            turned = [self.scaled(b[i], self.dexp_dual(X[i], n[i])) for i in s]
+            multipliers = [
+                self.h(self.add(operator(X[i], xi[i], inner(i, multipliers)), -turned[i])) for i in s
+            ]
+            fields = []
+            for i in s:
+                M = self.dexpinv_dual(X[i], inner(i, multipliers), cutoff)
+                fields.append(hamilton(self.exp(X[i]), self.scaled(reciprocal[i], M)))
+            return [*X, *(x for field in zip(*fields, strict=True) for x in field), *multipliers]
+
+        state = self.settle(sweep, 4 * len(b), explicit=False)
+        X, xi, n = (state[len(s) * k : len(s) * (k + 1)] for k in range(3))
+        Y, mu = ends(X, xi, n)
         return self.exp(Y), self.coadjoint(self.exp(-Y), self.exp(Y), mu)
 
     def _reciprocal(self, x):
@@ -502,6 +520,11 @@ class Steps:
                 if not self.numbers.vanishes(self.numbers.sum(x[k] - y[k])):
                     return k
         return None
+
+
+def _explicit(stages):
+    """Say whether each stage is built from those before it alone."""
+    return not any(any(row[i:]) for i, rows in enumerate(stages) for row in rows)
 
 
 def rows_from_start(method, stage):
