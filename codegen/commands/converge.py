@@ -5,10 +5,11 @@ from __future__ import annotations
 import click
 
 from orderconds.commands.screen import print_json, print_table, working
+from orderconds.commands.variadic import Variadic
 from orderconds.errors import InputError
 
 
-@click.command("converge")
+@click.command("converge", cls=Variadic)
 @click.argument("scene")
 @click.option("--method", "-m", "methods", multiple=True, required=True, help="TABLEAU or FAMILY:TABLEAU.")
 @click.option("--target", default="c", show_default=True, help="c, python or interpreter.")
@@ -24,7 +25,7 @@ def command(
     """
     from codegen.certify import certified_order
     from codegen.lab.converge import Convergence, converge
-    from codegen.lab.reference import reference
+    from codegen.lab.remembered import remembered
     from codegen.lab.runner import runner
     from codegen.lower import families_for
     from codegen.method import parse
@@ -38,7 +39,7 @@ def command(
         tell("compiling")
         runners = [(runner(setting, method, target, digits, order), order) for method, order in pairs]
         tell("reference solution")
-        exact = reference(setting)
+        exact = remembered(setting)
     found: list[Convergence] = []
     for run, order in runners:
         with working(f"running {run.compiled.method.label}"):

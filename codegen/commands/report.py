@@ -5,9 +5,12 @@ from __future__ import annotations
 import click
 
 from orderconds.commands.screen import print_json, working
+from orderconds.commands.variadic import Variadic
 
 
-@click.command("report", short_help="Write one HTML page: orders, convergence, error against run time.")
+@click.command(
+    "report", cls=Variadic, short_help="Write one HTML page: orders, convergence, error against run time."
+)
 @click.argument("scenes", nargs=-1, metavar="[SCENE]...")
 @click.option("--method", "-m", "methods", multiple=True, help="TABLEAU or FAMILY:TABLEAU; may be repeated.")
 @click.option("--output", "-o", metavar="DIR", required=True, help="The folder to write index.html to.")

@@ -15,24 +15,53 @@ from dataclasses import dataclass
 from typing import Any
 
 INK, MUTED, RULE = "#010a01", "#010a02", "#010a03"
-SERIES = tuple(f"#010b{k:02x}" for k in range(1, 7))
+SERIES = tuple(f"#010b{k:02x}" for k in range(1, 11))
 COLOURS = {INK: "var(--ink)", MUTED: "var(--muted)", RULE: "var(--rule)"} | {
     colour: f"var(--series-{k})" for k, colour in enumerate(SERIES, start=1)
 }
 """Stand-in colour to the page's variable."""
 
-MARKERS = ("o", "s", "^", "D", "v", "P")
+MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "h")
+
+LIGHT = {
+    "var(--ink)": "#1d1c1a",
+    "var(--muted)": "#6b675f",
+    "var(--rule)": "#dedad1",
+    "var(--sans)": "Helvetica, Arial, 'Liberation Sans', sans-serif",
+} | {
+    f"var(--series-{k})": colour
+    for k, colour in enumerate(
+        (
+            "#1f6fb2",
+            "#c2501f",
+            "#2a8a5c",
+            "#8349a6",
+            "#9c7a00",
+            "#54606b",
+            "#b3264a",
+            "#0f8f94",
+            "#5a4fcf",
+            "#7a4a2a",
+        ),
+        start=1,
+    )
+}
+"""The page's variables in a picture that stands alone, on white."""
 SIZE = (4.7, 3.9)
 """Inches; on a phone the picture is about as wide as its view box, so that text keeps its size."""
 
 
 @dataclass(frozen=True)
 class Curve:
-    """A labelled sequence of points (x, y), and the order whose slope it should have (None: no line)."""
+    """A labelled sequence of points (x, y), and the order whose slope it should have (None: no line).
+
+    A ``peer``'s curve is drawn dashed and thin.
+    """
 
     label: str
     points: tuple[tuple[float, float], ...]
     order: int | None = None
+    peer: bool = False
 
 
 def convergence_figure(name: str, curves: Sequence[Curve], error_label: str) -> str:
@@ -114,7 +143,9 @@ def _draw(axes: Any, curves: Sequence[Curve]) -> None:
     for k, curve in enumerate(curves):
         colour = SERIES[k % len(SERIES)]
         x, y = zip(*curve.points, strict=True)
-        axes.plot(x, y, color=colour, marker=MARKERS[k % len(MARKERS)], label=curve.label, clip_on=False)
+        style = {"linestyle": (0, (3, 2)), "linewidth": 0.9, "markerfacecolor": "none"} if curve.peer else {}
+        marker = MARKERS[k % len(MARKERS)]
+        axes.plot(x, y, color=colour, marker=marker, label=curve.label, clip_on=False, **style)
     _ticks(axes.yaxis, power_of_ten)
 
 
@@ -172,6 +203,16 @@ def seconds(x: float) -> str:
         if x >= 0.999 * size:
             return f"{x / size:g} {unit}"
     return f"{x / 1e-9:.3g} ns"
+
+
+def standalone(svg: str, title: str) -> str:
+    """Return an SVG element of this module as a document of its own: fixed colours on white, a title."""
+    for variable, value in LIGHT.items():
+        svg = svg.replace(variable, value)
+    head = svg.index(">") + 1
+    width, height = (72 * x for x in SIZE)
+    paper = f'<title>{title}</title><rect width="{width:g}" height="{height:g}" fill="#ffffff"/>'
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{svg[:head]}{paper}{svg[head:]}\n'
 
 
 def _svg(figure: Any, name: str) -> str:

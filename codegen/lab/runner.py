@@ -17,7 +17,7 @@ from codegen.emit import Compiled, compile_method, emit_compiled
 from codegen.errors import MethodError
 from codegen.ir.domain import Domain, FloatDomain, NotConverged, PreciseDomain
 from codegen.ir.interpret import flatten, interpret
-from codegen.load import Integrator, StepFailed, load
+from codegen.load import Integrator, Statistics, StepFailed, load
 from codegen.lower import setting
 from codegen.method import Method
 from codegen.scene import Setting
@@ -110,12 +110,12 @@ class Emitted:
         """The scene's initial state in doubles."""
         return list(self.compiled.scene.initial(FloatDomain(0.0)))
 
-    def final(self, steps: int) -> tuple[float, ...]:
-        """Return the state at the end of the span."""
+    def final(self, steps: int, statistics: Statistics | None = None) -> tuple[float, ...]:
+        """Return the state at the end of the span; ``statistics`` counts what blocks took."""
         first, last = self.compiled.scene.span
         h = float((last - first) / max(steps, 1))
         try:
-            return tuple(self.integrator.run(self.initial, h, steps, float(first)))
+            return tuple(self.integrator.run(self.initial, h, steps, float(first), statistics))
         except StepFailed as error:
             raise RunFailed(str(error)) from error
 

@@ -11,7 +11,8 @@ from codegen.emission import Emission
 from codegen.emit import compile_method
 from codegen.lab.converge import Convergence, converge
 from codegen.lab.ladder import FIRST
-from codegen.lab.reference import Reference, reference
+from codegen.lab.reference import Reference
+from codegen.lab.remembered import remembered
 from codegen.lab.runner import Emitted, Interpreted
 from codegen.lab.timing import Timing, timings
 from codegen.lower import families_for
@@ -85,7 +86,7 @@ def methods_for(scene: Setting, spellings: Sequence[str] = ()) -> tuple[Method, 
 def study(spelled: str, scene: Setting, methods: Sequence[Method], tell: Tell) -> Study:
     """Measure methods on a scene; ``tell`` hears what is being done."""
     tell(f"{scene.name}: reference solution")
-    exact = reference(scene)
+    exact = remembered(scene)
     return Study(spelled, scene, exact, tuple(_study(scene, m, exact, tell) for m in methods))
 
 

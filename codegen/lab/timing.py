@@ -16,6 +16,10 @@ BATCH = 0.004
 """Seconds that a batch of calls must last, far above the clock's resolution."""
 
 BATCHES = 7
+FEWER = 3
+"""Batches, and those of a call that takes longer than :data:`LONG` seconds."""
+
+LONG = 0.2
 
 
 @dataclass(frozen=True)
@@ -31,13 +35,19 @@ class Timing:
         return 1e9 * self.seconds / self.steps
 
 
+def samples(call: Callable[[], Any], batch: float = BATCH, batches: int = BATCHES) -> tuple[float, ...]:
+    """Return the CPU seconds of one call by several batches, each long enough for the clock, sorted."""
+    calls, first = 1, _batch(call, 1)
+    while first < batch:
+        calls *= 2 if first > batch / 8 else 8
+        first = _batch(call, calls)
+    more = (min(batches, FEWER) if first > LONG else batches) - 1
+    return tuple(sorted(s / calls for s in (first, *(_batch(call, calls) for _ in range(more)))))
+
+
 def cost(call: Callable[[], Any], batch: float = BATCH, batches: int = BATCHES) -> float:
     """Return the CPU seconds of one call: the least of several batches, each long enough for the clock."""
-    calls, best = 1, _batch(call, 1)
-    while best < batch:
-        calls *= 2 if best > batch / 8 else 8
-        best = _batch(call, calls)
-    return min(best, *(_batch(call, calls) for _ in range(batches - 1))) / calls
+    return samples(call, batch, batches)[0]
 
 
 def _batch(call: Callable[[], Any], calls: int) -> float:

@@ -59,6 +59,29 @@ def working(message: str) -> Iterator[Callable[[str], object]]:
         yield status.update
 
 
+@contextmanager
+def counting(message: str) -> Iterator[Callable[[str], object]]:
+    """Show on a terminal what is being worked on, what is done and how long it has taken; else nothing.
+
+    What it gives is called with what has just been done; work of unknown length is counted, not foretold.
+
+    >>> with counting("measuring") as done:
+    ...     _ = done("first")
+    ...
+    """
+    if not (is_terminal() and sys.stderr.isatty()):
+        yield str
+        return
+    from rich.console import Console
+    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    columns = (SpinnerColumn(), TextColumn("{task.description}"), TextColumn("{task.completed:.0f} done"))
+    console = Console(stderr=True, highlight=False, markup=False)
+    with Progress(*columns, TimeElapsedColumn(), console=console, transient=True) as progress:
+        task = progress.add_task(message, total=None)
+        yield lambda text: progress.update(task, advance=1, description=text)
+
+
 def print_json(value: Any) -> None:
     """Print one JSON document: indented, in the order given, ASCII only.
 

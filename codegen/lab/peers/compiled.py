@@ -1,0 +1,117 @@
+"""Classical integrators in C on the ambient equations: DOP853 with its own step control, and projected RK4.
+
+The code is generated from the same straight-line field as that of the other peers and built with the flags
+of emitted modules. Coefficients of DOP853 come from the library; its second error estimator is the rule of
+order 3 through nodes 1, 9 and 12 that its authors chose (Hairer, Norsett and Wanner I, section II.10), and
+the step is chosen as in section II.4 there.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import partial
+from typing import Any
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from codegen.build import build
+from codegen.ir.domain import FloatDomain
+from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
+from codegen.lab.projection import projection_lines
+from codegen.lab.straight import velocity
+from codegen.scene import Setting
+from orderconds.tableau import Tableau, find
+
+DECLARATION = (
+    "int peer(double *y, double first, double last, double control, size_t *steps, size_t *evaluations);"
+)
+REASONS = {1: "the step became too small", 2: "a number is not finite", 3: "too many steps"}
+
+
+def peer(name: str) -> Peer:
+    """Return c-dop853 (by tolerance) or c-rk4-projected (by steps)."""
+    controlled = "tolerance" if name == "c-dop853" else "steps"
+    template = "dop853.c.j2" if name == "c-dop853" else "rk4.c.j2"
+    return Peer(name, controlled, partial(_prepare, template), "generated C")
+
+
+def source(template: str, scene: Setting) -> str:
+    """Return the C text of a peer on a scene.
+
+    :class:`codegen.errors.SceneError` where RK4 has no projection onto the scene's manifold.
+    """
+    environment = Environment(
+        loader=PackageLoader("codegen.templates", "peers"),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,
+    )
+    values: dict[str, Any] = {"size": len(scene.symbols), "field": velocity(scene).c()}
+    values["time"] = not scene.autonomous
+    if template == "rk4.c.j2":
+        values["projection"] = projection_lines(scene).c("z")
+    else:
+        values |= dop853()
+    return environment.get_template(template).render(values)
+
+
+def dop853() -> dict[str, Any]:
+    """Return the coefficients of DOP853 as doubles: rows of A, b, c and the weights of both estimates."""
+    tableau = Tableau.load(find("dop853"))
+
+    def doubles(row: Sequence[Any]) -> list[float]:
+        return [float(tableau.ring.approximate(x, 20)) for x in row]
+
+    method: Any = tableau.method
+    rows, b, c = [doubles(row) for row in method.A], doubles(method.b), doubles(method.c)
+    embedded: Any = tableau.embedded
+    fifth = [x - y for x, y in zip(b, doubles(embedded.b), strict=True)]
+    low = [0.0] * len(b)
+    for i, w in zip((0, 8, 11), third_order([c[0], c[8], c[11]]), strict=True):
+        low[i] = w
+    third = [x - y for x, y in zip(b, low, strict=True)]
+    return {"rows": rows, "b": b, "c": c, "fifth": fifth, "third": third}
+
+
+def third_order(nodes: Sequence[float]) -> list[float]:
+    """Return the weights of the interpolatory rule on three nodes of [0, 1].
+
+    >>> [round(6 * w, 12) for w in third_order([0.0, 0.5, 1.0])]
+    [1.0, 4.0, 1.0]
+    """
+    weights = []
+    for i, x in enumerate(nodes):
+        p, q = (y for j, y in enumerate(nodes) if j != i)
+        weights.append((1 / 3 - (p + q) / 2 + p * q) / ((x - p) * (x - q)))
+    return weights
+
+
+def _prepare(template: str, scene: Setting, control: float) -> Prepared:
+    import cffi
+
+    library = _library(source(template, scene))
+    ffi: cffi.FFI = library[0]
+    start = [float(x) for x in scene.initial(FloatDomain(0.0))]
+    first, last = map(float, scene.span)
+    counts = ffi.new("size_t[2]")
+
+    def run(end: float = last, control: float = control) -> Outcome:
+        state = ffi.new("double[]", start)
+        status = library[1].peer(state, first, end, control, counts, counts + 1)
+        found = tuple(ffi.unpack(state, len(start)))
+        if status or not all(map(math.isfinite, found)):
+            raise PeerFailed(REASONS.get(status, REASONS[2]))
+        return Outcome(found, int(counts[0]), int(counts[1]))
+
+    return Prepared(run, lambda: run(first, control if template == "dop853.c.j2" else 0.0))
+
+
+def _library(text: str) -> tuple[Any, Any]:
+    import cffi
+
+    ffi = cffi.FFI()
+    ffi.cdef(DECLARATION)
+    return ffi, ffi.dlopen(str(build({"peer.c": text})))

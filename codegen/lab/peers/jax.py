@@ -1,0 +1,59 @@
+"""diffrax: explicit Runge-Kutta of order 8 (Dopri8) in JAX, compiled, in double precision."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from codegen.ir.domain import FloatDomain
+from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
+from codegen.lab.straight import velocity
+from codegen.scene import Setting
+
+MOST_STEPS = 1_000_000
+
+
+def peer(name: str) -> Peer:
+    """Return diffrax."""
+    import diffrax
+
+    return Peer(name, "tolerance", _prepare, f"diffrax {diffrax.__version__}")
+
+
+def _prepare(scene: Setting, tolerance: float) -> Prepared:
+    import diffrax
+    import jax
+    import jax.numpy as jnp
+
+    jax.config.update("jax_enable_x64", True)
+    functions = {name: getattr(jnp, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
+    compute = velocity(scene).python(float, functions)
+    start = jnp.array(scene.initial(FloatDomain(0.0)))
+    first, last = map(float, scene.span)
+
+    def field(t: Any, y: Any, _: Any) -> Any:
+        return jnp.stack([jnp.asarray(x, dtype=float) for x in compute(y, t)])
+
+    @jax.jit  # type: ignore[untyped-decorator]
+    def solve(y: Any) -> Any:
+        return diffrax.diffeqsolve(
+            diffrax.ODETerm(field),
+            diffrax.Dopri8(),
+            t0=first,
+            t1=last,
+            dt0=None,
+            y0=y,
+            stepsize_controller=diffrax.PIDController(rtol=tolerance, atol=tolerance),
+            max_steps=MOST_STEPS,
+            throw=False,
+        )
+
+    def run() -> Outcome:
+        found = solve(start)
+        found.ys.block_until_ready()
+        if found.result != diffrax.RESULTS.successful:
+            raise PeerFailed(f"diffrax: no end within {MOST_STEPS} steps")
+        steps = int(found.stats["num_steps"])
+        return Outcome(tuple(map(float, found.ys[-1])), steps, 12 * steps)
+
+    run()  # compiles
+    return Prepared(run)

@@ -1,0 +1,59 @@
+"""SciPy's solvers (DOP853, Radau, LSODA), stepped by hand so that a step can be projected."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+from typing import Any
+
+from codegen.ir.domain import FloatDomain
+from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
+from codegen.lab.projection import projection
+from codegen.lab.straight import velocity
+from codegen.scene import Setting
+
+FUNCTIONS = {name: getattr(math, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
+
+
+def peer(name: str) -> Peer:
+    """Return scipy-dop853, scipy-radau or scipy-lsoda, with or without ``-projected``."""
+    import scipy
+
+    method = {"dop853": "DOP853", "radau": "Radau", "lsoda": "LSODA"}[name.split("-")[1]]
+    prepare = partial(_prepare, method, name.endswith("-projected"))
+    return Peer(name, "tolerance", prepare, f"scipy {scipy.__version__}")
+
+
+def _prepare(method: str, projected: bool, scene: Setting, tolerance: float) -> Prepared:
+    import numpy
+    import scipy.integrate
+
+    compute = velocity(scene).python(float, FUNCTIONS)
+    project = projection(scene) if projected else None
+    start = numpy.array(scene.initial(FloatDomain(0.0)))
+    first, last = map(float, scene.span)
+    least = 100 * numpy.finfo(float).eps
+    options = {"rtol": max(tolerance, least), "atol": tolerance}
+
+    def field(t: float, y: Any) -> tuple[float, ...]:
+        value: tuple[float, ...] = compute(y.tolist(), t)
+        return value
+
+    def run() -> Outcome:
+        try:
+            solver = getattr(scipy.integrate, method)(field, first, start.copy(), last, **options)
+            steps = 0
+            while solver.status == "running":
+                message = solver.step()
+                steps += 1
+                if project is not None and solver.status != "failed":
+                    solver.y = numpy.array(project(solver.y.tolist()))
+                    if hasattr(solver, "f"):
+                        solver.f = numpy.asarray(field(solver.t, solver.y))
+        except (ArithmeticError, ValueError) as error:
+            raise PeerFailed(f"{method}: {error}") from error
+        if solver.status == "failed":
+            raise PeerFailed(f"{method}: {message}")
+        return Outcome(tuple(solver.y.tolist()), steps, int(solver.nfev))
+
+    return Prepared(run)

@@ -1,0 +1,39 @@
+"""heyoka: Taylor's method with a compiled recurrence for the field and adaptive order and step."""
+
+from __future__ import annotations
+
+from codegen.ir.domain import FloatDomain
+from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
+from codegen.lab.straight import velocity
+from codegen.scene import Setting
+
+
+def peer(name: str) -> Peer:
+    """Return heyoka."""
+    import heyoka
+
+    return Peer(name, "tolerance", _prepare, f"heyoka {heyoka.__version__}")
+
+
+def _prepare(scene: Setting, tolerance: float) -> Prepared:
+    import heyoka
+
+    variables = heyoka.make_vars(*scene.symbols)
+    functions = {name: getattr(heyoka, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
+    constants = lambda x: heyoka.expression(float(x))  # noqa: E731
+    roots = velocity(scene).python(constants, functions)(list(variables), heyoka.time)
+    start = list(scene.initial(FloatDomain(0.0)))
+    first, last = map(float, scene.span)
+    solver = heyoka.taylor_adaptive(
+        list(zip(variables, roots, strict=True)), start, time=first, tol=tolerance
+    )
+
+    def run(end: float = last) -> Outcome:
+        solver.time = first
+        solver.state[:] = start
+        outcome, _, _, steps, *_ = solver.propagate_until(end)
+        if outcome != heyoka.taylor_outcome.time_limit:
+            raise PeerFailed(f"heyoka: {outcome}")
+        return Outcome(tuple(solver.state.tolist()), int(steps), None)
+
+    return Prepared(run, lambda: run(first))

@@ -1,0 +1,66 @@
+"""Who reaches an accuracy first: times interpolated between rungs, and the winner of each decade."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from codegen.lab.contest import Row
+
+
+@dataclass(frozen=True)
+class Place:
+    """The fastest contestant at an error of 10^-decade, its CPU seconds, and the runner-up with its."""
+
+    decade: int
+    winner: str
+    seconds: float
+    second: str = ""
+    behind: float | None = None
+
+
+def seconds_to(rows: Sequence[Row], error: float) -> float | None:
+    """Return the CPU seconds in which a ladder reaches an error, None where it never does.
+
+    Between two neighbouring rungs on either side of the error, logarithms are interpolated; a ladder that
+    starts below the error takes its first rung's time.
+
+    >>> from codegen.lab.contest import Row
+    >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)
+    >>> round(seconds_to([row(1e-2, 1.0), row(1e-4, 4.0)], 1e-3), 9)
+    2.0
+    >>> seconds_to([row(1e-2, 1.0)], 1e-3) is None
+    True
+    """
+    good = [r for r in rows if r.error is not None and r.seconds]
+    found = [_time(r) for r in good if _error(r) <= error]
+    for a, b in pairwise(good):
+        if _error(a) > error >= _error(b) and _error(b) > 0:
+            part = math.log(_error(a) / error) / math.log(_error(a) / _error(b))
+            found.append(_time(a) * (_time(b) / _time(a)) ** part)
+    return min(found, default=None)
+
+
+def _error(row: Row) -> float:
+    assert row.error is not None
+    return row.error
+
+
+def _time(row: Row) -> float:
+    assert row.seconds is not None
+    return row.seconds
+
+
+def places(entries: Mapping[str, Sequence[Row]], decades: Sequence[int] = range(2, 15)) -> tuple[Place, ...]:
+    """Return the winner of each decade of accuracy that somebody reaches."""
+    result = []
+    for decade in decades:
+        times = {label: seconds_to(rows, 10.0**-decade) for label, rows in entries.items()}
+        ordered = sorted((t, label) for label, t in times.items() if t is not None)
+        if ordered:
+            (best, winner), *others = ordered
+            behind, second = others[0] if others else (None, "")
+            result.append(Place(decade, winner, best, second, behind))
+    return tuple(result)

@@ -1,0 +1,49 @@
+"""Options that take several values, as ``--method A B C``, for commands whose arguments come first.
+
+click's options take a fixed number of values. Here the words after an option that may be repeated belong to
+it up to the next option, provided an argument stood before it: ``bench dipole --method cf4 rkmk:rk4`` names
+two methods, while in ``bench --method cf4 dipole`` the last word is the scene.
+"""
+
+from __future__ import annotations
+
+import click
+
+
+class Variadic(click.Command):
+    """A command whose repeatable options take one or more values.
+
+    >>> @click.command("show", cls=Variadic)
+    ... @click.argument("scene")
+    ... @click.option("--method", "-m", multiple=True)
+    ... def show(scene: str, method: tuple[str, ...]) -> None:
+    ...     click.echo(f"{scene}: {', '.join(method)}")
+    ...
+    >>> show(["dipole", "--method", "a", "b", "-m", "c"], standalone_mode=False)
+    dipole: a, b, c
+    >>> show(["-m", "a", "dipole"], standalone_mode=False)
+    dipole: a
+    """
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Repeat the option before each of its further values, then parse as click does."""
+        options = [p for p in self.params if isinstance(p, click.Option)]
+        repeated = {name for p in options if p.multiple for name in p.opts}
+        valued = {name for p in options if not p.is_flag for name in p.opts}
+        words: list[str] = []
+        current, argued, expecting = "", False, False
+        for k, word in enumerate(args):
+            if word == "--":
+                words += args[k:]
+                break
+            if expecting:
+                expecting = False
+            elif word.startswith("-") and word != "-":
+                current = word if word in repeated else ""
+                expecting = word in valued
+            elif current and argued:
+                words.append(current)
+            else:
+                argued, current = True, ""
+            words.append(word)
+        return super().parse_args(ctx, words)
