@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from codegen.errors import MethodError
+from codegen.lower import OF_PARTS, splitting
 from codegen.lower.fewest import bracket_program
 from codegen.method import Method
 from codegen.scene import Setting
@@ -81,11 +82,26 @@ def certified_order(method: Method, scene: Setting | None = None) -> CertifiedOr
             return CertifiedOrder(
                 found.order, found.certificate, found.limit is not None, found.failing, classical
             )
+    if method.family in OF_PARTS and scene is not None:
+        return _of_parts(method, splitting.read(scene, method).family)
     family = family_of(method)
     if method.family == "vrkmk_pade" or (method.family == "rkmk" and method.cutoff is None):
         found = replace(family_order(method.tableau, family), failing=())
     else:
         (found,) = check(method.tableau, family=method.family_label).orders
+    if not found.decided:
+        raise MethodError(
+            f"the order of {method.label} is undecided beyond {found.order}",
+            expected="coefficients with more digits",
+        )
+    return CertifiedOrder(found.order, found.certificate, found.limit is not None, found.failing)
+
+
+def _of_parts(method: Method, family: str) -> CertifiedOrder:
+    """Return the order of a splitting under the conditions that hold on its scene."""
+    from orderconds.check import check
+
+    (found,) = check(method.tableau, family=family).orders
     if not found.decided:
         raise MethodError(
             f"the order of {method.label} is undecided beyond {found.order}",

@@ -41,10 +41,14 @@ HEADERS = frozenset({"math", "stddef", "stdio", "string"})
 
 @dataclass(frozen=True)
 class Compiled:
-    """A method on a scene, ready to be printed: the program before and after each pass, and the kernel."""
+    """A method on a scene, ready to be printed: the program before and after each pass, and the kernel.
+
+    ``view`` is the scene as the method's family sees it.
+    """
 
     scene: Setting
     method: Method
+    view: Setting
     lowered: Program
     program: Program
     trace: tuple[PassReport, ...]
@@ -67,7 +71,7 @@ def compile_method(scene: Setting | str, method: Method | str, parameters: Seque
     view = setting(scene, method)
     lowered = lower(scene, method)
     program, trace = optimise(lowered, view)
-    return Compiled(scene, method, lowered, program, trace, to_kernel(program, view))
+    return Compiled(scene, method, view, lowered, program, trace, to_kernel(program, view))
 
 
 def emit(
@@ -119,6 +123,7 @@ def emit_compiled(
             ("source", method.tableau.source),
             ("order", order.text()),
             ("scene", f"{scene.title}, group {scene.group.name}"),
+            *((("flows", flows_of(compiled.view)),) if compiled.view.flows else ()),
         ),
         initial=tuple(float(x) for x in scene.initial(FloatDomain(0.0))),
         h=float((last - first) / STEPS),
@@ -183,6 +188,11 @@ def left_out(compiled: Compiled) -> tuple[str, ...]:
     if not any(isinstance(s, Loop) for s in kernel.body):
         lines.append("equation solving: every stage is explicit here")
     return tuple(lines)
+
+
+def flows_of(view: Setting) -> str:
+    """Say which exact flows a splitting composes."""
+    return "; ".join(f"{name}, {flow.text()}" for name, flow in view.flows.items())
 
 
 def bare(name: str) -> str:

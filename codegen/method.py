@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -133,7 +133,8 @@ def parse(spelling: str, families: Sequence[str]) -> Method:
         )
     # A tableau of exponentials has no A and b to read, even where it claims the order of its sums as rk.
     readable = [f for f in families if tableau.family != "cf" or f in EXPONENTIALS]
-    wanted = [c for c in tableau.claims.orders if c.family == (family or c.family) and c.family in readable]
+    claims = [replace(c, family=c.family.partition("(")[0]) for c in tableau.claims.orders]  # splitting(3)
+    wanted = [c for c in claims if c.family == (family or c.family) and c.family in readable]
     if family is not None and cutoff is not None:
         return Method(family, tableau, int(cutoff))
     if family is not None and family not in WITH_CUTOFF:

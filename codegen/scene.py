@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
 
 from codegen.consistency import Orbit, check_equal, check_invariants, check_start
 from codegen.errors import SceneError
+from codegen.flow import Flow
 from codegen.groups.actions import LeftMultiplication
 from codegen.groups.cotangent import Cotangent
 from codegen.ir.differentiate import gradient
@@ -69,7 +70,8 @@ class Setting:
     """A scene as programs see it: group, action, state, and either a field or a Hamiltonian.
 
     ``roots`` are the components of f (field scenes) or of xi and n (Hamiltonian scenes) as expressions in the
-    state's symbols, the parameters and ``t``. Values are flat tuples of scalars of a domain.
+    state's symbols, the parameters and ``t``; ``parts`` are named summands of the Hamiltonian, and ``flows``
+    the exact flows that a splitting composes. Values are flat tuples of scalars of a domain.
     """
 
     name: str
@@ -85,6 +87,8 @@ class Setting:
     runtime: tuple[str, ...] = ()
     paired: bool = False
     fixed: tuple[tuple[str, str], ...] = ()
+    parts: Mapping[str, Expr] = field(default_factory=dict)
+    flows: Mapping[str, Flow] = field(default_factory=dict)
 
     @property
     def symbols(self) -> tuple[str, ...]:
@@ -163,6 +167,12 @@ class Setting:
         if name in ("act", "actexp"):
             return (getattr(self.action, name)(domain, self.group, *args),)
         return self._evaluate(domain, args)
+
+    def flow(self, domain: Domain, part: str, tau: Any, args: tuple[Any, ...]) -> tuple[Any, ...]:
+        """Return (q, mu) after the exact flow of a part for the time tau; ``args``: q, mu, perhaps t."""
+        q, mu, *time = args
+        values = self.values(domain, (*q, *mu), *time)
+        return self.flows[part].advance(domain, self.group, values, tau, q, mu)
 
     def _evaluate(self, domain: Domain, args: tuple[Any, ...]) -> tuple[Any, ...]:
         blocks = args[: len(self.state)]
@@ -260,11 +270,10 @@ def HamiltonianScene(
             hint='take group.point("q") and group.dual("mu")',
         )
     hamiltonian = reader.scalar(H, "H")
-    for key, part in (parts or {}).items():
-        reader.scalar(part, f"part {key}")
+    summands = {key: reader.scalar(part, f"part {key}") for key, part in (parts or {}).items()}
     qs, mus = tuple(s.name for s in q), tuple(s.name for s in mu)
     derivatives = gradient(hamiltonian, qs + mus)
-    roots = tuple(derivatives[len(qs) :]) + _force(reader.space, group, qs, derivatives[: len(qs)])
+    roots = tuple(derivatives[len(qs) :]) + force(reader.space, group, qs, derivatives[: len(qs)])
     state = (
         StateField("q", Kind.GROUP, qs, reader.column(q0, len(qs), "q0", constant=True)),
         StateField("mu", Kind.DUAL, mus, reader.column(mu0, len(mus), "mu0", constant=True)),
@@ -281,6 +290,7 @@ def HamiltonianScene(
         *(name, title or name, group, LeftMultiplication(), state, roots, hamiltonian, known),
         *(_span(name, span), reader.parameters()),
         paired=True,
+        parts=summands,
     )
     _check(setting, stated)
     return setting
@@ -288,18 +298,23 @@ def HamiltonianScene(
 
 def _check(setting: Setting, stated: Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]) -> None:
     """Raise :class:`SceneError` where the scene does not hold what it says (:mod:`codegen.consistency`)."""
-    view = setting.as_field()
-    start = tuple(e for block in view.state for e in block.initial)
-    orbit = Orbit(
-        *(view.name, view.group, view.action, view.symbols, start, view.roots, view.span, view.parameters)
-    )
+    orbit = orbit_of(setting)
     check_start(orbit)
     for what, (formulas, derived) in stated.items():
         check_equal(orbit, formulas, what, derived)
     check_invariants(orbit, setting.invariants)
 
 
-def _force(space: Space, group: Any, qs: tuple[str, ...], slope: list[Expr]) -> tuple[Expr, ...]:
+def orbit_of(setting: Setting) -> Orbit:
+    """Return the points of the scene at which formulas are compared."""
+    view = setting.as_field()
+    start = tuple(e for block in view.state for e in block.initial)
+    return Orbit(
+        *(view.name, view.group, view.action, view.symbols, start, view.roots, view.span, view.parameters)
+    )
+
+
+def force(space: Space, group: Any, qs: tuple[str, ...], slope: list[Expr]) -> tuple[Expr, ...]:
     """Return n_a = -<dH, e_a.q> from the partial derivatives of H by the coordinates of q."""
     domain = ExprDomain(space)
     q = tuple(space.sym(s) for s in qs)

@@ -178,6 +178,25 @@ def hamiltonian_scene(name: str, seed: int = 0, time: bool = False) -> Any:
     return HamiltonianScene(group=group, q=q, mu=mu, H=H, q0=start, mu0=mu0, span=(0, 1), name=f"T*{name}")
 
 
+def top_scene(B: Any, w: Any = (0, 0, 0), body: bool = True) -> Any:
+    """Return a top P.BP/2 + w.P + V on T*SO(3) in its two parts, P the momentum in the body or in space."""
+    group = SO3()
+    g, mu = group.point("g"), group.dual("mu")
+    P = g.T * mu if body else mu
+    T, V = P.dot(Matrix(B) * P) / 2 + Matrix(w).dot(P), g[2, 1] + g[0, 0] * g[1, 2]
+    return HamiltonianScene(
+        group=group,
+        q=g,
+        mu=mu,
+        H=T + V,
+        parts={"T": T, "V": V},
+        q0=quarter_turn(),
+        mu0=[1, Rational(1, 2), Rational(-2, 3)],
+        span=(0, 1),
+        name="top",
+    )
+
+
 def butcher(name: str, A: Any, b: Any) -> Tableau:
     """Return a tableau with rational coefficients given by spellings."""
     rows = [*A, b]

@@ -123,6 +123,14 @@ class LieGroup:
                 total = tuple(a + b for a, b in pairs)
         return total
 
+    def left(self, d: Domain, x: Scalars, g: Scalars) -> Scalars:
+        """Return exp(x) g."""
+        return self.mul(d, self.exp(d, x), g)
+
+    def right(self, d: Domain, g: Scalars, axis: Scalars, angle: Any) -> Scalars:
+        """Return g exp(angle axis)."""
+        return self.mul(d, g, self.exp(d, tuple(angle * e for e in axis)))
+
     def symbols(self, name: str) -> list[Any]:
         """Return sympy symbols of a group element's coordinates: ``name``, row and column digits."""
         from sympy import Symbol

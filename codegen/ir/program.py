@@ -83,11 +83,16 @@ SIGNATURES: dict[str, tuple[tuple[Kind, ...], tuple[Kind, ...]]] = {
     "fieldt": ((P, R), (A,)),  # f(y, t)
     "hamilton": ((G, D), (A, D)),  # xi = D_2 H, n = -(D_1 H).q^-1
     "hamiltont": ((G, D, R), (A, D)),
+    "flow": ((G, D), (G, D)),  # the exact flow of a part, for a time coefficient
+    "flowt": ((G, D, R), (G, D)),  # the same of a part that depends on t, which stands still
 }
 """Argument and result kinds of every operation but ``lin`` and ``zero``, which are of any linear kind."""
 
 CUT_OFF = frozenset({"dexpinv", "dexpinvt", "P"})
 """Operations with an ``order``, the number of brackets after which dexp^{-1} is cut off."""
+
+FLOWS = frozenset({"flow", "flowt"})
+"""Operations with a ``part``, and one coefficient: how long it flows."""
 
 LINEAR_LAST = frozenset({"Ad", "Adt", "Adtinv", "ad", "adt", "dexpinv", "dexpinvt", "P", "dexpt"})
 """Operations that are linear in their last argument."""
@@ -97,15 +102,19 @@ LINEAR_LAST = frozenset({"Ad", "Adt", "Adtinv", "ad", "adt", "dexpinv", "dexpinv
 class Operation:
     """What is done: a name of :data:`SIGNATURES`, ``lin`` (with coefficients) or ``zero``.
 
-    ``coefficients`` belongs to ``lin`` (one an argument) and ``advance`` (one), ``order`` to :data:`CUT_OFF`.
+    ``coefficients`` belongs to ``lin`` (one an argument), ``advance`` and :data:`FLOWS` (one), ``order`` to
+    :data:`CUT_OFF`, ``part`` to :data:`FLOWS`: which exact flow of the scene.
     """
 
     name: str
     coefficients: tuple[Coefficient, ...] = ()
     order: int | None = None
+    part: str = ""
 
     def text(self) -> str:
         """Spell it with its parameters."""
+        if self.part:
+            return f"{self.name}[{self.part}]"
         return self.name if self.order is None else f"{self.name}({self.order})"
 
 
@@ -230,6 +239,14 @@ class Builder:
         targets = (self.fresh(xi, Kind.ALG), self.fresh(n, Kind.DUAL))
         name = "hamilton" if len(args) == 2 else "hamiltont"
         self.body.append(Assign(targets, Operation(name), args))
+        return targets
+
+    def flow(self, part: str, q: Var, mu: Var, duration: Coefficient, *time: Var) -> tuple[Var, Var]:
+        """Append (q, mu) = the exact flow of a part for a time ``duration``."""
+        number = 1 + len(self.body)
+        targets = (self.fresh(f"q{number}", Kind.GROUP), self.fresh(f"mu{number}", Kind.DUAL))
+        operation = Operation("flowt" if time else "flow", (duration,), part=part)
+        self.body.append(Assign(targets, operation, (q, mu, *time)))
         return targets
 
     def take(self) -> tuple[Assign, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from codegen.ir.program import CUT_OFF, SIGNATURES, Assign, Kind, Program, Solve, Var
+from codegen.ir.program import CUT_OFF, FLOWS, SIGNATURES, Assign, Kind, Program, Solve, Var
 
 LINEAR = (Kind.ALG, Kind.DUAL)
 
@@ -73,7 +73,8 @@ def _types(name: str, assign: Assign) -> None:
         good = good and results[0] in LINEAR and all(k == results[0] for k in args)
     elif operation.name in SIGNATURES:
         good = (args, results) == SIGNATURES[operation.name]
-        good = good and len(operation.coefficients) == (operation.name == "advance")
+        good = good and len(operation.coefficients) == (operation.name in {"advance", *FLOWS})
+        good = good and bool(operation.part) == (operation.name in FLOWS)
         good = good and (operation.order is not None) == (operation.name in CUT_OFF)
     else:
         good = False

@@ -7,6 +7,7 @@ from typing import Any
 
 from codegen.errors import MethodError
 from codegen.ir.program import Program
+from codegen.lower.splitting import setting as with_flows
 from codegen.method import Method
 from codegen.scene import Setting
 
@@ -19,6 +20,8 @@ LOWERINGS = {
     "vrkmk": "vrkmk",
     "vcf": "vcf",
     "vrkmk_pade": "vrkmk_pade",
+    "splitting": "splitting",
+    "composition": "splitting",
 }
 """Family name to module."""
 
@@ -26,24 +29,31 @@ ON_COTANGENT = frozenset({"vcg", "vrkmk", "vcf", "vrkmk_pade"})
 """Families that need a Hamiltonian scene; all others see it as a field on the group T*G."""
 
 
+OF_PARTS = frozenset({"splitting", "composition"})
+"""Families that compose exact flows of a Hamiltonian's parts."""
+
+
 def families_for(scene: Setting) -> tuple[str, ...]:
     """Return the families that can be lowered onto a scene, in the order of preference where none is named.
 
-    Variational families need a Hamiltonian and come first where there is one; ``rk`` needs R^n.
+    Variational families need a Hamiltonian and come first where there is one; ``rk`` needs R^n, splittings
+    need a Hamiltonian in parts.
     """
-    first = tuple(f for f in LOWERINGS if f in ON_COTANGENT and scene.is_hamiltonian)
-    abelian = scene.as_field().group.abelian
-    return first + tuple(f for f in LOWERINGS if f not in ON_COTANGENT and (f != "rk" or abelian))
+    able = dict.fromkeys(LOWERINGS, True)
+    able |= dict.fromkeys(sorted(ON_COTANGENT), scene.is_hamiltonian)
+    able |= dict.fromkeys(sorted(OF_PARTS), scene.is_hamiltonian and bool(scene.parts))
+    able["rk"] = scene.as_field().group.abelian
+    return tuple(sorted((f for f in LOWERINGS if able[f]), key=lambda f: f not in ON_COTANGENT))
 
 
 def setting(scene: Setting, method: Method) -> Setting:
     """Return the scene as the method's family sees it; :class:`MethodError` where it cannot serve."""
     family = method.family
-    if family in ON_COTANGENT:
+    if family in ON_COTANGENT | OF_PARTS:
         if not scene.is_hamiltonian:
-            hint = f"use one of {', '.join(sorted(set(LOWERINGS) - ON_COTANGENT))}"
+            hint = f"use one of {', '.join(sorted(set(LOWERINGS) - ON_COTANGENT - OF_PARTS))}"
             raise MethodError(f"{family} on {scene.name}", expected="a Hamiltonian scene", hint=hint)
-        return scene
+        return with_flows(scene, method) if family in OF_PARTS else scene
     view = scene.as_field()
     if family == "rk" and not view.group.abelian:
         group = view.group.name

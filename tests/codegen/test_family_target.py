@@ -19,6 +19,7 @@ from typing import Any
 
 import mpmath
 import pytest
+from sympy import diag
 
 from codegen.build import Compiler
 from codegen.certify import certified_order
@@ -36,7 +37,7 @@ from codegen.printers import TARGETS
 from codegen.scene import Setting
 from codegen.scenes import load as gallery
 from tests.promises import clean_c, clean_python, ulps
-from tests.strategies import field_scene, hamiltonian_scene
+from tests.strategies import field_scene, hamiltonian_scene, top_scene
 
 EXPLICIT_ULPS = 8
 """How far emitted code may be from the interpreter: only Stumpff functions are rounded otherwise there."""
@@ -68,6 +69,11 @@ def place(name: str) -> Callable[[], Setting]:
 
 def cotangent(name: str = "SO(3)") -> Callable[[], Setting]:
     return lambda: replace(hamiltonian_scene(name), span=SHORT)
+
+
+def top(name: str) -> Callable[[], Setting]:
+    inertia = {"symmetric": (2, 3, 2), "asymmetric": (1, 2, 4)}[name]
+    return lambda: replace(top_scene(diag(*inertia)), span=SHORT)
 
 
 CASES = {
@@ -103,6 +109,14 @@ CASES = {
     "vrkmk_pade": (
         Case("vrkmk_pade(1):kutta3", 3, cotangent(), "dipole"),
         Case("vrkmk_pade(2):gauss2", 4, cotangent(), "dipole"),
+    ),
+    "splitting": (
+        Case("splitting:forest_ruth4", 4, top("symmetric"), "fast_heavy_top"),
+        Case("splitting:ruth3", 3, top("asymmetric"), "dipole"),
+    ),
+    "composition": (
+        Case("composition:triple_jump", 4, top("asymmetric"), "linear_oscillator"),
+        Case("composition:mclachlan4", 4, top("symmetric"), "dipole"),
     ),
 }
 """Family to what it is tried with."""

@@ -11,7 +11,7 @@ import pytest
 from codegen.build import CompileError, Compiler, compile_files, find_compiler
 from codegen.emit import compile_method, emit_compiled
 from codegen.ir.kernel import Loop
-from codegen.lower import LOWERINGS
+from codegen.lower import LOWERINGS, OF_PARTS
 from codegen.printers.c.module import FLAGS
 
 EXPLICIT = {
@@ -19,6 +19,8 @@ EXPLICIT = {
     "rkmk": ("free_rigid_body", "rkmk:rk4"),
     "cg": ("free_rigid_body", "cg:cg3"),
     "cf": ("driven_spin", "cf:cf4"),
+    "splitting": ("fast_heavy_top", "splitting:blanes_moan_rkn4"),
+    "composition": ("linear_oscillator", "composition:triple_jump"),
 }
 IMPLICIT = {
     "rk": ("linear_oscillator", "rk:gauss2"),
@@ -90,6 +92,8 @@ ON_VECTOR_SPACES = {
     "vrkmk": "vrkmk(2):gauss2",
     "vcf": "vcf:cf4",
     "vrkmk_pade": "vrkmk_pade(2):gauss2",
+    "splitting": "splitting:forest_ruth4",
+    "composition": "composition:suzuki4",
 }
 
 
@@ -98,7 +102,7 @@ def test_abelian_groups_have_no_brackets_and_no_trigonometry_of_rotations(family
     made = compiled("linear_oscillator", ON_VECTOR_SPACES[family])
     assert not BRACKETS & set(made.program.counts())
     assert "stumpff" not in "".join(texts("linear_oscillator", ON_VECTOR_SPACES[family]))
-    if family != "rk" and (family not in ("cg", "cf")):
+    if family not in ("rk", "cg", "cf", *OF_PARTS):
         assert BRACKETS & set(made.lowered.counts())
 
 
