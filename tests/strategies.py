@@ -14,7 +14,19 @@ from typing import Any
 
 from sympy import Matrix, Rational, Symbol
 
-from codegen.groups import GL, SO3, Cotangent, LeftMultiplication, MatrixGroup, Rn, Rotation
+from codegen.groups import (
+    GL,
+    S3,
+    SE2,
+    SL2,
+    SO3,
+    Cotangent,
+    LeftMultiplication,
+    MatrixGroup,
+    Product,
+    Rn,
+    Rotation,
+)
 from codegen.groups.matrix import _invert
 from codegen.ir.domain import FloatDomain, PreciseDomain, SeriesDomain
 from codegen.ir.interpret import interpret
@@ -37,7 +49,16 @@ def heisenberg() -> MatrixGroup:
 
 PLACES = ((0, 1), (1, 2), (0, 2))
 
-BASE_GROUPS = {"SO(3)": SO3(), "R^3": Rn(3), "GL(2)": GL(2), "Heisenberg": heisenberg()}
+BASE_GROUPS = {
+    "SO(3)": SO3(),
+    "R^3": Rn(3),
+    "GL(2)": GL(2),
+    "Heisenberg": heisenberg(),
+    "S^3": S3(),
+    "SE(2)": SE2(),
+    "SL(2)": SL2(),
+    "SO(3) x R^2": Product(SO3(), Rn(2)),
+}
 ALL_GROUPS = BASE_GROUPS | {f"T*{name}": Cotangent(group) for name, group in BASE_GROUPS.items()}
 
 
@@ -120,6 +141,14 @@ def inverse(group: Any, d: Any, g: tuple[Any, ...]) -> tuple[Any, ...]:
         return a + tuple(-m for m in moved)
     if isinstance(group, Rn):
         return tuple(-x for x in g)
+    if isinstance(group, Product):
+        pairs = zip(group.factors, group.parts(g), strict=True)
+        return tuple(x for factor, own in pairs for x in inverse(factor, d, own))
+    if isinstance(group, S3):
+        return (g[0], *(-x for x in g[1:]))
+    if isinstance(group, SE2):
+        c, s, a, b = g
+        return (c, -s, -(c * a + s * b), s * a - c * b)
     return _invert(d, g, round(group.size**0.5))
 
 

@@ -13,25 +13,49 @@ from typing import TYPE_CHECKING, Any
 from orderconds.errors import UnknownName
 
 if TYPE_CHECKING:
-    from codegen.groups.actions import LeftMultiplication, Rotation
+    from codegen.groups.actions import LeftMultiplication, Linear, Motion, Rotation
     from codegen.groups.cotangent import Cotangent
     from codegen.groups.euclidean import Rn
     from codegen.groups.matrix import GL, MatrixGroup
+    from codegen.groups.plane import SE2
+    from codegen.groups.product import Product
+    from codegen.groups.quaternions import S3
+    from codegen.groups.sl2 import SL2
     from codegen.groups.so3 import SO3
 
-__all__ = ["GL", "SO3", "Cotangent", "LeftMultiplication", "MatrixGroup", "Rn", "Rotation"]
+__all__ = [
+    "GL",
+    "S3",
+    "SE2",
+    "SL2",
+    "SO3",
+    "Cotangent",
+    "LeftMultiplication",
+    "Linear",
+    "MatrixGroup",
+    "Motion",
+    "Product",
+    "Rn",
+    "Rotation",
+]
 
 MODULES = {
     "SO3": "so3",
     "Rn": "euclidean",
     "GL": "matrix",
     "MatrixGroup": "matrix",
+    "S3": "quaternions",
+    "SE2": "plane",
+    "SL2": "sl2",
+    "Product": "product",
     "Cotangent": "cotangent",
+    "Linear": "actions",
     "Rotation": "actions",
+    "Motion": "actions",
     "LeftMultiplication": "actions",
 }
 
-LISTED = ("Cotangent", "GL", "MatrixGroup", "Rn", "SO3")
+LISTED = ("Cotangent", "GL", "MatrixGroup", "Product", "Rn", "S3", "SE2", "SL2", "SO3")
 
 
 def __getattr__(name: str) -> Any:

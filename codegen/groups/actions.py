@@ -26,10 +26,10 @@ class LeftMultiplication:
         return tuple(group.velocity(d, x, y))
 
 
-class Rotation:
-    """Matrices acting on column vectors: g.y = g y; SO(3) on spheres about the origin of R^3."""
+class Linear:
+    """Matrices acting on column vectors: g.y = g y."""
 
-    name = "rotation"
+    name = "linear maps"
 
     def act(self, d: Domain, group: Any, g: Scalars, y: Scalars) -> Scalars:
         """Return g y."""
@@ -44,3 +44,27 @@ class Rotation:
     def velocity(self, d: Domain, group: Any, x: Scalars, y: Scalars) -> Scalars:
         """Return hat(x) y."""
         return matvec(group.hat(d, x), y)
+
+
+class Rotation(Linear):
+    """Rotations acting on column vectors: SO(3) on spheres about the origin of R^3."""
+
+    name = "rotation"
+
+
+class Motion:
+    """Rigid motions of a space on its points, g.z = R z + a; SE(2) on the plane."""
+
+    name = "rigid motion"
+
+    def act(self, d: Domain, group: Any, g: Scalars, y: Scalars) -> Scalars:
+        """Return R y + a."""
+        return tuple(group.move(d, g, y))
+
+    def actexp(self, d: Domain, group: Any, x: Scalars, y: Scalars) -> Scalars:
+        """Return exp(x).y."""
+        return tuple(group.move(d, group.exp(d, x), y))
+
+    def velocity(self, d: Domain, group: Any, x: Scalars, y: Scalars) -> Scalars:
+        """Return the velocity of the point y under x."""
+        return tuple(group.field(d, x, y))

@@ -41,13 +41,16 @@ class Domain(Protocol):
 
 
 def stumpff(k: int, z: float) -> float:
-    """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0..3 and z >= 0.
+    """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0..3 and z >= 0, for k = 0, 1 also z < 0.
 
     The error is a few units in the last place of the oscillation's amplitude there.
 
     >>> stumpff(1, 0.0), stumpff(2, 0.0)
     (1.0, 0.5)
     """
+    if z < 0:
+        root = math.sqrt(-z)
+        return math.cosh(root) if k == 0 else math.sinh(root) / root
     if k == 0:
         return math.cos(math.sqrt(z))
     if z < (0.5 if k < 3 else 4.0):
@@ -81,8 +84,10 @@ class FloatDomain:
 
     def call(self, function: str, *args: float) -> float:
         """Call the function of the math library, or :func:`stumpff`."""
-        if function.startswith("stumpff"):
-            return stumpff(int(function[7:]), args[0])
+        if "stumpff" in function:
+            return stumpff(int(function[-1]), args[0])
+        if function == "quotient":
+            return args[0] / args[1] if args[1] else 0.0
         result: float = getattr(math, function)(*args)
         return result
 
@@ -124,9 +129,11 @@ class PreciseDomain:
 
     def call(self, function: str, *args: Any) -> Any:
         """Call mpmath; Stumpff functions by their series near zero."""
-        if not function.startswith("stumpff"):
+        if function == "quotient":
+            return args[0] / args[1] if args[1] else args[0] * 0
+        if "stumpff" not in function:
             return getattr(self.context, function)(*args)
-        k, z = int(function[7:]), args[0]
+        k, z = int(function[-1]), args[0]
         if z > 1:
             root = self.context.sqrt(z)
             sine = self.context.sin(root)
@@ -167,18 +174,33 @@ class SeriesDomain:
         return self.ring.rational(p, q)
 
     def call(self, function: str, *args: Any) -> Any:
-        """Evaluate an entire function at a series without constant term, exactly; others are refused."""
+        """Evaluate an entire function at a series without constant term, exactly; others are refused.
+
+        A quotient's last coefficients, as many as the valuation of the divisor, are unknown and set to zero.
+        """
         z = args[0]
+        if function == "quotient":
+            return self._quotient(z, args[1])
         starts = {"sin": (1, 2, z), "cos": (0, 2, self.ring.one), "exp": (0, 1, self.ring.one)}
         if self.base.is_zero(z.coefficients[0]) is not True:
             raise ArithmeticError(f"{function} of a series with a constant term is not exact")
-        if function.startswith("stumpff"):
-            k = int(function[7:])
+        if "stumpff" in function:
+            k = int(function[-1])
             return self._sum(k, 2, self.ring.rational(1, math.factorial(k)), z)
         if function not in starts:
             raise ArithmeticError(f"{function} has no exact series")
         k, step, first = starts[function]
         return self._sum(k, step, first, z * z if step == 2 else -z)
+
+    def _quotient(self, a: Any, b: Any) -> Any:
+        """Return a/b where the valuation of a is at least that of b; 0 where b vanishes."""
+        power = self.ring.valuation(b)
+        if power > self.order:
+            return self.ring.zero
+        if self.ring.valuation(a) < power:
+            raise ArithmeticError("a quotient with a pole at h = 0")
+        shifted = (self.ring.from_coefficients(x.coefficients[power:]) for x in (a, b))
+        return next(shifted) / next(shifted)
 
     def _sum(self, k: int, step: int, first: Any, z: Any) -> Any:
         """Return the sum of first (-z)^j k!/(step j + k)!."""

@@ -27,6 +27,11 @@ FUNCTIONS = (
     "stumpff1",
     "stumpff2",
     "stumpff3",
+    # c_0 and c_1 for z of either sign: cosh and sinh where z < 0
+    "signed_stumpff0",
+    "signed_stumpff1",
+    # a/b, and 0 where b = 0: a removable singularity whose limit is 0
+    "quotient",
 )
 
 

@@ -12,7 +12,7 @@ import networkx as nx
 from codegen.snippets import stumpff
 from codegen.templates import environment
 
-LIBRARY = ("cos", "exp", "fabs", "isfinite", "log", "sin", "sqrt")
+LIBRARY = ("cos", "cosh", "exp", "fabs", "isfinite", "log", "sin", "sinh", "sqrt")
 """Functions that both targets have in their mathematical library."""
 
 
@@ -28,7 +28,10 @@ class Snippet:
 
 def snippets() -> tuple[Snippet, ...]:
     """Return every snippet; the same names serve each target."""
-    found = [Snippet("greater", "greater")]
+    found = [Snippet("greater", "greater"), Snippet("quotient", "quotient")]
+    for k, hyperbolic in enumerate(("cosh", "sinh")):
+        name, calls = f"signed_stumpff{k}", (f"stumpff_{k}", "sqrt", hyperbolic)
+        found.append(Snippet(name, "signed_stumpff", calls, {"k": k}))
     switch = [repr(float(z)) for z in stumpff.SWITCH]
     for k in range(4):
         first, *rest = stumpff.constants(k)

@@ -27,7 +27,7 @@ _WORDS = """
     FP_ZERO MATH_ERREXCEPT MATH_ERRNO math_errhandling
     M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_PI M_PI_2 M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2
     main NULL INFINITY NAN size_t memcpy fmax
-    sqrt sin cos exp log fabs isfinite greater
+    sqrt sin cos exp log sinh cosh fabs isfinite greater quotient signed_stumpff0 signed_stumpff1
     state statistics steps step stride trajectory completed status advance row sweep change scale still close
     count_sweeps
 """

@@ -16,7 +16,7 @@ WIDTH = 88
 
 _WORDS = """
     abs all max range float len list map sum tuple zip ArithmeticError ValueError
-    sqrt sin cos exp log inf isfinite still close
+    sqrt sin cos exp log sinh cosh inf isfinite still close quotient signed_stumpff0 signed_stumpff1
     state statistics steps step stride trajectory run row rows sweep change scale total
     settled error failure labels count made new
     OK NOT_CONVERGED NOT_FINITE BAD_STEP StepFailed Statistics

@@ -4,21 +4,23 @@ from __future__ import annotations
 
 import pytest
 
-from codegen.groups import LeftMultiplication, Rotation, get, listing
+from codegen.groups import LeftMultiplication, Motion, Rotation, get, listing
 from orderconds.errors import UnknownName
 from tests.strategies import ALL_GROUPS, BASE_GROUPS, SAMPLES, sampler
 
-CASES = [("left multiplication", name) for name in ALL_GROUPS] + [
-    ("rotation", name) for name in ("SO(3)", "GL(2)", "Heisenberg")
-]
+CASES = (
+    [("left multiplication", name) for name in ALL_GROUPS]
+    + [("rotation", name) for name in ("SO(3)", "GL(2)", "SL(2)", "Heisenberg")]
+    + [("rigid motion", "SE(2)")]
+)
 
 
 def drawn(action, name, sample):
     s = sampler(BASE_GROUPS.get(name) or ALL_GROUPS[name], sample)
-    if action == "rotation":
+    if action != "left multiplication":
         return (
             s,
-            Rotation(),
+            Rotation() if action == "rotation" else Motion(),
             tuple(s.domain.rational(k + 1, 2) + s.scalar() for k in range(round(s.group.size**0.5))),
         )
     return s, LeftMultiplication(), s.element()

@@ -1,0 +1,36 @@
+"""Duffing's equation on the plane, in the first of three frames: translations.
+
+Thesis section 2.2: x' = y, y' = -a x - b x^3 with a = b = 1. The frame decides what a Lie group method
+freezes in a step: here the whole field, so that every family is its classical method; ``duffing_sl2`` freezes
+the spring's stiffness, ``duffing_se2`` its cubic part. Errors of Lie-Euler with 50 steps to t = 2 are 9.2e-2,
+1.1e-2 and 1.6e-2.
+"""
+
+from typing import Any
+
+from sympy import Matrix, Rational
+
+from codegen.groups import LeftMultiplication, Rn
+from codegen.scene import FieldScene, Setting
+
+z = Rn(2).point("z")
+x, y = z
+field = Matrix([y, -x - x**3])
+
+
+def duffing(frame: str, group: Any, action: Any, f: Any) -> Setting:
+    """Return the scene with f(z) in the algebra of a group that acts on the plane."""
+    return FieldScene(
+        title=f"Duffing's equation, {frame} (thesis section 2.2)",
+        group=group,
+        action=action,
+        y=z,
+        f=f,
+        y0=[Rational(3, 4), Rational(3, 4)],
+        span=(0, 2),
+        velocity=field,
+        invariants={"energy": y**2 / 2 + x**2 / 2 + x**4 / 4},
+    )
+
+
+scene = duffing("translations of the plane", Rn(2), LeftMultiplication(), field)
