@@ -30,8 +30,8 @@ def snippets() -> tuple[Snippet, ...]:
     """Return every snippet; the same names serve each target."""
     found = [Snippet("greater", "greater"), Snippet("quotient", "quotient")]
     for k, hyperbolic in enumerate(("cosh", "sinh")):
-        name, calls = f"signed_stumpff{k}", (f"stumpff_{k}", "sqrt", hyperbolic)
-        found.append(Snippet(name, "signed_stumpff", calls, {"k": k}))
+        needs = (f"stumpff_{k}", "sqrt", hyperbolic)
+        found.append(Snippet(f"signed_stumpff{k}", "signed_stumpff", needs, {"k": k}))
     switch = [repr(float(z)) for z in stumpff.SWITCH]
     for k in range(4):
         first, *rest = stumpff.constants(k)
