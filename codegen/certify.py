@@ -43,8 +43,14 @@ class CertifiedOrder:
         return f"{least}{self.order}, certificate: {self.certificate}{explained}{where}"
 
 
-CLASSICAL = {"rkmk": "rk", "cg": "rk", "cf": "rk", "vcg": "sprk", "vrkmk": "sprk", "vrkmk_pade": "sprk"}
+CLASSICAL = {
+    **dict.fromkeys(("rkmk", "cg", "cf"), "rk"),
+    **dict.fromkeys(("vcg", "vrkmk", "vrkmk_pade", "slgi"), "sprk"),
+}
 """What a family is where brackets vanish and exponentials are sums."""
+
+SAME_CONDITIONS = {"slgi": "vrkmk(0)"}
+"""Families that are others, differently written: whose order conditions are theirs."""
 
 
 def family_of(method: Method) -> Family:
@@ -62,7 +68,7 @@ def family_of(method: Method) -> Family:
         from orderconds.families.vrkmk_pade import VariationalMuntheKaasPade
 
         return VariationalMuntheKaasPade(method.cutoff or 0)
-    return families.get(method.family_label)
+    return families.get(SAME_CONDITIONS.get(method.family, method.family_label))
 
 
 def certified_order(method: Method, scene: Setting | None = None) -> CertifiedOrder:
@@ -88,7 +94,8 @@ def certified_order(method: Method, scene: Setting | None = None) -> CertifiedOr
     if method.family == "vrkmk_pade" or (method.family == "rkmk" and method.cutoff is None):
         found = replace(family_order(method.tableau, family), failing=())
     else:
-        (found,) = check(method.tableau, family=method.family_label).orders
+        name = SAME_CONDITIONS.get(method.family, method.family_label)
+        (found,) = check(method.tableau, family=name).orders
     if not found.decided:
         raise MethodError(
             f"the order of {method.label} is undecided beyond {found.order}",

@@ -202,6 +202,10 @@ def hamiltonian_scene(name: str, seed: int = 0, time: bool = False) -> Any:
         "R^3": lambda: rationals(rng, 3),
         "GL(2)": lambda: [1, Rational(1, 2), Rational(-1, 3), 1],
         "Heisenberg": lambda: [1, Rational(1, 2), 2, 0, 1, Rational(-1, 3), 0, 0, 1],
+        "S^3": lambda: [Rational(k, 9) for k in (2, 4, -5, 6)],
+        "SE(2)": lambda: [Rational(3, 5), Rational(-4, 5), *rationals(rng, 2)],
+        "SL(2)": lambda: [2, Rational(1, 2), 2, 1],
+        "SO(3) x R^2": lambda: [*quarter_turn(), *rationals(rng, 2)],
     }[name]()
     mu0 = rationals(rng, group.dim)
     return HamiltonianScene(group=group, q=q, mu=mu, H=H, q0=start, mu0=mu0, span=(0, 1), name=f"T*{name}")

@@ -20,12 +20,13 @@ LOWERINGS = {
     "vrkmk": "vrkmk",
     "vcf": "vcf",
     "vrkmk_pade": "vrkmk_pade",
+    "slgi": "slgi",
     "splitting": "splitting",
     "composition": "splitting",
 }
 """Family name to module."""
 
-ON_COTANGENT = frozenset({"vcg", "vrkmk", "vcf", "vrkmk_pade"})
+ON_COTANGENT = frozenset({"vcg", "vrkmk", "vcf", "vrkmk_pade", "slgi"})
 """Families that need a Hamiltonian scene; all others see it as a field on the group T*G."""
 
 

@@ -110,6 +110,11 @@ CASES = {
         Case("vrkmk_pade(1):kutta3", 3, cotangent(), "dipole"),
         Case("vrkmk_pade(2):gauss2", 4, cotangent(), "dipole"),
     ),
+    "slgi": (
+        Case("slgi:euler", 1, cotangent(), "dipole"),
+        Case("slgi:midpoint", 2, cotangent(), "dipole"),
+        Case("slgi:gauss2", 2, cotangent(), "dipole"),
+    ),
     "splitting": (
         Case("splitting:forest_ruth4", 4, top("symmetric"), "fast_heavy_top"),
         Case("splitting:ruth3", 3, top("asymmetric"), "dipole"),

@@ -27,6 +27,10 @@ VARIATIONAL = [
     "vrkmk(2):gauss2",
     "vrkmk(4):gauss3",
     "vrkmk_pade(2):gauss2",
+    "slgi:euler",
+    "slgi:midpoint",
+    "slgi:radau2a1",
+    "slgi:gauss2",
 ]
 
 NOT_SYMPLECTIC: set[str] = set()
@@ -117,7 +121,7 @@ def test_the_momentum_of_the_rotations_about_the_vertical_is_kept(method):
     assert abs(mu[0] - MU[0]) > 1e-2
 
 
-@pytest.mark.parametrize("method", ["vcg:midpoint", "vcg:triple_jump", "vrkmk(0):midpoint"])
+@pytest.mark.parametrize("method", ["vcg:midpoint", "vcg:triple_jump", "vrkmk(0):midpoint", "slgi:midpoint"])
 def test_compositions_of_midpoints_are_reversible(method):
     step = stepper(method)
     q, mu = step(*step(Q, MU), h=-H)
