@@ -27,15 +27,19 @@ from codegen.printers import target as printer_of
 from codegen.printers.arrange import arrange
 from codegen.printers.interface import Interface
 from codegen.printers.operations import operations
+from codegen.printers.precision import DOUBLE
+from codegen.printers.precision import precision as known_precision
 from codegen.printers.recipe import Recipe
 from codegen.scene import TIME, Setting
 from orderconds import __version__
 from orderconds.errors import InputError
 
+SINGLE_IS = "single: constants are rounded once, implicit stages settle at its rounding"
+
 STEPS = 100
 """How many steps the usage example makes over the scene's span."""
 
-HEADERS = frozenset({"math", "stddef", "stdio", "string"})
+HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
 """What emitted files and their examples include or import; no emitted file may take such a name."""
 
 
@@ -81,17 +85,21 @@ def emit(
     *,
     prefix: str = "",
     parameters: Sequence[str] = (),
+    precision: str = DOUBLE.name,
 ) -> Emission:
     """Return the integrator of a method on a scene as a module of a target.
 
     ``scene`` is a name of the gallery, the path of a Python file, or a setting; ``method`` is spelled
-    ``FAMILY:TABLEAU`` or ``TABLEAU``; ``prefix`` starts every external name, by default scene and method.
+    ``FAMILY:TABLEAU`` or ``TABLEAU``; ``prefix`` starts every external name, by default scene and method;
+    ``precision`` is ``double`` or ``single``.
     Errors as :func:`compile_method`, UnknownName for a target, InputError for a prefix that C cannot take.
     """
     printer_of(target)
+    known_precision(precision)
     named = {"scene": bare(scene) if isinstance(scene, str) else scene.name}
     named["method"] = bare(method) if isinstance(method, str) else method.label
-    return emit_compiled(compile_method(scene, method, parameters), target, prefix, named)
+    made = compile_method(scene, method, parameters)
+    return emit_compiled(made, target, prefix, named, precision=precision)
 
 
 def emit_compiled(
@@ -100,6 +108,8 @@ def emit_compiled(
     prefix: str = "",
     named: Mapping[str, str] | None = None,
     order: CertifiedOrder | None = None,
+    *,
+    precision: str = DOUBLE.name,
 ) -> Emission:
     """Return a compiled method as a module of a target.
 
@@ -108,9 +118,11 @@ def emit_compiled(
     """
     scene, method = compiled.scene, compiled.method
     named = named or {"scene": scene.name, "method": method.label}
-    chosen = prefix_of(prefix) if prefix else default_prefix(scene, method)
+    single = known_precision(precision) is not DOUBLE
+    chosen = prefix_of(prefix) if prefix else default_prefix(scene, method) + "single_" * single
     order = order or certified_order(method, scene)
     options = [f"--prefix {chosen}"] if prefix else []
+    options += [f"--precision {precision}"] if single else []
     options += [f"--parameter {p}" for p in scene.runtime]
     options += [f"--parameter {p}={value}" for p, value in scene.fixed if p not in scene.runtime]
     words = ["orderconds emit", named["scene"], "--method", quoted(named["method"]), "--target", target]
@@ -124,6 +136,7 @@ def emit_compiled(
             ("order", order.text()),
             ("scene", f"{scene.title}, group {scene.group.name}"),
             *((("flows", flows_of(compiled.view)),) if compiled.view.flows else ()),
+            *((("precision", SINGLE_IS),) if single else ()),
         ),
         initial=tuple(float(x) for x in scene.initial(FloatDomain(0.0))),
         h=float((last - first) / STEPS),
@@ -145,17 +158,22 @@ def emit_compiled(
         "span": [float(first), float(last)],
         "left_out": list(recipe.left_out),
     }
-    return emit_kernel(compiled.kernel, recipe, target, chosen, about)
+    return emit_kernel(compiled.kernel, recipe, target, chosen, about, precision)
 
 
 def emit_kernel(
-    kernel: Kernel, recipe: Recipe, target: str, prefix: str, about: Mapping[str, Any] | None = None
+    kernel: Kernel,
+    recipe: Recipe,
+    target: str,
+    prefix: str,
+    about: Mapping[str, Any] | None = None,
+    precision: str = DOUBLE.name,
 ) -> Emission:
     """Return a kernel as a module of a target; ``about`` adds to the manifest entry what only a caller knows.
 
     The prefix starts every external C name and names the files. UnknownName for a target that is not there.
     """
-    interface = Interface.of(kernel, prefix)
+    interface = Interface.of(kernel, prefix, precision)
     files = printer_of(target)(kernel, interface, recipe)
     manifest = {
         **(about or {}),

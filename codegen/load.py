@@ -159,9 +159,10 @@ class CompiledIntegrator(Integrator):
         like_state: State,
     ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
         size, blocks = self.interface.size, self.interface.blocks
-        state = self._ffi.new("double[]", numbers)
+        real = self.interface.format.c_type
+        state = self._ffi.new(f"{real}[]", numbers)
         row_count = steps // stride + 1 if stride else 0
-        rows = self._ffi.new("double[]", row_count * size) if stride else self._ffi.NULL
+        rows = self._ffi.new(f"{real}[]", row_count * size) if stride else self._ffi.NULL
         completed = self._ffi.new("size_t *")
         counts = self._ffi.new(f"{self.interface.prefix}statistics *") if blocks else None
         arguments = [state, *([t] if self.interface.time else []), h, steps, *values, rows, stride]

@@ -24,6 +24,7 @@ from orderconds.commands import screen
     multiple=True,
     help="A parameter to keep a run-time argument, or NAME=VALUE to fold.",
 )
+@click.option("--precision", default="double", help="double (the default) or single.")
 @click.option("--explain", is_flag=True, help="Print the program after each pass, and what was left out.")
 @click.option("--json", "as_json", is_flag=True, help="One record a module on stdout, nothing else.")
 def command(
@@ -33,6 +34,7 @@ def command(
     output: str | None,
     prefix: str,
     parameters: tuple[str, ...],
+    precision: str,
     explain: bool,
     as_json: bool,
 ) -> int:
@@ -42,18 +44,20 @@ def command(
     """
     from codegen.emit import bare, compile_method, emit_compiled
     from codegen.printers import target as known_target
+    from codegen.printers.precision import precision as known_precision
 
     if output is None and not (explain or as_json):
         raise click.UsageError("-o DIR is missing: where to write (or ask for --explain or --json)")
     for name in targets:
         known_target(name)
+    known_precision(precision)
     compiled = compile_method(scene, method, parameters)
     named = {"scene": bare(scene), "method": bare(method)}
     records: list[dict[str, Any]] = []
     if explain and not as_json:
         click.echo(explanation(compiled))
     for name in targets or ("c",):
-        emission = emit_compiled(compiled, name, prefix, named)
+        emission = emit_compiled(compiled, name, prefix, named, precision=precision)
         paths = [str(path) for path in emission.write(output)] if output is not None else []
         records.append({**emission.manifest, "paths": paths})
         if not as_json:

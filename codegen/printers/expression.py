@@ -6,12 +6,12 @@ may trade places, a sign moves through products. Sums and products are never reg
 
 from __future__ import annotations
 
-import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
-from orderconds.errors import InputError
+from codegen.printers.precision import DOUBLE
 
 SUM, PRODUCT, ATOM = 1, 2, 3
 
@@ -36,19 +36,25 @@ def number(value: Number) -> str:
     >>> number(Number.rational(1, 3)), number(Number.rational(2))
     ('0.3333333333333333', '2.0')
     """
-    try:
-        rounded = float(value)
-    except OverflowError:
-        rounded = math.inf
-    if not math.isfinite(rounded):
-        raise InputError(f"the constant {value.text()} does not fit a double", expected="at most 1.79e308")
-    return repr(rounded)
+    return DOUBLE.text(DOUBLE.round(value))
 
 
-def spell(root: Expr, names: dict[str, str]) -> tuple[str, ...]:
+@dataclass(frozen=True)
+class Style:
+    """What infix notation leaves open: how constants are spelled, and what functions are called."""
+
+    constant: Callable[[Number], str] = number
+    function: Callable[[str], str] = str
+
+
+DOUBLES = Style()
+"""Constants as doubles, functions by their own names."""
+
+
+def spell(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[str, ...]:
     """Return the text of an expression, cut where a line may be broken; ``" ".join`` gives one line.
 
-    ``names`` maps symbols to identifiers of the target; those missing stand for themselves, as do functions.
+    ``names`` maps symbols to identifiers of the target; those missing stand for themselves.
     Powers must have a symbol as base and exponent 2 or 3 (see :mod:`codegen.printers.arrange`).
     """
     made: dict[int, Spelling] = {}
@@ -56,7 +62,7 @@ def spell(root: Expr, names: dict[str, str]) -> tuple[str, ...]:
         args = [made[a.id] for a in node.args]
         match node.op:
             case "const":
-                text = number(node.payload)
+                text = style.constant(node.payload)
                 made[node.id] = Spelling((text.removeprefix("-"),), ATOM, text.startswith("-"))
             case "sym":
                 made[node.id] = Spelling((names.get(node.payload, node.payload),), ATOM)
@@ -80,7 +86,7 @@ def spell(root: Expr, names: dict[str, str]) -> tuple[str, ...]:
                 made[node.id] = Spelling((" * ".join([args[0].text] * node.payload),), PRODUCT)
             case _:
                 inner = ", ".join(" ".join(signed(a)) for a in args)
-                made[node.id] = Spelling((f"{node.payload}({inner})",), ATOM)
+                made[node.id] = Spelling((f"{style.function(node.payload)}({inner})",), ATOM)
     return signed(made[root.id])
 
 

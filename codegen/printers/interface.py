@@ -9,15 +9,17 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from codegen.ir.kernel import Kernel, Loop
+from codegen.printers.precision import DOUBLE, Precision, precision
 
 
 @dataclass(frozen=True)
 class Interface:
     """The calling convention of one module.
 
-    ``prefix`` starts every external C name and ends in an underscore; ``size`` is the number of doubles in a
-    state; ``time`` says whether the step reads t; ``parameters`` are the run-time parameters in order;
-    ``blocks`` are the labels of the implicit blocks, which statistics count.
+    ``prefix`` starts every external C name and ends in an underscore; ``size`` is how many numbers a state
+    has; ``time`` says whether the step reads t; ``parameters`` are the run-time parameters in order;
+    ``blocks`` are the labels of the implicit blocks, which statistics count; ``precision`` names the format
+    of all numbers (:mod:`codegen.printers.precision`).
     """
 
     prefix: str
@@ -25,9 +27,10 @@ class Interface:
     time: bool
     parameters: tuple[str, ...]
     blocks: tuple[str, ...]
+    precision: str = DOUBLE.name
 
     @classmethod
-    def of(cls, kernel: Kernel, prefix: str) -> Interface:
+    def of(cls, kernel: Kernel, prefix: str, precision: str = DOUBLE.name) -> Interface:
         """Return the interface of a kernel: t and parameters that it never reads are left out."""
         used = kernel.used_scalars()
         return cls(
@@ -36,7 +39,13 @@ class Interface:
             time="t" in used,
             parameters=tuple(name for name in used if name not in ("h", "t")),
             blocks=tuple(s.label for s in kernel.body if isinstance(s, Loop)),
+            precision=precision,
         )
+
+    @property
+    def format(self) -> Precision:
+        """The format of all numbers."""
+        return precision(self.precision)
 
     @property
     def module(self) -> str:

@@ -9,6 +9,7 @@ from typing import Any
 
 import networkx as nx
 
+from codegen.printers.precision import DOUBLE, Precision
 from codegen.snippets import stumpff
 from codegen.templates import environment
 
@@ -26,17 +27,21 @@ class Snippet:
     variables: dict[str, Any] = field(default_factory=dict, compare=False)
 
 
-def snippets() -> tuple[Snippet, ...]:
-    """Return every snippet; the same names serve each target."""
+def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
+    """Return every snippet; the same names serve each target.
+
+    The shorter polynomial near zero is for doubles: in single precision the longer one is as short.
+    """
     found = [Snippet("greater", "greater"), Snippet("quotient", "quotient")]
     for k, hyperbolic in enumerate(("cosh", "sinh")):
         needs = (f"stumpff_{k}", "sqrt", hyperbolic)
         found.append(Snippet(f"signed_stumpff{k}", "signed_stumpff", needs, {"k": k}))
-    switch = [repr(float(z)) for z in stumpff.SWITCH]
+    switch = [float(z) for z in stumpff.SWITCH]
     for k in range(4):
-        first, *rest = stumpff.constants(k)
-        values = {"k": k, "first": first, "even": rest[::2], "odd": rest[1::2]}
-        values |= {"small": repr(float(stumpff.SMALL)), "short": stumpff.constants(k, stumpff.SMALL)}
+        first, *rest = stumpff.constants(k, None, precision)
+        values: dict[str, Any] = {"k": k, "first": first, "even": rest[::2], "odd": rest[1::2], "short": ()}
+        if precision is DOUBLE:
+            values |= {"small": float(stumpff.SMALL), "short": stumpff.constants(k, stumpff.SMALL)}
         found.append(Snippet(f"stumpff_series_{k}", "stumpff_series", (), values))
     for orders in stumpff.SETS:
         name = "stumpff_" + "".join(map(str, orders))
@@ -51,11 +56,11 @@ def snippets() -> tuple[Snippet, ...]:
 
 
 @cache
-def graph() -> nx.DiGraph:
+def graph(precision: Precision = DOUBLE) -> nx.DiGraph:
     """Return the graph: an edge from each helper to what it calls."""
     made = nx.DiGraph()
     made.add_nodes_from(LIBRARY, snippet=None)
-    for snippet in snippets():
+    for snippet in snippets(precision):
         made.add_node(snippet.name, snippet=snippet)
         made.add_edges_from((snippet.name, called) for called in snippet.calls)
     return made
@@ -69,7 +74,7 @@ class Needed:
     texts: tuple[str, ...]
 
 
-def needed(target: str, functions: Iterable[str]) -> Needed:
+def needed(target: str, functions: Iterable[str], precision: Precision = DOUBLE) -> Needed:
     """Return what the functions called by a module need in a target, and nothing else.
 
     >>> needed("c", ["sin"])
@@ -78,13 +83,30 @@ def needed(target: str, functions: Iterable[str]) -> Needed:
     ('sin', 'sqrt')
     """
     wanted = sorted(set(functions))
-    nodes = {m for name in wanted for m in (name, *nx.descendants(graph(), name))}
-    order = reversed(list(nx.lexicographical_topological_sort(graph().subgraph(nodes))))
-    found = [graph().nodes[name]["snippet"] for name in order]
-    texts = tuple(_text(target, snippet) for snippet in found if snippet is not None)
+    whole = graph(precision)
+    nodes = {m for name in wanted for m in (name, *nx.descendants(whole, name))}
+    order = reversed(list(nx.lexicographical_topological_sort(whole.subgraph(nodes))))
+    found = [whole.nodes[name]["snippet"] for name in order]
+    texts = tuple(_text(target, snippet, precision) for snippet in found if snippet is not None)
     return Needed(tuple(name for name in LIBRARY if name in nodes), texts)
 
 
-def _text(target: str, snippet: Snippet) -> str:
+def _text(target: str, snippet: Snippet, precision: Precision) -> str:
     template = environment(target).get_template(f"snippets/{snippet.template}.j2")
-    return template.render(snippet.variables).strip()
+
+    def number(x: float) -> str:
+        text = precision.text(precision.round(x))
+        if target == "c":
+            return text + precision.suffix
+        return text if precision is DOUBLE else f"float32({text})"
+
+    # "f" follows the names of C's library functions.
+    spelled: dict[str, Any] = {"real": precision.c_type, "f": precision.suffix, "number": number}
+    for name, value in snippet.variables.items():
+        if isinstance(value, float):
+            spelled[name] = number(value)
+        elif isinstance(value, list | tuple) and value and isinstance(value[0], float):
+            spelled[name] = [number(x) for x in value]
+        else:
+            spelled[name] = value
+    return template.render(spelled).strip()

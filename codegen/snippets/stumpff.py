@@ -13,6 +13,8 @@ from fractions import Fraction
 from itertools import combinations
 from math import factorial
 
+from codegen.printers.precision import DOUBLE, Precision
+
 SWITCH = (1, 1, 1, 4)
 """The polynomial of c_k serves up to z = SWITCH[k]; c_1(4) = 0.4546."""
 
@@ -23,23 +25,25 @@ SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n)
 """Every non-empty set of orders that a kernel may ask of one argument."""
 
 
-def coefficients(k: int, last: Fraction | int | None = None) -> tuple[Fraction, ...]:
-    """Return the Taylor coefficients of c_k whose terms reach half a unit in the last place at ``last``.
+def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> tuple[Fraction, ...]:
+    """Return the Taylor coefficients of c_k whose terms reach an eighth of the last of ``bits`` at ``last``.
 
     ``last`` is the switch unless given.
 
     >>> coefficients(1)[:3], len(coefficients(1)), len(coefficients(1, SMALL))
     ((Fraction(1, 1), Fraction(-1, 6), Fraction(1, 120)), 9, 6)
+    >>> len(coefficients(1, bits=24))
+    6
     """
     z = Fraction(SWITCH[k] if last is None else last)
     terms: list[Fraction] = []
     while abs(term := Fraction((-1) ** (j := len(terms)), factorial(2 * j + k))) * z**j * factorial(k) > (
-        Fraction(1, 2**56)
+        Fraction(1, 2 ** (bits + 3))
     ):
         terms.append(term)
     return tuple(terms)
 
 
-def constants(k: int, last: Fraction | int | None = None) -> tuple[str, ...]:
-    """Return :func:`coefficients` as doubles, each rounded once."""
-    return tuple(repr(float(c)) for c in coefficients(k, last))
+def constants(k: int, last: Fraction | int | None = None, precision: Precision = DOUBLE) -> tuple[float, ...]:
+    """Return :func:`coefficients` as numbers of a format, each rounded once."""
+    return tuple(precision.round(c) for c in coefficients(k, last, precision.bits))

@@ -808,30 +808,6 @@ def _advance(state, h, statistics):
             - Q4_1 * w268
             - Q4_2 * w269
         )
-        f1_0 = f1_0
-        f1_1 = f1_1
-        f1_2 = f1_2
-        f2_0 = f2_0
-        f2_1 = f2_1
-        f2_2 = f2_2
-        f3_0 = f3_0
-        f3_1 = f3_1
-        f3_2 = f3_2
-        f4_0 = f4_0
-        f4_1 = f4_1
-        f4_2 = f4_2
-        r1_0 = r1_0
-        r1_1 = r1_1
-        r1_2 = r1_2
-        r2_0 = r2_0
-        r2_1 = r2_1
-        r2_2 = r2_2
-        r3_0 = r3_0
-        r3_1 = r3_1
-        r3_2 = r3_2
-        r4_0 = r4_0
-        r4_1 = r4_1
-        r4_2 = r4_2
         change_xi1_0 = abs(f1_0 - xi1_0)
         change_xi1_1 = abs(f1_1 - xi1_1)
         change_xi1_2 = abs(f1_2 - xi1_2)

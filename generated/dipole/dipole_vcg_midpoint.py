@@ -316,12 +316,6 @@ def _advance(state, h, statistics):
         r1_2 = (
             Q1_3 * w85 + Q1_4 * w88 + Q1_5 * w89 - Q1_0 * w64 - Q1_1 * w78 - Q1_2 * w79
         )
-        f1_0 = f1_0
-        f1_1 = f1_1
-        f1_2 = f1_2
-        r1_0 = r1_0
-        r1_1 = r1_1
-        r1_2 = r1_2
         change_xi1_0 = abs(f1_0 - xi1_0)
         change_xi1_1 = abs(f1_1 - xi1_1)
         change_xi1_2 = abs(f1_2 - xi1_2)

@@ -328,12 +328,6 @@ def _advance(state, h, statistics):
         r1_2 = (
             Q1_3 * w84 + Q1_4 * w87 + Q1_5 * w88 - Q1_0 * w63 - Q1_1 * w77 - Q1_2 * w78
         )
-        f1_0 = f1_0
-        f1_1 = f1_1
-        f1_2 = f1_2
-        r1_0 = r1_0
-        r1_1 = r1_1
-        r1_2 = r1_2
         change_xi1_0 = abs(f1_0 - xi1_0)
         change_xi1_1 = abs(f1_1 - xi1_1)
         change_xi1_2 = abs(f1_2 - xi1_2)
@@ -583,12 +577,6 @@ def _advance(state, h, statistics):
             - Q2_1 * w170
             - Q2_2 * w171
         )
-        f2_0 = f2_0
-        f2_1 = f2_1
-        f2_2 = f2_2
-        r2_0 = r2_0
-        r2_1 = r2_1
-        r2_2 = r2_2
         change_xi2_0 = abs(f2_0 - xi2_0)
         change_xi2_1 = abs(f2_1 - xi2_1)
         change_xi2_2 = abs(f2_2 - xi2_2)
@@ -885,12 +873,6 @@ def _advance(state, h, statistics):
             - Q3_1 * w298
             - Q3_2 * w299
         )
-        f3_0 = f3_0
-        f3_1 = f3_1
-        f3_2 = f3_2
-        r3_0 = r3_0
-        r3_1 = r3_1
-        r3_2 = r3_2
         change_xi3_0 = abs(f3_0 - xi3_0)
         change_xi3_1 = abs(f3_1 - xi3_1)
         change_xi3_2 = abs(f3_2 - xi3_2)

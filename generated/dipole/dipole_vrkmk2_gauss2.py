@@ -473,18 +473,6 @@ def _advance(state, h, statistics):
         p2_2 = (
             w4 * (P2_2 + L_2_2 + L_3_2) + w120 * d2_2 + d1_2 * w149 + w5 * P1_2 + w148
         )
-        u1_0 = u1_0
-        u1_1 = u1_1
-        u1_2 = u1_2
-        u2_0 = u2_0
-        u2_1 = u2_1
-        u2_2 = u2_2
-        p1_0 = p1_0
-        p1_1 = p1_1
-        p1_2 = p1_2
-        p2_0 = p2_0
-        p2_1 = p2_1
-        p2_2 = p2_2
         change_v1_0 = abs(u1_0 - v1_0)
         change_v1_1 = abs(u1_1 - v1_1)
         change_v1_2 = abs(u1_2 - v1_2)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from codegen.ir.kernel import Kernel
 from codegen.printers.arrange import arrange
-from codegen.printers.c.statements import RESERVED, Statements, comment, fill
+from codegen.printers.c.statements import RESERVED, Statements, comment, fill, literal
 from codegen.printers.interface import Interface
 from codegen.printers.layout import layout, register
 from codegen.printers.names import Names
 from codegen.printers.operations import operations, sentences
+from codegen.printers.precision import DOUBLE
 from codegen.printers.recipe import Recipe, header
 from codegen.snippets.graph import needed
 from codegen.templates import environment
@@ -26,15 +27,16 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     names = register(kernel, arrangement, Names(RESERVED | own_names(interface)))
     variables = declarations(kernel, interface, names)
     symbols = tuple(s for f in kernel.state for s in f.symbols)
-    statements = Statements(arrangement, names, interface.prefix)
+    real = interface.format.c_type
+    statements = Statements(arrangement, names, interface.prefix, interface.format)
     body = list(statements.lines())
     ends, new = statements.outputs(symbols)
     read = arrangement.symbols()
-    loads = [f"const double {names.spelled[s]} = state[{i}];" for i, s in enumerate(symbols) if s in read]
+    loads = [f"const {real} {names.spelled[s]} = state[{i}];" for i, s in enumerate(symbols) if s in read]
     functions = {*arrangement.functions(), "isfinite"}
     if interface.blocks:
         functions |= {"fabs", "greater"}
-    found = needed("c", sorted(functions))
+    found = needed("c", sorted(functions), interface.format)
     variables |= {
         "recipe": [
             comment(line) for line in header(recipe, layout(kernel), sentences(operations(arrangement)), 96)
@@ -63,12 +65,13 @@ def own_names(interface: Interface) -> frozenset[str]:
 
 def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str, object]:
     """Return what the templates need to spell heads and calls of the functions."""
-    time = ["double t"] if interface.time else []
-    parameters = [f"double {names.spelled[p]}" for p in interface.parameters]
+    real = interface.format.c_type
+    time = [f"{real} t"] if interface.time else []
+    parameters = [f"{real} {names.spelled[p]}" for p in interface.parameters]
     statistics = [f"{interface.prefix}statistics *statistics"] if interface.blocks else []
-    state = f"double state[static {interface.size}]"
-    step = [*time, "double h", *parameters, *statistics]
-    run = [*time, "double h", "size_t steps", *parameters, "double *trajectory", "size_t stride"]
+    state = f"{real} state[static {interface.size}]"
+    step = [*time, f"{real} h", *parameters, *statistics]
+    run = [*time, f"{real} h", "size_t steps", *parameters, f"{real} *trajectory", "size_t stride"]
     run += [*statistics, "size_t *completed"]
     passed = ["h", *(names.spelled[p] for p in interface.parameters)]
     return {
@@ -76,10 +79,12 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
         "upper": interface.prefix.upper(),
         "module": interface.module,
         "size": interface.size,
+        "real": real,
+        "later": later(interface),
         "time": interface.time,
         "blocks": [comment(label) for label in interface.blocks],
-        "step_header": signature(f"int {interface.prefix}step", f"double state[{interface.size}]", step, ";"),
-        "run_header": signature(f"int {interface.prefix}run", f"double state[{interface.size}]", run, ";"),
+        "step_header": signature(f"int {interface.prefix}step", f"{real} state[{interface.size}]", step, ";"),
+        "run_header": signature(f"int {interface.prefix}run", f"{real} state[{interface.size}]", run, ";"),
         "advance_source": signature("static inline int advance", state, step, ""),
         "step_source": signature(f"int {interface.prefix}step", state, step, ""),
         "run_source": signature(f"int {interface.prefix}run", state, run, ""),
@@ -96,23 +101,37 @@ def signature(start: str, state: str, arguments: list[str], end: str) -> list[st
 def prototypes(interface: Interface) -> str:
     """Return declarations of a module's functions without preprocessor lines, as cffi reads them."""
     prefix, blocks = interface.prefix, len(interface.blocks)
-    time = "double t, " if interface.time else ""
-    parameters = "".join(f"double p{i}, " for i in range(len(interface.parameters)))
+    real = interface.format.c_type
+    time = f"{real} t, " if interface.time else ""
+    parameters = "".join(f"{real} p{i}, " for i in range(len(interface.parameters)))
     statistics = f"{prefix}statistics *statistics, " if blocks else ""
     record = (
         f"typedef struct {{ size_t sweeps[{blocks}]; size_t most; size_t failed; }} {prefix}statistics;\n"
     )
     return (record if blocks else "") + (
-        f"int {prefix}run(double *state, {time}double h, size_t steps, {parameters}"
-        f"double *trajectory, size_t stride, {statistics}size_t *completed);\n"
+        f"int {prefix}run({real} *state, {time}{real} h, size_t steps, {parameters}"
+        f"{real} *trajectory, size_t stride, {statistics}size_t *completed);\n"
     )
+
+
+def later(interface: Interface) -> str:
+    """Spell the time after ``step`` steps; a float's is rounded once, so that steps do not vanish in it."""
+    if interface.format is DOUBLE:
+        return "t + (double)step * h"
+    return f"({interface.format.c_type})((double)t + (double)step * (double)h)"
 
 
 def usage(interface: Interface, recipe: Recipe) -> list[str]:
     """Return a program, line by line, that runs the step from the scene's initial state."""
-    initial = ", ".join(repr(float(x)) for x in recipe.initial)
-    arguments = ["state", *(["0.0"] if interface.time else []), repr(recipe.h), str(recipe.steps)]
-    arguments += [repr(float(recipe.defaults.get(p, 0.0))) for p in interface.parameters]
+    real = interface.format
+    wide = "" if real is DOUBLE else "(double)"
+
+    def number(x: float) -> str:
+        return literal(real, real.round(float(x)))
+
+    initial = ", ".join(map(number, recipe.initial))
+    arguments = ["state", *([number(0.0)] if interface.time else []), number(recipe.h), str(recipe.steps)]
+    arguments += [number(recipe.defaults.get(p, 0.0)) for p in interface.parameters]
     arguments += ["NULL", "0", *(["NULL"] if interface.blocks else []), "&completed"]
     return [
         f'#include "{interface.module}.h"',
@@ -120,12 +139,12 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
         "",
         "int main(void)",
         "{",
-        f"    double state[{interface.size}] = {{{initial}}};",
+        f"    {real.c_type} state[{interface.size}] = {{{initial}}};",
         "    size_t completed;",
         f"    const int status = {interface.prefix}run({', '.join(arguments)});",
         '    printf("status %d after %zu steps\\n", status, completed);',
         f"    for (int i = 0; i < {interface.size}; i++) {{",
-        '        printf("%.17g\\n", state[i]);',
+        f'        printf("%.{real.digits}g\\n", {wide}state[i]);',
         "    }",
         "    return status;",
         "}",

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from codegen.ir.expr import Expr
-from codegen.ir.kernel import UNIT
 from codegen.printers.arrange import Arrangement, Assignment, Iteration, Joint
-from codegen.printers.expression import spell
+from codegen.printers.expression import Style, spell
 from codegen.printers.names import Names
+from codegen.printers.precision import DOUBLE, Precision
+from codegen.snippets.graph import LIBRARY
 from codegen.snippets.stumpff import SETS
 
 WIDTH = 100
@@ -28,6 +29,7 @@ _WORDS = """
     M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_PI M_PI_2 M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2
     main NULL INFINITY NAN size_t memcpy fmax
     sqrt sin cos exp log sinh cosh fabs isfinite greater quotient signed_stumpff0 signed_stumpff1
+    sqrtf sinf cosf expf logf sinhf coshf fabsf
     state statistics steps step stride trajectory completed status advance row sweep change scale still close
     count_sweeps
 """
@@ -45,8 +47,12 @@ class Statements:
     ``prefix`` starts status codes; lines carry no indentation of their own beyond nested blocks.
     """
 
-    def __init__(self, arrangement: Arrangement, names: Names, prefix: str) -> None:
-        self.arrangement, self.names, self.prefix = arrangement, names, prefix
+    def __init__(
+        self, arrangement: Arrangement, names: Names, prefix: str, precision: Precision = DOUBLE
+    ) -> None:
+        self.arrangement, self.names, self.prefix, self.precision = arrangement, names, prefix, precision
+        self.real = precision.c_type
+        self.style = style(precision)
 
     def lines(self) -> Iterator[str]:
         """Yield the lines of every statement, in order."""
@@ -68,21 +74,25 @@ class Statements:
             lines += self._declare(found[-1], value)
         return lines, tuple(found)
 
-    def _declare(self, name: str, value: Expr, kind: str = "const double ") -> list[str]:
-        return fill(f"{kind}{name} =", spell(value, self.names.spelled), ";")
+    def _declare(self, name: str, value: Expr, kind: str | None = None) -> list[str]:
+        kind = f"const {self.real} " if kind is None else kind
+        return fill(f"{kind}{name} =", spell(value, self.names.spelled, self.style), ";")
+
+    def _literal(self, x: float) -> str:
+        return literal(self.precision, x)
 
     def _simple(self, statement: Assignment | Joint, kept: Iterable[str] = ()) -> Iterator[str]:
         if isinstance(statement, Assignment):
             name = self.names.spelled[statement.name]
-            kind = "" if statement.name in kept else "const double "
+            kind = "" if statement.name in kept else None
             yield from self._declare(name, statement.value, kind)
             return
-        argument = " ".join(spell(statement.argument, self.names.spelled))
+        argument = " ".join(spell(statement.argument, self.names.spelled, self.style))
         names = [self.names.spelled[n] for n in statement.names]
         if len(names) == 1:
-            yield f"const double {names[0]} = {statement.function}({argument});"
+            yield f"const {self.real} {names[0]} = {statement.function}({argument});"
             return
-        yield f"double {', '.join(names)};"
+        yield f"{self.real} {', '.join(names)};"
         yield f"{statement.function}({argument}, {', '.join(f'&{n}' for n in names)});"
 
     def _iteration(self, statement: Iteration) -> Iterator[str]:
@@ -96,11 +106,11 @@ class Statements:
         previous = self.names.fresh(f"previous_{number}")
         yield f"/* {comment(loop.label)}: fixed point in {', '.join(now)} */"
         for name, start in zip(now, statement.starts, strict=True):
-            yield from self._declare(name, start, "double ")
+            yield from self._declare(name, start, f"{self.real} ")
         if statement.kept:
             kept = [self.names.spelled[n] for n in statement.kept]
-            yield from fill("double", (*(f"{n}," for n in kept[:-1]), kept[-1]), ";")
-        yield f"double {previous} = 0.0;"
+            yield from fill(self.real, (*(f"{n}," for n in kept[:-1]), kept[-1]), ";")
+        yield f"{self.real} {previous} = {self._literal(0.0)};"
         yield "for (size_t sweep = 1;; sweep++) {"
         for inner in statement.body:
             for line in self._simple(inner, statement.kept):
@@ -110,7 +120,7 @@ class Statements:
                 yield f"    {line}"
         differences = [self.names.fresh(f"change_{u}") for u in loop.unknowns]
         for difference, x, y in zip(differences, new, now, strict=True):
-            yield f"    const double {difference} = fabs({x} - {y});"
+            yield f"    const {self.real} {difference} = {self.style.function('fabs')}({x} - {y});"
         for line in self._decision(statement, differences, now, new, previous):
             yield f"    {line}"
         yield "}"
@@ -119,21 +129,24 @@ class Statements:
         self, statement: Iteration, differences: list[str], now: list[str], new: list[str], previous: str
     ) -> Iterator[str]:
         loop, block = statement.loop, statement.number - 1
-        yield from fill("const double change =", broken(greatest(differences)), ";")
-        sizes = ["1.0", *(f"fabs({x})" for x in now)]
-        yield from fill("const double scale =", broken(greatest(sizes)), ";")
+        scaled = self.precision.scaled
+        close, tolerance = (self._literal(scaled(x)) for x in (loop.close, loop.tolerance))
+        unit = self._literal(self.precision.unit)
+        yield from fill(f"const {self.real} change =", broken(greatest(differences)), ";")
+        sizes = [self._literal(1.0), *(f"{self.style.function('fabs')}({x})" for x in now)]
+        yield from fill(f"const {self.real} scale =", broken(greatest(sizes)), ";")
         total = (differences[0], *(f"+ {x}" for x in differences[1:]))
         yield from fill("if (!isfinite(", total, ")) {", joint="")
         yield f"    count_sweeps(statistics, {block}, sweep, 1);"
         yield f"    return {self.prefix.upper()}NOT_FINITE;"
         yield "}"
-        yield f"const int still = {previous} > 0.0 && change >= {previous};"
+        yield f"const int still = {previous} > {self._literal(0.0)} && change >= {previous};"
         yield from fill(
             "const int close =",
-            (f"change <= {loop.close!r} * scale", f"&& change * change <= {UNIT!r} * scale * {previous}"),
+            (f"change <= {close} * scale", f"&& change * change <= {unit} * scale * {previous}"),
             ";",
         )
-        yield f"if (close || (still && change <= {loop.tolerance!r} * scale)) {{"
+        yield f"if (close || (still && change <= {tolerance} * scale)) {{"
         yield f"    count_sweeps(statistics, {block}, sweep, 0);"
         yield "    break;"
         yield "}"
@@ -144,6 +157,20 @@ class Statements:
         yield f"{previous} = change;"
         for x, y in zip(now, new, strict=True):
             yield f"{x} = {y};"
+
+
+def literal(precision: Precision, x: float) -> str:
+    """Spell a number that needs no rounding, or that is rounded already."""
+    return precision.text(x) + precision.suffix
+
+
+def style(precision: Precision) -> Style:
+    """Return how C spells constants and functions in a precision: ``0.5f`` and ``sqrtf``."""
+
+    def called(name: str) -> str:
+        return name + precision.suffix if name in LIBRARY and name != "isfinite" else name
+
+    return Style(lambda value: literal(precision, precision.round(value)), called)
 
 
 def greatest(terms: list[str]) -> str:

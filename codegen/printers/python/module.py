@@ -8,6 +8,7 @@ from codegen.printers.interface import Interface
 from codegen.printers.layout import layout, register
 from codegen.printers.names import Names
 from codegen.printers.operations import operations, sentences
+from codegen.printers.precision import DOUBLE
 from codegen.printers.python.statements import RESERVED, WIDTH, Statements, listed, quoted
 from codegen.printers.recipe import Recipe, header
 from codegen.snippets.graph import needed
@@ -19,11 +20,15 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     arrangement = arrange(kernel)
     names = register(kernel, arrangement, Names(RESERVED))
     symbols = tuple(s for f in kernel.state for s in f.symbols)
-    statements = Statements(arrangement, names)
+    precision = interface.format
+    single = precision is not DOUBLE
+    statements = Statements(arrangement, names, precision)
     body = list(statements.lines())
     ends, new = statements.outputs(symbols)
-    found = needed("python", sorted({*arrangement.functions(), "isfinite"}))
-    imports = [name for name in found.library if name != "fabs"]
+    found = needed("python", sorted({*arrangement.functions(), "isfinite"}), precision)
+    library = [name for name in found.library if name != "fabs"]
+    imports = ["isfinite"] if single else library
+    arrays = ["errstate", "float32", *(n for n in library if n != "isfinite")] if single else []
     parameters = [names.spelled[p] for p in interface.parameters]
     arguments = parameters
     if all(p in recipe.defaults for p in interface.parameters):
@@ -42,6 +47,10 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             ],
             usage=usage(interface, recipe),
             imports=imports,
+            arrays=arrays,
+            constants=statements.constants,
+            single=single,
+            later="float32(float(t) + made * float(h))" if single else "t + made * h",
             snippets=found.texts,
             blocks=[quoted(label) for label in interface.blocks],
             size=interface.size,
@@ -77,11 +86,16 @@ def keywords(arguments: list[str]) -> list[str]:
 
 def usage(interface: Interface, recipe: Recipe) -> list[str]:
     """Return the lines of an example that runs the step from the scene's initial state."""
-    initial = ", ".join(repr(float(x)) for x in recipe.initial)
+    precision = interface.format
+
+    def number(x: float) -> str:
+        return precision.text(precision.round(float(x)))
+
+    initial = ", ".join(map(number, recipe.initial))
     time = ["0.0"] if interface.time else []
     known = all(p in recipe.defaults for p in interface.parameters)
-    unset = [] if known else [repr(float(recipe.defaults.get(p, 0.0))) for p in interface.parameters]
-    arguments = ["state", *time, repr(recipe.h), str(recipe.steps), *unset]
+    unset = [] if known else [number(recipe.defaults.get(p, 0.0)) for p in interface.parameters]
+    arguments = ["state", *time, number(recipe.h), str(recipe.steps), *unset]
     return [
         f"import {interface.module}",
         "",

@@ -7,10 +7,11 @@ import keyword
 from collections.abc import Iterator, Sequence
 
 from codegen.ir.expr import Expr
-from codegen.ir.kernel import UNIT
+from codegen.ir.number import Number
 from codegen.printers.arrange import Arrangement, Assignment, Iteration, Joint
-from codegen.printers.expression import spell
+from codegen.printers.expression import Style, spell
 from codegen.printers.names import Names
+from codegen.printers.precision import DOUBLE, Precision
 
 WIDTH = 88
 
@@ -19,6 +20,7 @@ _WORDS = """
     sqrt sin cos exp log sinh cosh inf isfinite still close quotient signed_stumpff0 signed_stumpff1
     state statistics steps step stride trajectory run row rows sweep change scale total
     settled error failure labels count made new
+    float32 errstate
     OK NOT_CONVERGED NOT_FINITE BAD_STEP StepFailed Statistics
 """
 RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split())
@@ -26,10 +28,25 @@ RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split())
 
 
 class Statements:
-    """Prints the statements of one arrangement at the indentation of a function body."""
+    """Prints the statements of one arrangement at the indentation of a function body.
 
-    def __init__(self, arrangement: Arrangement, names: Names) -> None:
-        self.arrangement, self.names = arrangement, names
+    In single precision constants are NumPy's float32, made once: ``constants`` maps their names to digits.
+    """
+
+    def __init__(self, arrangement: Arrangement, names: Names, precision: Precision = DOUBLE) -> None:
+        self.arrangement, self.names, self.precision = arrangement, names, precision
+        self.constants: dict[str, str] = {}
+        self._named: dict[str, str] = {}
+        self.style = Style() if precision is DOUBLE else Style(self._constant)
+
+    def _constant(self, value: Number) -> str:
+        """Return the name of a rounded constant, with its sign."""
+        text = self.precision.text(self.precision.round(value))
+        size = text.removeprefix("-")
+        if size not in self._named:
+            self._named[size] = self.names.fresh(f"C{len(self._named) + 1}")
+            self.constants[self._named[size]] = size
+        return ("-" if text.startswith("-") else "") + self._named[size]
 
     def lines(self) -> Iterator[str]:
         """Yield the lines of every statement, in order."""
@@ -52,15 +69,19 @@ class Statements:
         return lines, tuple(found)
 
     def _assign(self, name: str, value: Expr, depth: int) -> list[str]:
-        return indented(f"{name} = ", spell(value, self.names.spelled), depth)
+        return indented(f"{name} = ", spell(value, self.names.spelled, self.style), depth)
 
     def _simple(self, statement: Assignment | Joint, depth: int) -> Iterator[str]:
         if isinstance(statement, Assignment):
             yield from self._assign(self.names.spelled[statement.name], statement.value, depth)
             return
-        argument = " ".join(spell(statement.argument, self.names.spelled))
+        argument = " ".join(spell(statement.argument, self.names.spelled, self.style))
         names = ", ".join(self.names.spelled[n] for n in statement.names)
         yield f"{'    ' * depth}{names} = _{statement.function}({argument})"
+
+    def _limit(self, tolerance: float) -> str:
+        """Spell a tolerance for doubles as one of this precision."""
+        return self.precision.text(self.precision.scaled(tolerance))
 
     def _iteration(self, statement: Iteration) -> Iterator[str]:
         loop, number = statement.loop, statement.number
@@ -72,6 +93,8 @@ class Statements:
         ]
         differences = [self.names.fresh(f"change_{u}") for u in loop.unknowns]
         previous = self.names.fresh(f"previous_{number}")
+        close, tolerance = (self._limit(x) for x in (loop.close, loop.tolerance))
+        unit = self.precision.text(self.precision.unit)
         failure = f"{quoted(loop.label)}, {number - 1}, sweep, statistics)"
         yield from indented("# ", (f"{loop.label}: fixed point in {', '.join(now)}",), 1)
         for name, start in zip(now, statement.starts, strict=True):
@@ -80,8 +103,8 @@ class Statements:
         yield f"    for sweep in range(1, {loop.limit + 1}):"
         for inner in statement.body:
             yield from self._simple(inner, 2)
-        for name, image in zip(new, statement.images, strict=True):
-            yield from self._assign(name, image, 2)
+        for name, image, already in zip(new, statement.images, plain, strict=True):
+            yield from [] if already else self._assign(name, image, 2)
         for difference, x, y in zip(differences, new, now, strict=True):
             yield f"        {difference} = abs({x} - {y})"
         yield from call("change = max", differences, 2)
@@ -90,9 +113,9 @@ class Statements:
         yield from indented("total = ", pieces, 2)
         yield "        if not isfinite(total):"
         yield f"            raise _failed(NOT_FINITE, {failure}"
-        yield f"        still = 0.0 < {previous} <= change <= {loop.tolerance!r} * scale"
-        yield f"        close = change * change <= {UNIT!r} * scale * {previous}"
-        yield f"        if still or (close and change <= {loop.close!r} * scale):"
+        yield f"        still = 0.0 < {previous} <= change <= {tolerance} * scale"
+        yield f"        close = change * change <= {unit} * scale * {previous}"
+        yield f"        if still or (close and change <= {close} * scale):"
         yield "            break"
         yield f"        {previous} = change"
         for x, y in zip(now, new, strict=True):

@@ -1,0 +1,109 @@
+"""Floating-point formats that emitted code computes in: how constants are rounded and spelled.
+
+>>> SINGLE.text(SINGLE.round(Number.rational(1, 3))), DOUBLE.text(DOUBLE.round(Number.rational(1, 3)))
+('0.33333334', '0.3333333333333333')
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+from dataclasses import dataclass
+from fractions import Fraction
+
+from codegen.ir.kernel import UNIT
+from codegen.ir.number import Number
+from orderconds.errors import InputError, UnknownName
+
+SUBNORMAL = {24: -149, 53: -1074}
+"""Bits to the exponent of the least positive number."""
+
+
+@dataclass(frozen=True)
+class Precision:
+    """A binary format of IEEE 754: ``bits`` of significand, its C type, and what C appends to its names.
+
+    ``largest`` is the greatest finite number.
+    """
+
+    name: str
+    bits: int
+    c_type: str
+    suffix: str
+    largest: float
+
+    @property
+    def unit(self) -> float:
+        """Half a unit in the last place of one."""
+        return math.ldexp(1.0, -self.bits)
+
+    @property
+    def digits(self) -> int:
+        """Significant decimal digits that tell any two numbers apart."""
+        return 1 + math.ceil(self.bits * math.log10(2))
+
+    def scaled(self, tolerance: float) -> float:
+        """Return a tolerance meant for doubles at the same number of units of this format.
+
+        >>> SINGLE.scaled(2.0**-44) == 2.0**-15
+        True
+        """
+        return tolerance * (self.unit / UNIT)
+
+    def round(self, value: Number | Fraction | float) -> float:
+        """Return the nearest number of the format, rounded once; an InputError for one that is too large."""
+        rounded = _double(value) if self.bits == 53 else _nearest(value, self.bits)
+        if not abs(rounded) <= self.largest:
+            spelled = value.text() if isinstance(value, Number) else str(value)
+            raise InputError(
+                f"the constant {spelled} does not fit a {self.c_type}", expected=f"at most {self.largest:.3g}"
+            )
+        return rounded
+
+    def text(self, x: float) -> str:
+        """Return the shortest digits that read back as this number of the format, always as a float."""
+        if self.bits == 53:
+            return repr(x)
+        for digits in range(1, self.digits + 1):
+            shorter = repr(float(f"{x:.{digits}g}"))
+            if struct.pack("f", float(shorter)) == struct.pack("f", x):
+                return shorter
+        raise AssertionError(x)  # the longest of them always reads back
+
+
+def _double(value: Number | Fraction | float) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
+
+
+def _nearest(value: Number | Fraction | float, bits: int) -> float:
+    """Return the nearest number of so many bits, ties to even."""
+    if isinstance(value, Number):
+        rational = value.is_rational
+        exact = value.fraction() if rational else Fraction(value.ring.approximate(value.element, 40))
+    else:
+        exact = Fraction(value)
+    if exact == 0:
+        return 0.0
+    exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
+    exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
+    exponent = max(exponent, SUBNORMAL[bits])
+    try:
+        return math.ldexp(round(exact / Fraction(2) ** exponent), exponent)
+    except OverflowError:
+        return math.copysign(math.inf, exact)
+
+
+DOUBLE = Precision("double", 53, "double", "", 1.7976931348623157e308)
+SINGLE = Precision("single", 24, "float", "f", 3.4028234663852886e38)
+PRECISIONS = {p.name: p for p in (DOUBLE, SINGLE)}
+"""The formats by name."""
+
+
+def precision(name: str) -> Precision:
+    """Return the format of that name; an UnknownName for another."""
+    if name not in PRECISIONS:
+        raise UnknownName(f"unknown precision {name}", expected=" or ".join(PRECISIONS))
+    return PRECISIONS[name]
