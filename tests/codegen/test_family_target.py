@@ -21,7 +21,7 @@ import mpmath
 import pytest
 from sympy import diag
 
-from codegen.build import Compiler
+from codegen.build import Compiler, compile_files
 from codegen.certify import certified_order
 from codegen.emission import Emission
 from codegen.emit import Compiled, compile_method, emit_compiled
@@ -34,6 +34,8 @@ from codegen.lab.runner import Interpreted
 from codegen.load import load
 from codegen.lower import LOWERINGS, setting
 from codegen.printers import TARGETS
+from codegen.printers.c.module import FLAGS
+from codegen.printers.precision import DOUBLE, SINGLE
 from codegen.scene import Setting
 from codegen.scenes import load as gallery
 from tests.promises import clean_c, clean_python, ulps
@@ -247,3 +249,26 @@ def test_the_order_is_seen_from_below_and_above_with_forty_digits(case):
     assert errors[1] > 1e-24
     slope = float(mpmath.log(errors[0] / errors[1], 2))
     assert slope == pytest.approx(case.order + 1, abs=0.1)
+
+
+SINGLE_ULPS = 24
+"""How far a step in floats may be from the interpreter in doubles, in units of the last place of floats."""
+
+
+@pytest.mark.parametrize("target", sorted(TARGETS))
+@pytest.mark.parametrize("case", ALL)
+def test_single_precision_is_the_same_step_rounded_more(case, target, tmp_path):
+    made = compiled(case.method, case.polynomial)
+    emission = emit_compiled(made, target, "tried_", precision="single")
+    if target == "c":  # no double may slip in: neither by a constant nor by a function
+        flags = (*FLAGS, "-Wdouble-promotion", "-Wfloat-conversion", "-Wunsuffixed-float-constants", "-c")
+        compile_files(emission.files, tmp_path, tmp_path / "o", flags, Compiler(("gcc",), "gcc"))
+    integrator, step = load(emission), stepper(made)
+    state, rng = list(emission.manifest["initial"]), random.Random(case.method)
+    for _ in range(4):
+        state = [SINGLE.round(x) for x in state]
+        h, t = (SINGLE.round(rng.uniform(*ends)) for ends in ((-1 / 32, 1 / 32), (0, 3)))
+        found, new = integrator.step(state, h, t), step(state, h, t)
+        assert ulps(found, new) * (DOUBLE.unit / SINGLE.unit) <= SINGLE_ULPS
+        assert found == [SINGLE.round(x) for x in found]
+        state = new

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
-from types import SimpleNamespace
 
 import mpmath
+import numpy as np
 import pytest
 from cffi import FFI
 
 from codegen.build import build
+from codegen.printers.precision import DOUBLE, SINGLE, Precision
 from codegen.snippets.graph import needed
-from codegen.snippets.stumpff import SETS, SMALL, SWITCH
+from codegen.snippets.stumpff import SETS, SMALL, SWITCH, coefficients
 
 POINTS = [
     *(0.0, 5e-324, 1e-310, 1e-300, 1e-16, 1e-8, 1e-3, 0.0625, math.nextafter(0.0625, 1), 0.1, 0.5),
@@ -38,26 +39,32 @@ def reference(k: int, z: float) -> mpmath.mpf:
         return total
 
 
-def slope(k: int, z: float) -> float:
-    """|c_k'(z)|, by the difference of references."""
-    with mpmath.workdps(40):
-        step = z * 1e-9
-        return float(abs(reference(k, z + step) - reference(k, z)) / step) if z > 1e-9 else 1.0
-
-
-def allowed(k: int, z: float) -> float:
+def allowed(k: int, z: float, precision: Precision = DOUBLE) -> float:
     """Two units in the last place, and what half a unit in sqrt z, that is one in z, causes."""
-    exact = float(reference(k, z))
-    return 2 * math.ulp(exact) + slope(k, z) * math.ulp(z)
+    coarser = precision.unit / DOUBLE.unit
+    with mpmath.workdps(60):
+        exact, unit = reference(k, z), mpmath.mpf(math.ulp(z)) * coarser
+        moved = max(abs(reference(k, x) - exact) for x in (z + unit, max(z - unit, 0)))
+        return float(2 * coarser * math.ulp(float(exact)) + moved)
 
 
 @pytest.fixture(scope="module")
 def compiled():
+    return in_c(DOUBLE)
+
+
+@pytest.fixture(scope="module")
+def interpreted():
+    return in_python(DOUBLE)
+
+
+def in_c(precision):
     """Every set as a function z -> tuple, in C."""
+    real = precision.c_type
     functions = ["stumpff_" + "".join(map(str, orders)) for orders in SETS]
-    parts, declared = ["#include <math.h>", *needed("c", functions).texts], []
+    parts, declared = ["#include <math.h>", *needed("c", functions, precision).texts], []
     for name, orders in zip(functions, SETS, strict=True):
-        head = f"void probe_{name}(double z, double *c)"
+        head = f"void probe_{name}({real} z, {real} *c)"
         many = ", ".join(["z", *(f"&c[{i}]" for i in range(len(orders)))])
         call = f"{name}({many})" if len(orders) > 1 else f"c[0] = {name}(z)"
         parts.append(f"{head};\n{head} {{ {call}; }}")
@@ -67,23 +74,22 @@ def compiled():
     library = ffi.dlopen(str(build({"probe.c": "\n".join(parts) + "\n"})))
 
     def call(orders, z):
-        values = ffi.new("double[4]")
+        values = ffi.new(f"{real}[4]")
         getattr(library, "probe_stumpff_" + "".join(map(str, orders)))(z, values)
         return tuple(values)[: len(orders)]
 
     return call
 
 
-@pytest.fixture(scope="module")
-def interpreted():
+def in_python(precision):
     """Every set as a function z -> tuple, in Python."""
-    found = needed("python", ["stumpff_" + "".join(map(str, orders)) for orders in SETS])
-    module = SimpleNamespace(**{name: getattr(math, name) for name in found.library})
-    namespace = dict(vars(module))
+    found = needed("python", ["stumpff_" + "".join(map(str, orders)) for orders in SETS], precision)
+    library, number = (math, float) if precision is DOUBLE else (np, np.float32)
+    namespace = {name: getattr(library, name) for name in found.library} | {"float32": number}
     exec("\n\n".join(found.texts), namespace)
 
     def call(orders, z):
-        value = namespace["_stumpff_" + "".join(map(str, orders))](z)
+        value = namespace["_stumpff_" + "".join(map(str, orders))](number(z))
         return value if isinstance(value, tuple) else (value,)
 
     return call
@@ -119,3 +125,20 @@ def test_at_zero_the_values_are_exact(compiled):
 
 def test_what_is_no_number_stays_so(compiled):
     assert all(math.isnan(x) for x in compiled((0, 1, 2, 3), math.nan))
+
+
+@pytest.mark.parametrize("spelled", [in_c, in_python], ids=["c", "python"])
+def test_floats_are_as_accurate_in_their_last_places(spelled):
+    call = spelled(SINGLE)
+    for orders in SETS:
+        for z in map(float, map(np.float32, POINTS)):
+            for k, value in zip(orders, call(orders, z), strict=True):
+                error = abs(float(mpmath.mpf(float(value)) - reference(k, z)))
+                assert error <= allowed(k, z, SINGLE), (k, z, value)
+
+
+def test_polynomials_are_as_long_as_the_precision_asks_for():
+    for precision, terms in ((DOUBLE, (10, 9, 9, 11)), (SINGLE, (6, 6, 5, 7))):
+        assert tuple(len(coefficients(k, bits=precision.bits)) for k in range(4)) == terms
+    texts = [needed("c", ["stumpff_1"], precision).texts[0] for precision in (DOUBLE, SINGLE)]
+    assert ["double" in text for text in texts] == [True, False]
