@@ -20,12 +20,16 @@ import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass
+from importlib.util import find_spec
 from math import comb
 from pathlib import Path
 
 from codegen.build import compile_files, find_compiler
 from codegen.emission import Emission
-from codegen.emit import emit
+from codegen.emit import compile_method, emit
+from codegen.lab.bench import bench
+from codegen.lab.peers import installed
+from codegen.lab.ranking import seconds_to
 
 HERE = Path(__file__).parent
 FLAGS = ("-std=c11", "-O2", "-ffp-contract=off")
@@ -72,6 +76,17 @@ CASES = {
 }
 
 
+RACES = {
+    "free_rigid_body": ("rkmk:rk4", "cf4", "rkmk:butcher6"),
+    "dipole": ("vcg:midpoint", "vrkmk(2):gauss2", "vcf:cf4", "cf4"),
+    "fast_heavy_top": ("rkmk:rk4", "cf4", "splitting:blanes_moan_rkn4", "splitting:blanes_moan_rkn6a"),
+}
+"""Scene -> methods that race against the peers."""
+
+PEERS = ("scipy-dop853", "heyoka", "diffrax", "c-dop853")
+DECADES = (4, 6, 8, 10, 12)
+
+
 @dataclass(frozen=True)
 class Run:
     """What one process says: CPU seconds, sweeps over equations, and the final state."""
@@ -92,6 +107,8 @@ def main() -> int:
         print(f"{key} ...", file=sys.stderr, flush=True)
         rows.append(row(CASES[key], asked.pairs))
     text = table(rows)
+    if asked.only == list(CASES):
+        text = f"{text}\n{RACE}\n{''.join(race(scene) for scene in RACES)}"
     print(text)
     if asked.only == list(CASES):
         page = HERE / "README.md"
@@ -108,26 +125,48 @@ def row(case: Case, pairs: int) -> list[str]:
             build_emitted(case, emission, Path(folder) / "emitted"),
             build_hand(case, emission, Path(folder) / "hand"),
         ]
-        check_same(run(sides[0], 200).state, run(sides[1], 200).state)
-        times: list[tuple[float, float]] = []
+        if find_spec("casadi") is not None and not emission.manifest["interface"]["blocks"]:
+            sides.append(build_casadi(case, emission, Path(folder) / "casadi"))
+        for side in sides[1:]:
+            check_same(run(sides[0], 200).state, run(side, 200).state)
+        times: list[tuple[float, ...]] = []
         for k in range(pairs):
-            order = (0, 1) if k % 2 == 0 else (1, 0)
+            order = range(len(sides)) if k % 2 == 0 else reversed(range(len(sides)))
             made = {i: run(sides[i], case.steps) for i in order}
-            times.append((made[0].seconds, made[1].seconds))
-        sweeps = [f"{run(side, 10_000).sweeps / 10_000:.1f}" if case.sweeps else "-" for side in sides]
+            times.append(tuple(made[i].seconds for i in range(len(sides))))
+        sweeps = [f"{run(side, 10_000).sweeps / 10_000:.1f}" if case.sweeps else "-" for side in sides[:2]]
         counts = [instructions(side) for side in sides]
-    low, high = interval([a / b for a, b in times])
+    low, high = interval([a / b for a, b, *_ in times])
     nanoseconds = [1e9 * statistics.median(column) / case.steps for column in zip(*times, strict=True)]
-    ratio = statistics.median(a / b for a, b in times)
+    ratio = statistics.median(a / b for a, b, *_ in times)
+    casadi = statistics.median(c / b for _, b, c in times) if len(sides) > 2 else None
     return [
         f"{case.method} on {case.scene}",
-        *(f"{x:.1f}" for x in nanoseconds),
+        *(f"{x:.1f}" for x in nanoseconds[:2]),
         f"{ratio:.3f}",
         f"{low:.3f} to {high:.3f}",
-        *(f"{x:.0f}" if x else "-" for x in counts),
+        "-" if casadi is None else f"{casadi:.2f}",
+        *(f"{x:.0f}" if x else "-" for x in counts[:2]),
         *sweeps,
         exponentials(emission),
     ]
+
+
+def race(scene: str) -> str:
+    """Return a table of CPU times to accuracies, of emitted methods and of the peers that are installed."""
+    peers = [name for name in PEERS if installed(name)]
+    print(f"race on {scene} ...", file=sys.stderr, flush=True)
+    match = bench(scene, RACES[scene], ["c"], peers, 0.5, None, str)
+    result = match.run(str)
+    lines = [[f"{scene}: error", *(f"1e-{d}" for d in DECADES), "evaluations", "exponentials", "iterations"]]
+    lines.append(["---"] + ["---:"] * (len(DECADES) + 3))
+    for label, rows in result.entries.items():
+        times = [seconds_to(rows, 10.0**-d) for d in DECADES]
+        last = next((r for r in reversed(rows) if r.error is not None), rows[-1])
+        counts = [last.evaluations, last.exponentials, last.iterations]
+        cells = ["-" if n is None or not last.steps else f"{n / last.steps:.3g}" for n in counts]
+        lines.append([label, *("-" if s is None else f"{1e6 * s:.3g}" for s in times), *cells])
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines) + "\n"
 
 
 def build_emitted(case: Case, emission: Emission, folder: Path) -> Path:
@@ -160,6 +199,22 @@ def build_hand(case: Case, emission: Emission, folder: Path) -> Path:
     )
     names = [f"{case.hand}.c", "rotation.h"]
     files = {name: (HERE / "handwritten" / name).read_text(encoding="utf-8") for name in names}
+    return built({**files, "driver.c": driver}, folder)
+
+
+def build_casadi(case: Case, emission: Emission, folder: Path) -> Path:
+    """Return the program that runs the same method's step as CasADi writes it."""
+    sys.path.insert(0, str(HERE))
+    from casadi_step import casadi_files
+
+    driver = DRIVER.format(
+        declarations="void handwritten_run(double *, double, size_t);",
+        size=len(emission.manifest["initial"]),
+        initial=", ".join(map(repr, emission.manifest["initial"])),
+        h=case.h,
+        call="handwritten_run(state, h, steps);",
+    )
+    files = casadi_files(compile_method(case.scene, case.method))
     return built({**files, "driver.c": driver}, folder)
 
 
@@ -229,6 +284,18 @@ the 95 % interval of the median; asked are at most 1.05 and an interval below 1.
 counted by callgrind. *Sweeps* are evaluations of an implicit step's equations; *exponentials* counts the
 functions of a rotation angle in a step, + in each sweep, of the emitted code. The hand-written steps do
 without the checks of the emitted ones (finite state and step) and may change variables as a person would.
+*CasADi* is the time of the step that CasADi generates from the same explicit method, over the hand-written
+one: below 1 it would beat the hand-written code.
+"""
+
+
+RACE = """
+## Time to an accuracy, beside peers
+
+CPU microseconds until the error at the end of the scene's span is as small as the head of the column says,
+interpolated between runs over ladders of steps or tolerances; fresh measurements of the same run as the table
+above. Peers integrate the ambient equations; what they compile before the first step is not counted, nor is
+ours. Counts are those of one step at the finest run (of iterations: sweeps over all equations of the step).
 """
 
 
@@ -240,9 +307,19 @@ def environment(pairs: int) -> str:
 
 def table(rows: list[list[str]]) -> str:
     """Return the rows as a Markdown table."""
-    head = ["case", "ns a step", "by hand", "ratio", "interval", "instructions", "by hand", "sweeps"]
+    head = [
+        "case",
+        "ns a step",
+        "by hand",
+        "ratio",
+        "interval",
+        "CasADi",
+        "instructions",
+        "by hand",
+        "sweeps",
+    ]
     head += ["by hand", "exponentials"]
-    lines = [head, ["---"] + ["---:"] * 9, *rows]
+    lines = [head, ["---"] + ["---:"] * 10, *rows]
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 from codegen.lab.contest import Row
 
@@ -24,8 +23,9 @@ class Place:
 def seconds_to(rows: Sequence[Row], error: float) -> float | None:
     """Return the CPU seconds in which a ladder reaches an error, None where it never does.
 
-    Between two neighbouring rungs on either side of the error, logarithms are interpolated; a ladder that
-    starts below the error takes its first rung's time.
+    The ladder is read from its smallest error towards the coarse end, as far as errors stay within the asked
+    one, so that an error which is small by accident on a coarse rung wins nothing. Between the two rungs on
+    either side logarithms are interpolated; a ladder that starts below the error takes its first rung's time.
 
     >>> from codegen.lab.contest import Row
     >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)
@@ -35,12 +35,16 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
     True
     """
     good = [r for r in rows if r.error is not None and r.seconds]
-    found = [_time(r) for r in good if _error(r) <= error]
-    for a, b in pairwise(good):
-        if _error(a) > error >= _error(b) and _error(b) > 0:
-            part = math.log(_error(a) / error) / math.log(_error(a) / _error(b))
-            found.append(_time(a) * (_time(b) / _time(a)) ** part)
-    return min(found, default=None)
+    if not good or _error(min(good, key=_error)) > error:
+        return None
+    k = good.index(min(good, key=_error))
+    while k > 0 and _error(good[k - 1]) <= error:
+        k -= 1
+    if k == 0 or _error(good[k]) == 0:
+        return _time(good[k])
+    a, b = good[k - 1], good[k]
+    part = math.log(_error(a) / error) / math.log(_error(a) / _error(b))
+    return _time(a) * (_time(b) / _time(a)) ** part
 
 
 def _error(row: Row) -> float:
