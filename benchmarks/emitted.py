@@ -72,6 +72,14 @@ class Case:
 CASES = {
     "rkmk4": Case("free_rigid_body", "rkmk:rk4", "free_rigid_body_rkmk4", 0.02, 1_500_000),
     "cf4": Case("free_rigid_body", "cf4", "free_rigid_body_cf4", 0.02, 1_500_000),
+    "top_rkmk4": Case("fast_heavy_top", "rkmk:rk4", "fast_heavy_top_rkmk4", 0.001, 400_000),
+    "top_cf4": Case("fast_heavy_top", "cf:cf4", "fast_heavy_top_cf4", 0.001, 400_000),
+    "top_splitting4": Case(
+        "fast_heavy_top", "splitting:blanes_moan_rkn4", "fast_heavy_top_splitting4", 0.02, 1_000_000
+    ),
+    "top_splitting6": Case(
+        "fast_heavy_top", "splitting:blanes_moan_rkn6a", "fast_heavy_top_splitting6", 0.02, 500_000
+    ),
     "vcg2": Case("dipole", "vcg:midpoint", "dipole_vcg2", 0.01, 150_000, sweeps=True),
 }
 
@@ -197,8 +205,8 @@ def build_hand(case: Case, emission: Emission, folder: Path) -> Path:
         h=case.h,
         call=f"{'sweeps = ' if case.sweeps else ''}handwritten_run(state, h, steps);",
     )
-    names = [f"{case.hand}.c", "rotation.h"]
-    files = {name: (HERE / "handwritten" / name).read_text(encoding="utf-8") for name in names}
+    sources = [HERE / "handwritten" / f"{case.hand}.c", *sorted((HERE / "handwritten").glob("*.h"))]
+    files = {source.name: source.read_text(encoding="utf-8") for source in sources}
     return built({**files, "driver.c": driver}, folder)
 
 
