@@ -55,25 +55,23 @@ static inline void turn(const double x[static 3], double c1, double c2, const do
     }
 }
 
-/* exp(u) acting on d and mu: mu' = exp(x) mu + dexp_x n = mu + n + x cross (c1 mu + c2 n + x cross (c2 mu + c3 n)) */
+/*
+ * exp(u) acting on d and mu: mu' = exp(x) mu + dexp_x n, all cross products made while c1, c2 and c3 are on their way
+ */
 static inline void move(const struct rate *u, const struct place *s, struct place *y, double c[static 2])
 {
     const double *x = u->x, *n = u->n, *m = s->m;
+    double c1, c2, p[3], q[3], v[3], w[3];
     const double z = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
-    double c1, c2, p[3], q[3];
     sinc_cosc(z, &c1, &c2);
     const double c3 = sinc_defect(z);
-    for (int i = 0; i < 3; i++) {
-        p[i] = c2 * m[i] + c3 * n[i];
-    }
+    cross(x, m, p);
+    cross(x, n, v);
     cross(x, p, q);
-    for (int i = 0; i < 3; i++) {
-        q[i] += c1 * m[i] + c2 * n[i];
-    }
-    cross(x, q, p);
+    cross(x, v, w);
     turn(x, c1, c2, s->d, y->d);
     for (int i = 0; i < 3; i++) {
-        y->m[i] = (m[i] + n[i]) + p[i];
+        y->m[i] = (m[i] + n[i]) + ((c1 * p[i] + c2 * (q[i] + v[i])) + c3 * w[i]);
     }
     c[0] = c1;
     c[1] = c2;
