@@ -49,7 +49,7 @@ CLASSICAL = {
 }
 """What a family is where brackets vanish and exponentials are sums."""
 
-SAME_CONDITIONS = {"slgi": "vrkmk(0)"}
+SAME_CONDITIONS = {"slgi": "vrkmk(0)", "ambient": "rk"}
 """Families that are others, differently written: whose order conditions are theirs."""
 
 

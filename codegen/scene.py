@@ -18,6 +18,7 @@ from codegen.errors import SceneError
 from codegen.flow import Flow
 from codegen.groups.actions import LeftMultiplication
 from codegen.groups.cotangent import Cotangent
+from codegen.groups.euclidean import Rn
 from codegen.ir.differentiate import gradient
 from codegen.ir.domain import Domain, ExprDomain
 from codegen.ir.expr import Expr, Space, evaluate, walk
@@ -148,6 +149,20 @@ class Setting:
         point = StateField("y", Kind.POINT, q.symbols + mu.symbols, q.initial + mu.initial)
         group, action = Cotangent(self.group), LeftMultiplication()
         return replace(self, group=group, action=action, state=(point,), paired=False)
+
+    def as_ambient(self) -> Setting:
+        """Return the scene as y' = F(y) in the coordinates of its state: a field on R^n, the group forgotten.
+
+        What integrates it is of no group and leaves the manifold by as much as it errs.
+        """
+        domain = ExprDomain(self.roots[0].space)
+        roots = self.velocity(
+            domain, tuple(domain.space.sym(s) for s in self.symbols), domain.space.sym(TIME)
+        )
+        initial = tuple(x for block in self.state for x in block.initial)
+        point = StateField("y", Kind.POINT, self.symbols, initial)
+        group, action = Rn(len(self.symbols)), LeftMultiplication()
+        return replace(self, group=group, action=action, state=(point,), roots=roots, paired=False)
 
     def values(self, domain: Domain, state: Sequence[Any], t: Any = None) -> dict[str, Any]:
         """Return the values of all symbols and parameters; run-time ones stay symbols in expressions."""

@@ -102,7 +102,7 @@ def predicted(scene: Setting, method: Method, power: int) -> Vector:
         return _partitioned(scene, method, power)
     if scene.is_hamiltonian:
         return _action(scene, method, power)
-    return (_trees if method.family == "rk" else _forests)(scene, method, power)
+    return (_trees if method.family in ("rk", "ambient") else _forests)(scene, method, power)
 
 
 def _residuals(method: Method, power: int) -> list[tuple[Any, Element]]:

@@ -44,7 +44,8 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
         return _time(good[k])
     a, b = good[k - 1], good[k]
     part = math.log(_error(a) / error) / math.log(_error(a) / _error(b))
-    return _time(a) * (_time(b) / _time(a)) ** part
+    seconds: float = _time(a) * (_time(b) / _time(a)) ** part
+    return seconds
 
 
 def _error(row: Row) -> float:

@@ -23,6 +23,7 @@ LOWERINGS = {
     "slgi": "slgi",
     "splitting": "splitting",
     "composition": "splitting",
+    "ambient": "rkmk",
 }
 """Family name to module."""
 
@@ -55,11 +56,13 @@ def setting(scene: Setting, method: Method) -> Setting:
             hint = f"use one of {', '.join(sorted(set(LOWERINGS) - ON_COTANGENT - OF_PARTS))}"
             raise MethodError(f"{family} on {scene.name}", expected="a Hamiltonian scene", hint=hint)
         return with_flows(scene, method) if family in OF_PARTS else scene
+    if family == "ambient":
+        return scene.as_ambient()
     view = scene.as_field()
     if family == "rk" and not view.group.abelian:
         group = view.group.name
         raise MethodError(
-            f"rk on {scene.name}, whose group is {group}", expected="R^n", hint="use rkmk, cg or cf"
+            f"rk on {scene.name}, whose group is {group}", expected="R^n", hint="use rkmk, cg or cf, or ambient to leave the manifold"
         )
     return view
 

@@ -121,6 +121,10 @@ CASES = {
         Case("splitting:forest_ruth4", 4, top("symmetric"), "fast_heavy_top"),
         Case("splitting:ruth3", 3, top("asymmetric"), "dipole"),
     ),
+    "ambient": (
+        Case("ambient:rk4", 4, place("S^2"), "driven_spin"),
+        Case("ambient:gauss2", 4, cotangent(), "dipole"),
+    ),
     "composition": (
         Case("composition:triple_jump", 4, top("asymmetric"), "linear_oscillator"),
         Case("composition:mclachlan4", 4, top("symmetric"), "dipole"),
