@@ -35,6 +35,9 @@ BUDGET = 1.0
 """CPU seconds that one run of a ladder may take."""
 
 MOST_STEPS = 5 * 2**21
+COUNTED = 1e-3
+"""CPU seconds below which the cost of a call from Python is taken off a run."""
+
 NEAR_ROUNDING = 1e-9
 """Errors below this, relative to the state, may stand still because of rounding."""
 
@@ -134,7 +137,7 @@ class EmittedContestant:
         self.key = repr(sorted(self.runner.emission.manifest["files"].items()))
         self.emission_seconds = time.perf_counter() - start
         self.compile_seconds = 0.0
-        self.idle = 0.0
+        self.idle = math.inf
 
     def controls(self) -> Iterator[float]:
         """Double the steps."""
@@ -147,7 +150,7 @@ class EmittedContestant:
         """Compile, apart from the cache so that the time is the compiler's, then load."""
         if self.target == "c":
             self.compile_seconds = _compile_seconds(self.runner.emission.files)
-        self.idle = cost(lambda: self.runner.final(0))
+        self.runner.final(0)
 
     def measure(self, control: float) -> Row:
         """Run over the span in ``control`` steps."""
@@ -162,7 +165,10 @@ class EmittedContestant:
                 raise RunFailed("the final state is not finite")
         except RunFailed as failure:
             return self._row(control, h, steps, failure=str(failure))
-        times = [max(s - self.idle, 0.0) for s in samples(lambda: self.runner.final(steps))]
+        spent = samples(lambda: self.runner.final(steps))
+        if spent[0] < COUNTED:  # the call itself counts; the least ever seen is what it costs
+            self.idle = min(self.idle, cost(lambda: self.runner.final(0)))
+        times = [s - min(self.idle, s) for s in spent]
         return self._row(control, h, steps, error, times, statistics)
 
     def enough(self, rows: Sequence[Row]) -> bool:
@@ -263,8 +269,10 @@ class PeerContestant:
             error = distance(self.scene, outcome.state, self.exact.state)
             if not math.isfinite(error):
                 raise PeerFailed("the final state is not finite")
-            idle = cost(prepared.idle) if prepared.idle is not None else 0.0
-            times = [max(s - idle, 0.0) for s in samples(prepared.run)]
+            spent = samples(prepared.run)
+            counted = prepared.idle is not None and spent[0] < COUNTED
+            idle = cost(prepared.idle) if counted and prepared.idle is not None else 0.0
+            times = [s - min(idle, s) for s in spent]
         except PeerFailed as failure:
             setup = time.perf_counter() - start
             return Row(

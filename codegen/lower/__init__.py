@@ -62,7 +62,9 @@ def setting(scene: Setting, method: Method) -> Setting:
     if family == "rk" and not view.group.abelian:
         group = view.group.name
         raise MethodError(
-            f"rk on {scene.name}, whose group is {group}", expected="R^n", hint="use rkmk, cg or cf, or ambient to leave the manifold"
+            f"rk on {scene.name}, whose group is {group}",
+            expected="R^n",
+            hint="use rkmk, cg or cf, or ambient to leave the manifold",
         )
     return view
 
