@@ -9,7 +9,7 @@ from pathlib import Path
 import click
 
 from orderconds.errors import TableauError
-from orderconds.exchange import FORMATS, export, format_of, read_data
+from orderconds.exchange import FORMATS, export, format_of, left_out, read_data
 from orderconds.tableau import find
 from orderconds.tableau.file import MAX_BYTES, from_data
 
@@ -35,6 +35,8 @@ def command(source: str, of: str | None, to: str | None, name: str | None, outpu
     if name is not None:
         data["name"] = name
     from_data(data, str(path))  # the grammar, shapes and numbers are sound
+    for key in left_out(data, to):
+        click.echo(f"note: its {key} is left out, which json and toml keep", err=True)
     converted = content if of == to == "toml" and name is None else export(data, to)
     if output is None:
         sys.stdout.buffer.write(converted)

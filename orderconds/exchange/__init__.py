@@ -2,7 +2,8 @@
 
 Everything passes through the keys of a tableau file (:func:`orderconds.tableau.file.from_data`), so an
 imported tableau is held to the same grammar, and nothing that is read is run as code. What is written
-reads back as exactly the same method. Foreign decimals with 12 significant digits or more are taken as
+reads back as exactly the same method, rounded decimals with their digits; TOML and JSON hold all of a file, the
+others no proof (:func:`left_out`). Foreign decimals with 12 significant digits or more are taken as
 rounded (``~``), shorter ones at their word.
 """
 
@@ -13,8 +14,8 @@ from importlib import import_module
 from typing import Any
 
 from orderconds.errors import InputError
-from orderconds.exchange.arrays import spelled_out
 from orderconds.tableau import Tableau
+from orderconds.tableau.write import as_data
 
 Data = Mapping[str, Any]
 """The keys and values of a tableau file."""
@@ -57,13 +58,22 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> di
 
 
 def convert(tableau: Tableau) -> dict[str, Any]:
-    """Return a tableau as keys and values.
+    """Return a tableau as the keys and values of its file, in which nothing is lost.
 
     >>> from orderconds.check import read
     >>> convert(read("heun"))["b"]
     ['1/2', '1/2']
     """
-    return spelled_out(tableau)
+    return as_data(tableau)
+
+
+def left_out(data: Data, to: str) -> tuple[str, ...]:
+    """Return the keys that a file in the format ``to`` has no place for.
+
+    >>> left_out({"name": "m", "proof": {"conditions": "cg"}}, "csv")
+    ('proof',)
+    """
+    return ("proof",) if to not in ("toml", "json") and data.get("proof") else ()
 
 
 def format_of(path: str) -> str:

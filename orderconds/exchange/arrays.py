@@ -1,5 +1,6 @@
 """A tableau as named arrays of spelled coefficients, what tables, matrices and C arrays can hold.
 
+What is left out is the proof of rounded decimals, which refers to the names in the file.
 ``rk`` gives A, b and embedded_b with embedded_order; ``prk`` A, b, A_hat, b_hat; ``composition`` gamma, or
 alpha and beta. ``cf`` gives the exponentials of all stages and of the update as rows of ``exponentials``;
 ``count`` says how many belong to each stage and, last, to the update, ``start`` which stage each starts
@@ -8,20 +9,25 @@ from, 0 for y0; with embedded_order the update is the last but one and the embed
 
 from __future__ import annotations
 
+import json
 import re
-import tomllib
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from orderconds.errors import TableauError
-from orderconds.tableau import Tableau, dumps
+from orderconds.exchange.expressions import without_names
+from orderconds.ring import Balls
+from orderconds.tableau import Tableau
 from orderconds.tableau.file import from_data
+from orderconds.tableau.write import written_out
 
 Row = list[str]
 Arrays = dict[str, Any]
 """Name to text (name, family, ...), to a row, or to rows of one length."""
 
-TEXTS = ("name", "family", "source", "bibtex", "base", "embedded_order")
+TABLES = ("numbers", "claims")
+"""Tables of a file that stand in a text as JSON; of numbers, roots that have no spelling but their names."""
+TEXTS = ("name", "family", "source", "bibtex", "base", "embedded_order", *TABLES)
 ROWS = ("b", "b_hat", "gamma", "alpha", "beta", "embedded_b", "count", "start", "c")
 MATRICES = ("A", "A_hat", "exponentials")
 ROUNDED = 12
@@ -34,15 +40,17 @@ def arrays(data: Mapping[str, Any], what: str) -> Arrays:
     >>> arrays({"name": "heun", "family": "rk", "A": [[], [1]], "b": ["1/2", "1/2"]}, "a table")["A"]
     [['0', '0'], ['1', '0']]
     """
-    if data.get("numbers") or "low_storage" in data:
-        data = spelled_out(from_data(data))  # every coefficient in full
     family = data.get("family")
-    if data.get("numbers") or family not in ("rk", "prk", "composition", "cf"):
-        kind = "roots by name" if data.get("numbers") else f"a tableau of format {family}"
+    if family not in ("rk", "prk", "composition", "cf"):
         raise TableauError(
-            f"{kind} in {what}", where=str(data.get("name")), expected="format json, which holds everything"
+            f"a tableau of format {family} in {what}",
+            where=str(data.get("name")),
+            expected="format json, which holds everything",
         )
+    if data.get("numbers") or "low_storage" in data:
+        data = spelled_out(from_data(data))
     found: Arrays = {key: data[key] for key in TEXTS if data.get(key)}
+    found |= {key: json.dumps(data[key]) for key in TABLES if data.get(key)}
     if family == "cf":
         return {**found, **_products(data)}
     width = len(data["b"]) if "b" in data else 0
@@ -56,14 +64,16 @@ def arrays(data: Mapping[str, Any], what: str) -> Arrays:
 
 
 def spelled_out(tableau: Tableau) -> dict[str, Any]:
-    """Return the keys of a tableau's file, each coefficient spelled in full.
+    """Return the keys of a tableau's file, each coefficient spelled without names but those of roots.
 
-    Balls keep the digits they support: what is read back contains them.
+    Exact ones stand in lowest terms, rounded ones as the file spells them.
 
-    >>> spelled_out(from_data({"name": "t", "family": "rk", "A": [[]], "b": ["g"], "numbers": {"g": "1/2"}}))
+    >>> spelled_out(from_data({"name": "t", "family": "rk", "A": [[]], "b": ["g"], "numbers": {"g": "2/4"}}))
     {'name': 't', 'family': 'rk', 'A': [[]], 'b': ['1/2']}
     """
-    return tomllib.loads(dumps(tableau))
+    if isinstance(tableau.ring, Balls) and tableau.file is not None:
+        tableau = without_names(tableau, tableau.file)
+    return written_out(tableau, name_radicals=False)
 
 
 def _filled(rows: Sequence[Sequence[Any]], width: int) -> list[Row]:
@@ -94,12 +104,14 @@ def data_of(found: Arrays, where: str) -> dict[str, Any]:
             raise TableauError(
                 f"the array {name!r}", where=where, expected=f"one of {', '.join(sorted(known))}"
             )
+    tables = {key: table(found[key], f"{where}: {key}") for key in TABLES if key in found}
     family = found.get("family") or next(
         (f for key, f in (("A_hat", "prk"), ("A", "rk"), ("exponentials", "cf")) if key in found),
         "composition",
     )
     data = {key: found[key] for key in ("name", "source", "bibtex", "base") if key in found} | {
-        "family": family
+        "family": family,
+        **tables,
     }
     if family == "cf":
         return data | _stages(found, where)
@@ -114,6 +126,21 @@ def data_of(found: Arrays, where: str) -> dict[str, Any]:
             "order": _integer(found.get("embedded_order", "1"), where),
         }
     return data
+
+
+def table(text: str, where: str) -> dict[str, Any]:
+    """Return one of the :data:`TABLES` from its JSON.
+
+    >>> table('{"rk": 4}', "claims")
+    {'rk': 4}
+    """
+    try:
+        found = json.loads(text)
+    except (ValueError, RecursionError):
+        found = None
+    if not isinstance(found, dict):
+        raise TableauError(f"{text[:60]!r}", where=where, expected="an object in JSON")
+    return found
 
 
 def _stages(found: Arrays, where: str) -> dict[str, Any]:

@@ -25,6 +25,7 @@ def write(data: Any) -> bytes:
     static const double m_b[1] = {1.0};
     """
     found = arrays(data, "C arrays")
+    roots = found.get("numbers", "{}")
     prefix = re.sub(r"\W", "_", found["name"], flags=re.ASCII)
     lines = [f"/* {name}: {found[name].replace('*/', '* /')} */" for name in TEXTS if name in found]
     for name, value in found.items():
@@ -32,11 +33,11 @@ def write(data: Any) -> bytes:
             continue
         if name in MATRICES:
             width = max(map(len, value), default=1)
-            rows = ",\n    ".join("{" + ", ".join(map(_cell, row)) + "}" for row in value)
+            rows = ",\n    ".join("{" + _cells_of(row, roots) + "}" for row in value)
             lines.append(f"static const double {prefix}_{name}[{len(value)}][{width}] = {{\n    {rows}}};")
         elif name in ROWS:
             lines.append(
-                f"static const double {prefix}_{name}[{len(value)}] = {{{', '.join(map(_cell, value))}}};"
+                f"static const double {prefix}_{name}[{len(value)}] = {{{_cells_of(value, roots)}}};"
             )
     for name in INTEGERS[:2]:
         if name in found:
@@ -45,8 +46,12 @@ def write(data: Any) -> bytes:
     return ("\n".join(lines) + "\n").encode()
 
 
-def _cell(spelled: str) -> str:
-    value = repr(nearest(spelled))
+def _cells_of(row: list[str], roots: str) -> str:
+    return ", ".join(_cell(x, roots) for x in row)
+
+
+def _cell(spelled: str, roots: str) -> str:
+    value = repr(nearest(spelled, roots))
     return value if coefficient(value) == spelled or value == f"{spelled}.0" else f"{value} /* {spelled} */"
 
 

@@ -11,8 +11,11 @@ from typing import Any
 from orderconds.errors import TableauError
 from orderconds.exchange.arrays import MATRICES, ROWS, TEXTS, Arrays, arrays, coefficient, data_of
 from orderconds.exchange.spelling import from_latex, latex
+from orderconds.ring import Ball, Balls
+from orderconds.tableau import Tableau
 from orderconds.tableau.file import from_data
 
+SHORT = Balls(64)
 _TEXT = re.compile(r"^% (\w+): (.*)$", re.MULTILINE)
 _BUTCHER = re.compile(r"\\begin\{array\}\{[rc]\|[rc]+\}(.*?)\\end\{array\}", re.DOTALL)
 _MATRIX = re.compile(r"([A-Za-z_\\{}]+)\s*=\s*\\begin\{[bp]matrix\}(.*?)\\end\{[bp]matrix\}", re.DOTALL)
@@ -35,7 +38,7 @@ def write(data: Any) -> bytes:
     lines = [f"% {name}: {found[name]}" for name in TEXTS if name in found]
     if "A" in found and "A_hat" not in found:
         tableau = from_data(data)
-        nodes = [tableau.ring.text(x) for x in tableau.abelian().c]
+        nodes = [_node(tableau, x) for x in tableau.abelian().c]
         lines.append(rf"\begin{{array}}{{c|{'c' * len(found['b'])}}}")
         lines += [
             " & ".join([latex(c), *map(latex, row)]) + r" \\"
@@ -51,6 +54,11 @@ def write(data: Any) -> bytes:
             body = " \\\\\n".join(" & ".join(map(latex, row)) for row in rows)
             lines += [rf"{name} = \begin{{pmatrix}}", body, r"\end{pmatrix}"]
     return ("\n".join(lines) + "\n").encode()
+
+
+def _node(tableau: Tableau, x: Any) -> str:
+    """Spell an abscissa; a ball with the digits of a double and a few more, which determine nothing."""
+    return SHORT.text(SHORT.enclose(x.value) + 0) if isinstance(x, Ball) else tableau.ring.text(x)
 
 
 def read(content: bytes, where: str) -> dict[str, Any]:

@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import io
 import zipfile
+from functools import lru_cache
 from typing import Any
 
 from orderconds.errors import TableauError
-from orderconds.exchange.arrays import TEXTS, Arrays, arrays, coefficient, data_of
+from orderconds.exchange.arrays import TEXTS, Arrays, arrays, coefficient, data_of, table
 from orderconds.tableau.file import from_data
 
 EXACT = "_exact"
@@ -27,6 +28,7 @@ def write(data: Any) -> bytes:
 
     content = io.BytesIO()
     found = arrays(data, "NumPy")
+    roots = found.get("numbers", "{}")
     members: dict[str, Any] = {}
     for name, value in found.items():
         if name in TEXTS:
@@ -34,30 +36,33 @@ def write(data: Any) -> bytes:
         elif name in INTEGERS:
             members[name] = np.array([int(x) for x in value])
         else:
-            members[name] = np.array(floats(value), dtype=np.float64)
+            members[name] = np.array(floats(value, roots), dtype=np.float64)
             members[name + EXACT] = np.array(value)
     np.savez(content, **members)
     return content.getvalue()
 
 
-def floats(value: Any) -> Any:
-    """Return spelled coefficients as the doubles nearest to them.
+def floats(value: Any, roots: str = "{}") -> Any:
+    """Return spelled coefficients as the doubles nearest to them; ``roots`` is the JSON of named ones.
 
     >>> floats([["1/2", "1/3"]])
     [[0.5, 0.3333333333333333]]
     """
     if isinstance(value, list):
-        return [floats(x) for x in value]
-    return nearest(value)
+        return [floats(x, roots) for x in value]
+    return nearest(value, roots)
 
 
-def nearest(spelled: str) -> float:
+@lru_cache(maxsize=1024)
+def nearest(spelled: str, roots: str = "{}") -> float:
     """Return the double nearest to a spelled coefficient.
 
     >>> nearest("1/3 - sqrt(3)/6")
     0.04465819873852045
+    >>> nearest("x/2", '{"x": {"minpoly": ["-2", "0", "0", "1"], "near": "1.26"}}')
+    0.6299605249474366
     """
-    data = {"name": "x", "family": "rk", "A": [[]], "b": [spelled]}
+    data = {"name": "x", "family": "rk", "A": [[]], "b": [spelled], "numbers": table(roots, "numbers")}
     tableau = from_data(data)
     (weight,) = tableau.abelian().b
     ring: Any = tableau.ring
@@ -93,7 +98,7 @@ def read(content: bytes, where: str) -> dict[str, Any]:
             found[name] = _spelled(value.tolist())
             continue
         found[name] = spelled.tolist()
-        if not np.array_equal(np.array(floats(found[name])), value):
+        if not np.array_equal(np.array(floats(found[name], str(members.get("numbers", "{}")))), value):
             raise TableauError(
                 f"{name} that is not {name}{EXACT}",
                 where=where,

@@ -61,7 +61,7 @@ def _python(x: Expression, tight: int) -> str:
         level = 0 if additive else 1
         text = _python(x.operands[0], 0 if additive else 1)
         for operator, operand in zip(x.operators, x.operands[1:], strict=True):
-            after = _python(operand, 1 if operator == "-" else 2 if operator == "/" else level)
+            after = _python(operand, 2 if not additive else 1 if operator == "-" else 0)
             text += f" {operator} {after}" if additive else f"{operator}{after}"
         if not additive and re.fullmatch(r"-?\d+", text.split("/")[0]) and x.operators[0] == "/":
             text = f"Integer({text.split('/')[0]})" + text[len(text.split("/")[0]) :]
@@ -120,11 +120,16 @@ def _latex(x: Expression, tight: int) -> str:
         level, text = 1, _latex(x.operands[0], 1)
         for operator, operand in zip(x.operators, x.operands[1:], strict=True):
             text = (
-                rf"{text} \cdot {_latex(operand, 1)}"
+                rf"{text} \cdot {_latex(operand, 2 if _ends_in_a_factor(operand) else 1)}"
                 if operator == "*"
                 else rf"\frac{{{text}}}{{{_latex(operand, 0)}}}"
             )
     return f"({text})" if level < tight else text
+
+
+def _ends_in_a_factor(x: Expression) -> bool:
+    """Whether x prints as a product, not as one fraction: factors are not regrouped, as balls would tell."""
+    return isinstance(x, Chain) and x.operators[-1] == "*"
 
 
 def from_latex(text: str, where: str = "") -> str:

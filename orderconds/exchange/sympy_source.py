@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import re
+from fractions import Fraction
 from typing import Any
 
+from flint import fmpq
+
 from orderconds.errors import TableauError
-from orderconds.exchange.arrays import MATRICES, ROWS, TEXTS, Arrays, arrays, coefficient, data_of
+from orderconds.exchange.arrays import MATRICES, ROWS, TEXTS, Arrays, arrays, coefficient, data_of, table
 from orderconds.exchange.nested import nested
 from orderconds.exchange.spelling import from_python, python
+from orderconds.ring.roots import isolate, real_roots
 from orderconds.tableau import Tableau
 from orderconds.tableau.file import from_data
 
-IMPORT = "from sympy import Float, Integer, Matrix, Rational, sqrt"
+IMPORT = "from sympy import CRootOf, Float, Integer, Matrix, Poly, Rational, Symbol, sqrt"
 _TEXT = re.compile(r"^# (\w+): (.*)$", re.MULTILINE)
 _ASSIGNED = re.compile(r"^(\w+)\s*=\s*(?:\w+\()?(\[.*?\])\)?$", re.MULTILINE | re.DOTALL)
 
@@ -25,6 +29,7 @@ def write(data: Any) -> bytes:
     """
     found = arrays(data, "SymPy")
     lines = [f"# {name}: {found[name]}" for name in TEXTS if name in found] + [IMPORT, ""]
+    lines += [f"{name} = {_root(*root)}" for name, root in _roots(found).items()]
     for name, value in found.items():
         if name in MATRICES:
             rows = ",\n    ".join("[" + ", ".join(map(python, row)) + "]" for row in value)
@@ -32,6 +37,25 @@ def write(data: Any) -> bytes:
         elif name in ROWS:
             lines.append(f"{name} = Matrix([[{', '.join(map(python, value))}]])")
     return ("\n".join(lines) + "\n").encode()
+
+
+def _roots(found: Arrays) -> dict[str, tuple[list[str], int]]:
+    """Return name to descending coefficients and place among the real roots, as ``CRootOf`` counts them."""
+    result = {}
+    for name, root in table(found.get("numbers", "{}"), "numbers").items():
+        near, unit = fmpq(*_ratio(root["near"])), fmpq(1, 10 ** len(root["near"].partition(".")[2]))
+        monic, enclosed = isolate([fmpq(*_ratio(x)) for x in root["minpoly"]], near, unit)
+        place = [x.overlaps(enclosed(256)) for x in real_roots(monic, 256)].index(True)
+        result[name] = [str(x) for x in monic.coeffs()][::-1], place
+    return result
+
+
+def _ratio(x: str | int) -> tuple[int, int]:
+    return Fraction(x).as_integer_ratio()
+
+
+def _root(coefficients: list[str], place: int) -> str:
+    return f'CRootOf(Poly([{", ".join(map(python, coefficients))}], Symbol("t")), {place})'
 
 
 def read(content: bytes, where: str) -> dict[str, Any]:
@@ -72,14 +96,18 @@ def to_sympy(tableau: Tableau) -> dict[str, Any]:
     from orderconds.exchange import convert
 
     found = arrays(convert(tableau), "SymPy")
+    t = sympy.Symbol("t")
+    roots = {
+        name: sympy.CRootOf(sympy.Poly([sympy.Rational(x) for x in coefficients], t), place)
+        for name, (coefficients, place) in _roots(found).items()
+    }
+
+    def number(x: str) -> Any:
+        return sympy.sympify(x.replace("^", "**").replace("~", ""), roots, rational="~" not in x)
+
     exact = {name: value for name, value in found.items() if name in ROWS + MATRICES}
     return {
-        name: sympy.Matrix(
-            [
-                [sympy.sympify(x.replace("^", "**"), rational="~" not in x) for x in row]
-                for row in _rows(value)
-            ]
-        )
+        name: sympy.Matrix([[number(x) for x in row] for row in _rows(value)])
         for name, value in exact.items()
     }
 

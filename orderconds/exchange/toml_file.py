@@ -11,7 +11,7 @@ from orderconds.tableau.file import from_data
 
 
 def write(data: Any) -> bytes:
-    """Return TOML text; decimals with a proof keep their digits and lose the proof, which JSON keeps.
+    """Return TOML text.
 
     >>> write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode().splitlines()[-1]
     'b = ["1"]'

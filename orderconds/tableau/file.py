@@ -30,7 +30,7 @@ from orderconds.tableau.formats import (
 )
 from orderconds.tableau.grammar import Chain, Constant, Expression, parse
 from orderconds.tableau.properties import PROPERTIES
-from orderconds.tableau.record import Claims, OrderClaim, Tableau
+from orderconds.tableau.record import Claims, File, OrderClaim, Tableau
 from orderconds.tableau.unknowns import Proof, Spelled
 
 MAX_BYTES = 1_000_000
@@ -125,6 +125,7 @@ def from_data(data: Mapping[str, Any], where: str = "<data>", path: str | None =
     except TableauError as problem:  # which names the tableau and the key, not the file
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
+    claims, spelled = _claims(entry, where), Spelled(expressions, numbers, where, entry.build)
     return Tableau(
         name=entry.name,
         family=entry.family,
@@ -132,10 +133,11 @@ def from_data(data: Mapping[str, Any], where: str = "<data>", path: str | None =
         method=method,
         source=entry.source,
         bibtex=entry.bibtex,
-        claims=_claims(entry, where),
+        claims=claims,
         embedded=embedded,
         path=path,
-        proof=_proof(entry, Spelled(expressions, numbers, where, entry.build)),
+        proof=_proof(entry, spelled),
+        file=File(data, spelled, method, embedded, claims),
     )
 
 

@@ -327,15 +327,15 @@ def _identically_zero(where: str, expected: str) -> TableauError:
 def _low_storage(A: Row, B: Row, ring: Ring) -> CommutatorFree:
     """Expand a 2N scheme: stage i + 1 is one exponential, of B_i K_i, on stage i.
 
-    K_i = sum_{j <= i} A_{j+1} ... A_i F_j.
+    K_i = F_i + sum_{j < i} A_{j+1} ... A_i F_j; ``register`` is the sum, F_i is not multiplied by one.
     """
     s = len(B)
-    register: list[Element] = [ring.zero] * s
+    register: list[Element] = []
     products = [Stage(None, ())]
     for i in range(s):
-        register = [A[i] * x for x in register]
-        register[i] = ring.one
-        products.append(Stage(i, (tuple(B[i] * x for x in register),)))
+        register = [*(A[i] * x for x in register), A[i]] if i else []
+        row = (*(B[i] * x for x in register), B[i], *([ring.zero] * (s - i - 1)))
+        products.append(Stage(i, (row,)))
     return CommutatorFree(tuple(products[:-1]), products[-1])
 
 

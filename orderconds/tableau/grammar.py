@@ -16,7 +16,7 @@ bounded here, the size of intermediate values in :mod:`orderconds.tableau.evalua
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -69,6 +69,7 @@ class Power:
 
 
 Expression = Constant | Name | Chain | Power
+ZERO = Constant(Fraction(0))
 
 
 def parse(text: str, where: str = "") -> Expression:
@@ -82,6 +83,72 @@ def parse(text: str, where: str = "") -> Expression:
     Power(base=Name(name='x'), exponent=Fraction(1, 2))
     """
     return _Parser(text, where).parse()
+
+
+def spell(x: Expression, limit: int | None = None) -> str:
+    """Return text of the same value, which parses to x where x was parsed; cut anywhere beyond ``limit``.
+
+    >>> [spell(parse(text)) for text in ("-(1 - sqrt(2))*3/4", "2^(-1/3)", "0.50~", "1 - (2 - 3)")]
+    ['(-(1 - sqrt(2)))*3/4', '2^(-1/3)', '0.50~', '1 - (2 - 3)']
+    """
+    pieces, length = [], 0
+    for piece in _pieces(x, 0):
+        pieces.append(piece)
+        length += len(piece)
+        if limit is not None and length > limit:
+            break
+    return "".join(pieces)
+
+
+SUM, SIGN, PRODUCT, POWER, ATOM = range(5)
+
+
+def _level(x: Expression) -> int:
+    """Return how tightly an expression binds."""
+    if isinstance(x, Chain):
+        minus = x.operators == ("-",) and x.operands[0] == ZERO
+        return SIGN if minus else SUM if x.operators[0] in "+-" else PRODUCT
+    if isinstance(x, Constant) and x.value < 0:
+        return SIGN
+    return POWER if isinstance(x, Power) and x.exponent != Fraction(1, 2) else ATOM
+
+
+def _pieces(x: Expression, least: int) -> Iterator[str]:
+    """Yield the text of x, in parentheses where it binds less tightly than ``least``."""
+    level = _level(x)
+    if level < least:
+        yield from ("(", *_pieces(x, SUM), ")")
+    elif isinstance(x, Constant):
+        yield _constant(x)
+    elif isinstance(x, Name):
+        yield x.name
+    elif isinstance(x, Power) and level == ATOM:
+        yield from ("sqrt(", *_pieces(x.base, SUM), ")")
+    elif isinstance(x, Power):
+        yield from _pieces(x.base, ATOM)
+        yield f"^({x.exponent})" if x.exponent.denominator > 1 else f"^{x.exponent}"
+    elif level == SIGN:
+        yield "-"
+        yield from _pieces(x.operands[1], POWER)
+    else:
+        first, *others = x.operands
+        yield from _pieces(first, SUM if level == SUM else PRODUCT)
+        for operator, operand in zip(x.operators, others, strict=True):
+            yield operator if level == PRODUCT else f" {operator} "
+            yield from _pieces(operand, PRODUCT if level == SUM else POWER)
+
+
+def _constant(x: Constant) -> str:
+    """Spell a constant: a fraction is a decimal where it is one, as the grammar has it."""
+    unit = x.unit or next(
+        (Fraction(1, 10**n) for n in range(MAX_TEXT) if 10**n % x.value.denominator == 0), None
+    )
+    if unit is None:
+        return f"({x.value})"
+    places = len(str(unit.denominator)) - 1
+    figures = str(abs(int(x.value / unit))).rjust(places + 1, "0")
+    whole, part = figures[: len(figures) - places], figures[len(figures) - places :]
+    return f"{'-' if x.value < 0 else ''}{whole}{'.' if part else ''}{part}{'~' if x.unit else ''}"
 
 
 class _Parser:
@@ -156,7 +223,7 @@ class _Parser:
         while sign := self.accept("+", "-"):
             negative ^= sign == "-"
         result = self.power()
-        return Chain(("-",), (Constant(Fraction(0)), result)) if negative else result
+        return Chain(("-",), (ZERO, result)) if negative else result
 
     def power(self) -> Expression:
         base = self.atom()

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from orderconds.errors import TableauError
 from orderconds.ring.protocol import Element, Ring
@@ -18,7 +19,7 @@ from orderconds.tableau.methods import (
     RungeKutta,
 )
 from orderconds.tableau.products import AdjointComposition, Method
-from orderconds.tableau.unknowns import Proof
+from orderconds.tableau.unknowns import Proof, Spelled
 
 
 @dataclass(frozen=True)
@@ -51,6 +52,17 @@ class Claims:
 
 
 @dataclass(frozen=True)
+class File:
+    """What a file spells: its keys and values, and the method, embedded row and claims that were read."""
+
+    data: Mapping[str, Any]
+    spelled: Spelled
+    method: Method
+    embedded: LowerOrder | None
+    claims: Claims
+
+
+@dataclass(frozen=True)
 class Tableau:
     """A named method over ``ring``; ``family`` is its file's format: ``rk``, ``prk``, ``cf`` ...."""
 
@@ -65,6 +77,8 @@ class Tableau:
     path: str | None = None
     proof: Proof | None = field(default=None, compare=False)
     """Which equations the rounded decimals solve, where the file says so."""
+    file: File | None = field(default=None, compare=False, repr=False)
+    """How the coefficients are spelled, as long as they are those of the file."""
 
     @staticmethod
     def load(path: str | Path) -> Tableau:
@@ -91,7 +105,9 @@ class Tableau:
 
             convert = embedding(self.ring, ring)
         embedded = None if self.embedded is None else self.embedded.map(convert)
-        return replace(self, ring=ring, method=self.method.map(convert), embedded=embedded, proof=None)
+        return replace(
+            self, ring=ring, method=self.method.map(convert), embedded=embedded, proof=None, file=None
+        )
 
     def lower(self) -> Tableau | None:
         """Return the method that the embedded row makes of the same stages, None where there is none.
@@ -102,9 +118,11 @@ class Tableau:
         """
         method, embedded = self.method, self.embedded
         if isinstance(embedded, Embedded) and isinstance(method, RungeKutta):
-            return replace(self, method=replace(method, b=embedded.b), embedded=None, proof=None)
+            return replace(self, method=replace(method, b=embedded.b), embedded=None, proof=None, file=None)
         if isinstance(embedded, EmbeddedUpdate) and isinstance(method, CommutatorFree):
-            return replace(self, method=replace(method, update=embedded.update), embedded=None, proof=None)
+            return replace(
+                self, method=replace(method, update=embedded.update), embedded=None, proof=None, file=None
+            )
         return None
 
     def read_as(self, formats: tuple[str, ...]) -> Method | None:

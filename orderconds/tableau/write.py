@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from copy import deepcopy
+from typing import Any
 
 from orderconds.ring.protocol import Element
 from orderconds.tableau.brackets import Combination, spell
@@ -14,146 +15,159 @@ from orderconds.tableau.methods import (
     EmbeddedUpdate,
     PartitionedRungeKutta,
     Row,
+    RungeKutta,
     Stage,
 )
 from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
 from orderconds.tableau.record import Claims, Tableau
+from orderconds.tableau.toml_text import toml_text
 
-WIDTH = 110
-"""Matrices on longer lines are broken by rows."""
+Data = dict[str, Any]
+Spell = Callable[[Element], str]
 
 
 def dumps(tableau: Tableau) -> str:
     """Return the tableau as TOML text.
 
-    Exact coefficients are written in full, balls with the digits they support (``~``, one unit in the last).
+    What was read from a file is written as it was spelled there, with its names, decimals and proof. Other
+    coefficients are written in full, balls with the digits they support (``~``, one unit in the last).
 
     >>> from orderconds.tableau import Tableau
-    >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["1/2"]]\\nb = ["1"]\\n'
+    >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\n[numbers]\\na = "0.50~"\\n'
     >>> dumps(Tableau.loads(text)) == text
     True
     """
-    lines = [f"name = {_quoted(tableau.name)}", f'family = "{tableau.family}"']
-    method = tableau.method
-    if isinstance(method, Composition):
-        lines += [f'base = "{method.base}"', f"gamma = {_full(method.gamma, tableau)}"]
-    elif isinstance(method, AdjointComposition | Splitting | Magnus):
-        lines += _product(method, tableau)
-    elif not isinstance(method, CommutatorFree):
-        lines += [_matrix("A", method.A, tableau), f"b = {_full(method.b, tableau)}"]
+    return toml_text(as_data(tableau))
+
+
+def as_data(tableau: Tableau) -> Data:
+    """Return the keys and values of the tableau's file; no part of the tableau is left out.
+
+    >>> from orderconds.tableau import Tableau, find
+    >>> as_data(Tableau.load(find("cg4")))["b"]
+    ['w', '0', '1/2 - w', '1/2 - w', 'w']
+    """
+    file = tableau.file
+    if file is None or file.method is not tableau.method or file.embedded is not tableau.embedded:
+        return written_out(tableau)
+    data = deepcopy(dict(file.data)) | {"name": tableau.name}
+    for key in ("source", "bibtex"):
+        if getattr(tableau, key) != data.get(key, ""):
+            data[key] = getattr(tableau, key)
+    if file.claims != tableau.claims:
+        data.pop("claims", None)
+        data |= _claims(tableau.claims)
+    return data
+
+
+def written_out(tableau: Tableau, *, name_radicals: bool = True) -> Data:
+    """Return the keys and values of a file with every coefficient spelled in full, without names.
+
+    Named are roots that have no other spelling and, with ``name_radicals``, square roots inside others.
+
+    >>> from orderconds.tableau import Tableau
+    >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\nnumbers = { a = "1/2" }\\n'
+    >>> written_out(Tableau.loads(text))
+    {'name': 'm', 'family': 'rk', 'A': [['1/2']], 'b': ['1']}
+    """
+    radicals = _Radicals(tableau.ring) if name_radicals else None
+    text = radicals.spell if radicals else tableau.ring.text
+    data: Data = {"name": tableau.name, "family": tableau.family, **_coefficients(tableau, text)}
+    data |= {key: x for key in ("source", "bibtex") if (x := getattr(tableau, key))}
+    numbers = (radicals.numbers if radicals else {}) | _named_roots(tableau)
+    return data | ({"numbers": numbers} if numbers else {}) | _claims(tableau.claims)
+
+
+def _coefficients(tableau: Tableau, text: Spell) -> Data:
+    method, embedded = tableau.method, tableau.embedded
+
+    def row(x: Row) -> list[str]:
+        """Spell a row without the zeros at its end, which the format supplies."""
+        kept = list(x)
+        while kept and tableau.ring.is_zero(kept[-1]) is True:
+            kept.pop()
+        return [text(x) for x in kept]
+
+    def product(stage: Stage) -> Data:
+        start = {} if stage.start is None else {"from": stage.start + 1}
+        return start | ({"exp": [row(x) for x in stage.exponentials]} if stage.exponentials else {})
+
+    data: Data = {}
+    if isinstance(method, RungeKutta | PartitionedRungeKutta):
+        data |= {"A": [row(x) for x in method.A], "b": [text(x) for x in method.b]}
     if isinstance(method, PartitionedRungeKutta):
-        lines += [_matrix("A_hat", method.A_hat, tableau), f"b_hat = {_full(method.b_hat, tableau)}"]
-    if isinstance(tableau.embedded, Embedded):
-        weights = _row(tableau.embedded.b, tableau)
-        lines.append(f"embedded = {{ b = {weights}, order = {tableau.embedded.order} }}")
-    lines += [f"{key} = {_quoted(x)}" for key in ("source", "bibtex") if (x := getattr(tableau, key))]
-    lines = _named_radicals(lines, tableau)
-    lines += _named_roots(tableau)
+        data |= {"A_hat": [row(x) for x in method.A_hat], "b_hat": [text(x) for x in method.b_hat]}
     if isinstance(method, CommutatorFree):
-        for stage in method.stages:
-            lines += ["[[stage]]", *_stage(stage, tableau)]
-        lines += ["[update]", *_stage(method.update, tableau)]
-    if isinstance(tableau.embedded, EmbeddedUpdate):
-        lines += ["[embedded]", f"order = {tableau.embedded.order}"]
-        lines += _stage(tableau.embedded.update, tableau)
-    return "\n".join(lines + _claims(tableau.claims)) + "\n"
+        data |= {"stage": [product(stage) for stage in method.stages], "update": product(method.update)}
+    if isinstance(method, Composition):
+        data |= {"base": method.base, "gamma": [text(x) for x in method.gamma]}
+    if isinstance(method, AdjointComposition | Splitting | Magnus):
+        data |= _product(method, text)
+    if isinstance(embedded, Embedded):
+        data["embedded"] = {"b": row(embedded.b), "order": embedded.order}
+    if isinstance(embedded, EmbeddedUpdate):
+        data["embedded"] = {"order": embedded.order, **product(embedded.update)}
+    return data
 
 
-def _product(method: AdjointComposition | Splitting | Magnus, tableau: Tableau) -> list[str]:
+def _product(method: AdjointComposition | Splitting | Magnus, text: Spell) -> Data:
     if isinstance(method, AdjointComposition):
-        rows = [("alpha", method.alpha), ("beta", method.beta)]
-        return [f'base = "{method.base}"', *(f"{key} = {_full(row, tableau)}" for key, row in rows)]
+        rows = {key: [text(x) for x in getattr(method, key)] for key in ("alpha", "beta")}
+        return {"base": method.base, **rows}
     if isinstance(method, Splitting):
-        parts = ", ".join(map(_quoted, method.parts))
-        steps = ", ".join(_full((x,), tableau, method.parts[part]) for part, x in method.steps)
-        kinetic = [] if method.rkn is None else [f"rkn = {_quoted(method.parts[method.rkn])}"]
-        return [f"parts = [{parts}]", *kinetic, f"step = [{steps}]"]
-    lines = [f"c = {_full(method.c, tableau)}"]
+        kinetic = {} if method.rkn is None else {"rkn": method.parts[method.rkn]}
+        steps = [[method.parts[part], text(x)] for part, x in method.steps]
+        return {"parts": list(method.parts), **kinetic, "step": steps}
+
+    def combination(x: Combination) -> Data:
+        return {spell(term): text(value) for term, value in x}
+
+    data: Data = {"c": [text(x) for x in method.c]}
     if method.transform != "exp":
-        lines.append(f'map = "{method.transform}"')
+        data["map"] = method.transform
     if method.elements:
-        named = ", ".join(f"{name} = {_combination(x, tableau)}" for name, x in method.elements)
-        lines.append(f"elements = {{ {named} }}")
-    exponents = ", ".join(_combination(x, tableau) for x in method.exponents)
-    return [*lines, f"exponents = [{exponents}]"]
+        data["elements"] = {name: combination(x) for name, x in method.elements}
+    return data | {"exponents": [combination(x) for x in method.exponents]}
 
 
-def _combination(combination: Combination, tableau: Tableau) -> str:
-    terms = (f"{_quoted(spell(term))} = {_quoted(tableau.ring.text(x))}" for term, x in combination)
-    return f"{{ {', '.join(terms)} }}" if combination else "{}"
+class _Radicals:
+    """Names r1, r2, ... for square roots where some stand inside others."""
 
+    def __init__(self, ring: Any) -> None:
+        self.text: Spell = ring.text
+        generators = getattr(ring, "generators", ())
+        nested = any("sqrt" in g.spelling for g in generators) and all(g.index == 2 for g in generators)
+        self.names = {g.power(1): f"r{k + 1}" for k, g in enumerate(generators)} if nested else {}
+        inside = list(self.names)
+        self.numbers = {
+            self.names[x]: f"sqrt({self._named(g.spelling, inside[:k])})"
+            for k, (x, g) in enumerate(zip(inside, generators, strict=False))
+        }
 
-def _quoted(text: str) -> str:
-    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
-    return '"' + "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in escaped) + '"'
-
-
-def _full(row: Sequence[Element], tableau: Tableau, *before: str) -> str:
-    return "[" + ", ".join(map(_quoted, (*before, *map(tableau.ring.text, row)))) + "]"
-
-
-def _row(row: Row, tableau: Tableau) -> str:
-    """Spell a row without the zeros at its end, which the format supplies."""
-    kept = list(row)
-    while kept and tableau.ring.is_zero(kept[-1]) is True:
-        kept.pop()
-    return _full(kept, tableau)
-
-
-def _matrix(key: str, A: Sequence[Row], tableau: Tableau) -> str:
-    """Spell a matrix on one line, or one line a row where that is too long."""
-    rows = [_row(row, tableau) for row in A]
-    line = f"{key} = [{', '.join(rows)}]"
-    if len(line) <= WIDTH:
-        return line
-    return "\n".join([f"{key} = [", *(f"  {row}," for row in rows), "]"])
-
-
-def _named_radicals(lines: list[str], tableau: Tableau) -> list[str]:
-    """Name square roots where some stand inside others: r1, r2, ... in place of their spellings."""
-    generators = getattr(tableau.ring, "generators", ())
-    if not any("sqrt" in g.spelling for g in generators) or any(g.index != 2 for g in generators):
-        return lines
-    names = {g.power(1): f"r{k + 1}" for k, g in enumerate(generators)}
-    inside = list(names)
-
-    def named(text: str, known: Sequence[str]) -> str:
+    def _named(self, text: str, known: Sequence[str]) -> str:
         for spelling in reversed(known):
-            text = text.replace(spelling, names[spelling])
+            text = text.replace(spelling, self.names[spelling])
         return text
 
-    numbers = [
-        f'{names[x]} = "sqrt({named(g.spelling, inside[:k])})"'
-        for k, (x, g) in enumerate(zip(inside, generators, strict=True))
-    ]
-    return [*(named(line, inside) for line in lines), "[numbers]", *numbers]
+    def spell(self, x: Element) -> str:
+        """Spell an element by the names."""
+        return self._named(self.text(x), list(self.names))
 
 
-def _stage(stage: Stage, tableau: Tableau) -> list[str]:
-    lines = [] if stage.start is None else [f"from = {stage.start + 1}"]
-    if stage.exponentials:
-        lines.append(f"exp = [{', '.join(_row(row, tableau) for row in stage.exponentials)}]")
-    return lines
-
-
-def _named_roots(tableau: Tableau) -> list[str]:
+def _named_roots(tableau: Tableau) -> Data:
     """Return the numbers that the field's spelling refers to by name."""
-    lines = []
-    for name, minpoly, near in getattr(tableau.ring, "named_roots", ()):
-        coefficients = ", ".join(_quoted(c) for c in minpoly)
-        lines += [f"[numbers.{name}]", f"minpoly = [{coefficients}]", f'near = "{near}"']
-    return lines
+    return {
+        name: {"minpoly": list(minpoly), "near": near}
+        for name, minpoly, near in getattr(tableau.ring, "named_roots", ())
+    }
 
 
-def _claims(claims: Claims) -> list[str]:
-    spelled: dict[str, str] = {}
+def _claims(claims: Claims) -> Data:
+    found: Data = {}
     for claim in claims.orders:
         if claim.cutoff is None:
-            spelled[claim.family] = str(claim.order)
+            found[claim.family] = claim.order
         else:
-            before = spelled[claim.family][1:-1] + ", " if claim.family in spelled else ""
-            spelled[claim.family] = f"[{before}{{ cutoff = {claim.cutoff}, order = {claim.order} }}]"
-    spelled |= {name: str(value).lower() for name, value in claims.properties.items()}
-    bare = re.compile(r"[A-Za-z0-9_-]+")
-    lines = [f"{k if bare.fullmatch(k) else _quoted(k)} = {value}" for k, value in spelled.items()]
-    return ["[claims]", *lines] if lines else []
+            found.setdefault(claim.family, []).append({"cutoff": claim.cutoff, "order": claim.order})
+    found |= claims.properties
+    return {"claims": found} if found else {}

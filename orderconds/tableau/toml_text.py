@@ -1,0 +1,108 @@
+"""The keys and values of a tableau file as TOML text, laid out as people write them.
+
+Rows stand on one line, matrices too long for one on a line a row, tables under their own headings.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+WIDTH = 110
+"""Lists of lists on longer lines are broken by rows."""
+
+_BARE = re.compile(r"[A-Za-z0-9_-]+", re.ASCII)
+
+
+def toml_text(data: Mapping[str, Any]) -> str:
+    """Return TOML that reads back as ``data``: strings, integers, booleans, lists and tables of them.
+
+    >>> print(toml_text({"b": ["1"], "stage": [{}, {"exp": [["1"]]}], "claims": {"rk": 1}}), end="")
+    b = ["1"]
+    [[stage]]
+    [[stage]]
+    exp = [["1"]]
+    [claims]
+    rk = 1
+    """
+    return "\n".join([*_entries(data), *_headings("", data)]) + "\n"
+
+
+def _entries(table: Mapping[str, Any]) -> Iterator[str]:
+    """Yield the lines of what needs no heading of its own."""
+    for key, value in table.items():
+        if not _headed(key, value):
+            yield _line(key, value)
+
+
+def _headed(key: str, value: Any) -> bool:
+    """Whether a value stands under a heading: tables do, but for a short embedded row."""
+    if _blocks(key, value):
+        return True
+    return isinstance(value, Mapping) and not (key == "embedded" and len(_line(key, value)) <= WIDTH)
+
+
+def _line(key: str, value: Any) -> str:
+    line = f"{_key(key)} = {inline(value)}"
+    if len(line) <= WIDTH or not _rows(value):
+        return line
+    return "\n".join([f"{_key(key)} = [", *(f"  {inline(row)}," for row in value), "]"])
+
+
+def _headings(prefix: str, table: Mapping[str, Any]) -> Iterator[str]:
+    for key, value in table.items():
+        name = f"{prefix}{_key(key)}"
+        if isinstance(value, Mapping) and _headed(key, value):
+            yield f"[{name}]"
+            yield from _entries(value)
+            yield from _headings(f"{name}.", value)
+        elif _blocks(key, value):
+            for entry in value:
+                yield f"[[{name}]]"
+                yield from (_line(inner, x) for inner, x in entry.items())
+
+
+def _blocks(key: str, value: Any) -> bool:
+    """Whether a list of tables stands as ``[[key]]``: the stages of a method do."""
+    return key == "stage" and isinstance(value, list) and all(isinstance(x, Mapping) for x in value)
+
+
+def _rows(value: Any) -> bool:
+    return isinstance(value, list) and any(isinstance(row, list) for row in value)
+
+
+def _key(key: str) -> str:
+    return key if _BARE.fullmatch(key) else quoted(key)
+
+
+def inline(value: Any) -> str:
+    """Return one value on one line.
+
+    >>> inline([["1/2"], {"order": 2}, True])
+    '[["1/2"], { order = 2 }, true]'
+    """
+    if isinstance(value, str):
+        return quoted(value)
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, Mapping):
+        entries = ", ".join(f"{_key(key)} = {inline(x)}" for key, x in value.items())
+        return f"{{ {entries} }}" if entries else "{}"
+    if isinstance(value, Sequence):
+        return f"[{', '.join(map(inline, value))}]"
+    return str(value)
+
+
+def quoted(text: str) -> str:
+    r"""Return a TOML string.
+
+    >>> print(quoted('a "b"'))
+    "a \"b\""
+    """
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
+    return '"' + "".join(map(_character, escaped)) + '"'
+
+
+def _character(c: str) -> str:
+    return c if c.isprintable() else f"\\u{ord(c):04x}" if ord(c) < 0x10000 else f"\\U{ord(c):08x}"
