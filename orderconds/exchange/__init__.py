@@ -2,8 +2,8 @@
 
 Everything passes through the keys of a tableau file (:func:`orderconds.tableau.file.from_data`), so an
 imported tableau is held to the same grammar, and nothing that is read is run as code. What is written
-reads back as exactly the same method, rounded decimals with their digits; TOML and JSON hold all of a file, the
-others no proof (:func:`left_out`). Foreign decimals with 12 significant digits or more are taken as
+reads back as exactly the same method, rounded decimals with their digits; TOML and JSON hold all of a file,
+the others no proof (:func:`left_out`). Foreign decimals with 12 significant digits or more are taken as
 rounded (``~``), shorter ones at their word.
 """
 
