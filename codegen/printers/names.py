@@ -18,7 +18,13 @@ class Names:
 
     def __init__(self, reserved: Collection[str]) -> None:
         self._taken = dict.fromkeys(sorted(reserved), True)
+        self._reserved = len(self._taken)
         self.spelled: dict[str, str] = {}
+
+    @property
+    def count(self) -> int:
+        """How many identifiers were given, by wish or for a name."""
+        return len(self._taken) - self._reserved
 
     def add_all(self, names: Iterable[str]) -> None:
         """Give each name an identifier."""

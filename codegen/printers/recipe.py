@@ -45,8 +45,12 @@ def entry(word: str, sentences: Sequence[str], width: int) -> list[str]:
     return lines
 
 
-def header(recipe: Recipe, layout: Sequence[str], counts: Sequence[str], width: int) -> list[str]:
+def header(
+    recipe: Recipe, layout: Sequence[str], counts: Sequence[str], width: int, stack: str = ""
+) -> list[str]:
     """Return the recipe's lines up to the usage example, none longer than width where words allow it.
+
+    ``stack`` says how much a call takes of it, where that is known.
 
     >>> header(Recipe("Step", (("method", "Lie-Euler"),), (1.0,)), ["m0: momentum"], ["2 mul a step"], 40)
     ['Step', '', 'method:     Lie-Euler', 'state:      m0: momentum', 'operations: 2 mul a step']
@@ -57,6 +61,7 @@ def header(recipe: Recipe, layout: Sequence[str], counts: Sequence[str], width: 
     lines += entry("state", layout, width)
     lines += entry("left out", recipe.left_out, width)
     lines += entry("operations", counts, width)
+    lines += entry("stack", [stack] if stack else [], width)
     lines += entry("made by", [recipe.command] if recipe.command else [], width)
     lines += entry("version", [f"orderconds {recipe.version}"] if recipe.version else [], width)
     return lines

@@ -16,6 +16,7 @@
  * operations: 129 add, 185 mul, 3 div, 2 sqrt, 1 stumpff_12 a step
  *             642 add, 890 mul, 9 div, 6 sqrt, 4 stumpff_12, 5 stumpff_23 a sweep of the equations
  *             of xi1, xi2, xi3, xi4, n1, n2, n3, n4
+ * stack:      at most 5248 bytes, without what the mathematical library takes
  * made by:    orderconds emit dipole --method vcf:cf4 --target c -o .
  * version:    orderconds 0.1.0
  *

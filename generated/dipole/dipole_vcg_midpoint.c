@@ -17,6 +17,7 @@
  * operations: 90 add, 139 mul, 3 div, 2 sqrt, 1 stumpff_12 a step
  *             124 add, 191 mul, 3 div, 2 sqrt, 1 stumpff_12, 2 stumpff_23 a sweep of the equations
  *             of xi1, n1
+ * stack:      at most 2112 bytes, without what the mathematical library takes
  * made by:    orderconds emit dipole --method vcg:midpoint --target c -o .
  * version:    orderconds 0.1.0
  *

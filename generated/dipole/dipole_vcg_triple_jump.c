@@ -22,6 +22,7 @@
  *             of xi2, n2
  *             148 add, 227 mul, 3 div, 2 sqrt, 1 stumpff_12, 2 stumpff_23 a sweep of the equations
  *             of xi3, n3
+ * stack:      at most 5440 bytes, without what the mathematical library takes
  * made by:    orderconds emit dipole --method vcg:triple_jump --target c -o .
  * version:    orderconds 0.1.0
  *

@@ -15,6 +15,7 @@
  * operations: 54 add, 81 mul, 1 stumpff_1 a step
  *             365 add, 535 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 a sweep of the
  *             equations of v1, v2, m1, m2
+ * stack:      at most 3200 bytes, without what the mathematical library takes
  * made by:    orderconds emit dipole --method 'vrkmk(2):gauss2' --target c -o .
  * version:    orderconds 0.1.0
  *

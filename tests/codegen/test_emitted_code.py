@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import shutil
 import subprocess
 import sys
 from fractions import Fraction
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -341,3 +343,37 @@ def test_a_damaged_file_in_the_cache_is_built_anew(kernels, monkeypatch, tmp_pat
     damaged.unlink()
     damaged.write_bytes(b"no shared object")
     assert load(emission).run([0.4, -0.3, 0.9], 0.0, 1) == [0.4, -0.3, 0.9]
+
+
+def stack_used(files, folder, compiler, level):
+    """Return the bytes that -fstack-usage adds up to along the deepest calls: run, advance and helpers."""
+    folder.mkdir()
+    try:
+        flags = ("-std=c11", level, "-ffp-contract=off", "-fstack-usage", "-c")
+        compile_files(files, folder, folder / "out.o", flags, compiler)
+    except CompileError:
+        pytest.skip(f"{compiler.version} has no -fstack-usage")
+    (found,) = folder.glob("*.su")
+    usage = {}
+    for line in found.read_text().splitlines():
+        where, size, _ = line.split("\t")
+        usage[where.rpartition(":")[2]] = int(size)
+    ends = [size for name, size in usage.items() if name.endswith(("_run", "_step"))]
+    return sum(usage.values()) - sum(ends) + max(ends)
+
+
+@cache
+def deep(scene, method, precision):
+    return emit(scene, method, "c", prefix="deep_", precision=precision).files
+
+
+@pytest.mark.parametrize("level", ["-O0", "-O1", "-O2"])
+@pytest.mark.parametrize(("scene", "method"), [("free_rigid_body", "cf4"), ("dipole", "vcg:triple_jump")])
+@pytest.mark.parametrize("precision", ["double", "single"])
+def test_the_stated_stack_is_enough_and_not_far_too_much(compiler, scene, method, level, precision, tmp_path):
+    files = deep(scene, method, precision)
+    stated = int(re.search(r"stack: +at most (\d+) bytes", files["deep.c"])[1])
+    used = stack_used(files, tmp_path / "built", compiler, level)
+    assert used <= stated
+    if level == "-O0" and precision == "double":
+        assert stated <= 1.5 * used

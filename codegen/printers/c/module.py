@@ -39,7 +39,10 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     found = needed("c", sorted(functions), interface.format)
     variables |= {
         "recipe": [
-            comment(line) for line in header(recipe, layout(kernel), sentences(operations(arrangement)), 96)
+            comment(line)
+            for line in header(
+                recipe, layout(kernel), sentences(operations(arrangement)), 96, stack(names, interface)
+            )
         ],
         "usage": usage(interface, recipe),
         "snippets": found.texts,
@@ -54,6 +57,20 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         f"{interface.module}.{kind}": env.get_template(f"module/module.{kind}.j2").render(variables)
         for kind in ("h", "c")
     }
+
+
+FRAMES = 512
+"""Bytes for what calls leave on the stack besides numbers, and for the frames of helpers."""
+
+
+def stack(names: Names, interface: Interface) -> str:
+    """Say how much of the stack a call takes at most: what holds every number of a step at once.
+
+    That is what compilers take who keep all names apart (-O0); tests hold it against ``-fstack-usage``.
+    """
+    size = {"double": 8, "float": 4}[interface.format.c_type]
+    numbers = -(-size * names.count // 64) * 64
+    return f"at most {numbers + FRAMES} bytes, without what the mathematical library takes"
 
 
 def own_names(interface: Interface) -> frozenset[str]:
