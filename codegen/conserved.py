@@ -28,11 +28,25 @@ OPERATIONS = frozenset({"energy", "differential", "secant", "bivector"})
 class Conservative(Protocol):
     """The parts of a scene that are read here."""
 
-    group: Any
-    action: Any
-    roots: tuple[Expr, ...]
-    hamiltonian: Expr | None
-    invariants: Mapping[str, Expr]
+    @property
+    def group(self) -> Any:
+        """The group."""
+
+    @property
+    def action(self) -> Any:
+        """Its action."""
+
+    @property
+    def roots(self) -> tuple[Expr, ...]:
+        """The components of f."""
+
+    @property
+    def hamiltonian(self) -> Expr | None:
+        """H, where there is one."""
+
+    @property
+    def invariants(self) -> Mapping[str, Expr]:
+        """The declared invariants."""
 
     @property
     def symbols(self) -> tuple[str, ...]:
@@ -49,10 +63,15 @@ def energy_of(scene: Conservative) -> Expr | None:
 
 def apply(scene: Conservative, d: Domain, name: str, args: tuple[Any, ...]) -> Any:
     """Return the value of one of :data:`OPERATIONS`; a scene without an energy is a KeyError."""
-    if name == "secant":
-        return secant(d, *args)
-    operation = {"energy": _energy, "differential": differential, "bivector": bivector}[name]
-    return operation(scene, d, *args)
+    match name:
+        case "energy":
+            return _energy(scene, d, *args)
+        case "differential":
+            return differential(scene, d, *args)
+        case "bivector":
+            return bivector(scene, d, *args)
+        case _:
+            return secant(d, *args)
 
 
 def _root(scene: Conservative) -> Expr:

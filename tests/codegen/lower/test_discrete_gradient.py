@@ -62,7 +62,7 @@ def exponential(context, x):
 
 
 def printed_step(context, q, h):
-    """(2.31) with the point exp(eta/2) q, omega frozen there, by the momenta in space and not by derivatives."""
+    """(2.31) with the point exp(eta/2) q, omega frozen there, by momenta in place of derivatives."""
     m0 = tuple(context.mpf(Fraction(x).numerator) / Fraction(x).denominator for x in SPACE)
     eta = tuple(h * a for a in velocity_and_slope(q, m0)[0])
     for _ in range(150):
