@@ -48,6 +48,7 @@ BUILT_IN = {
         "orderconds.commands.refine",
         "Sharpen the decimals of a tableau by Newton's method and prove them.",
     ),
+    "solve": ("orderconds.commands.solve", "Find a method, prove its order, and write its tableau."),
     "table": ("orderconds.commands.table", "The library as a Markdown table; keep it current in a file."),
     "trees": ("orderconds.commands.trees", "Enumerate, draw and explain trees, forests and Lyndon words."),
 }

@@ -14,6 +14,8 @@ makes the others follow is verified exactly, on the file and not on its decimals
 ``low-storage``  a 2N scheme: on a group it has the order that it has on a vector space (see below).
 ``simplifying``  B(p), C(q), D(r) imply order min(p, q + r + 1, 2q + 2) (Butcher 1964; Hairer, Norsett and
                  Wanner, Theorem II.7.4).
+``spelling``     coefficients of the file that are spelled by others make it one of a sub-family, in which
+                 some of the conditions follow from the others (:mod:`orderconds.proof.spelling`).
 
 2N schemes. With y_j, k_j, f_j the values of Y_j, K_j, F(Y_j) on a word or tree, k_j = A_j k_{j-1} + f_j and
 y_{j+1} = y_j + B_j k_j on single trees, D_j = y_j(t) k_j(u) - y_j(u) k_j(t) is not changed by y_j ->
@@ -32,6 +34,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from orderconds import families
+from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError, TableauError
 from orderconds.proof.krawczyk import NotProved
 from orderconds.proof.simplifying import simplifying, simplifying_order
@@ -61,6 +64,8 @@ class Equations:
     facts: tuple[tuple[str, int], ...]
     letters: int | None = None
     """Conditions on words with letters beyond this follow from the others (Gauss nodes)."""
+    kept: tuple[OrderCondition, ...] | None = None
+    """The conditions that do not follow from others, for the reduction ``spelling``."""
 
     def __call__(self, point: Sequence[Element], ring: Any) -> list[Element]:
         """Return left-hand sides less right-hand sides; ``point`` are the unknowns' values in ``ring``."""
@@ -79,6 +84,8 @@ class Equations:
                 where=f"{self.tableau.path or self.tableau.name}: proof",
                 expected=f"a family that reads format {self.tableau.family}",
             )
+        if self.kept is not None:
+            return list(families.residuals(family, read, ring, self.kept))
         step = 2 if self.proof.reduction == "symmetric" else 1
         conditions = [c for n in range(1, self.proof.order + 1, step) for c in family.conditions(n)]
         if self.letters is not None:
@@ -122,7 +129,21 @@ def equations(tableau: Tableau) -> Equations:
         if proof.conditions != "rk" or proof.order > LOW_STORAGE_ORDER:
             raise NotProved(f'reduction: low-storage takes conditions = "rk" up to order {LOW_STORAGE_ORDER}')
         return Equations(tableau, proof, (("rk", proof.order), ("cf", proof.order)))
-    return Equations(tableau, proof, ((families.get(proof.conditions).label(), proof.order),))
+    fact = (families.get(proof.conditions).label(), proof.order)
+    kept = _independent(tableau, proof) if proof.reduction == "spelling" else None
+    return Equations(tableau, proof, (fact,), kept=kept)
+
+
+def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
+    """Return the conditions that do not follow from others for the file's spelling."""
+    from orderconds.proof.spelling import independent_conditions
+
+    family = families.get(proof.conditions)
+
+    def read(method: Any, ring: Any) -> Any:
+        return replace(tableau, ring=ring, method=method).read_as(family.formats) or method
+
+    return independent_conditions(family, proof.spelled, proof.order, read)
 
 
 def _letters(tableau: Tableau, proof: Proof) -> int | None:
@@ -186,12 +207,20 @@ def independent(system: Equations, box: Sequence[Jet], ring: Jets) -> list[int]:
     flat = [i for i, f in enumerate(values) if f.value.contains(0) and all(g.contains(0) for g in f.gradient)]
     if not flat:
         return list(range(len(values)))
+    from flint.utils.flint_exceptions import DomainError
+
     from orderconds.tableau.indeterminates import Indeterminates
 
     R = Indeterminates(system.proof.spelled)
     try:
         exact = system([R.variable(u) for u in system.proof.unknowns], R)
-    except (AttributeError, ArithmeticError, ValueError, TypeError):  # radicals or quotients of unknowns
-        return list(range(len(values)))
+    except (
+        AttributeError,
+        ArithmeticError,
+        DomainError,
+        ValueError,
+        TypeError,
+    ):
+        return list(range(len(values)))  # radicals or quotients of unknowns
     identical = {i for i in flat if R.is_zero(exact[i])}
     return [i for i in range(len(values)) if i not in identical]

@@ -111,12 +111,16 @@ def _newton(
             if not abs(point[j] - start[j]) < arb(TOLERANCE):
                 raise NotProved("Newton's method leaves the decimals: they solve no such equations")
         if all(abs(step[place, 0]).upper() < arb(10) ** -(digits + 5) for place in range(len(free))):
-            return [_decimal(point[j], digits) for j in free]
+            return [decimal_places(point[j], digits) for j in free]
     raise NotProved("Newton's method does not converge from the decimals")
 
 
-def _decimal(x: arb, digits: int) -> str:
-    """Spell a positive number with so many places."""
+def decimal_places(x: arb, digits: int) -> str:
+    """Spell a positive number with so many places.
+
+    >>> decimal_places(arb(2.5), 3)
+    '2.500'
+    """
     low, high = endpoints(x)
     figures = str(int(((low + high) / 2 * fmpq(10) ** digits).round())).rjust(digits + 1, "0")
     return f"{figures[:-digits]}.{figures[-digits:]}"

@@ -56,7 +56,7 @@ class ProofEntry(Struct, forbid_unknown_fields=True):
     conditions: str
     order: Annotated[int, Meta(ge=1, le=20)]
     pins: list[str] = []
-    reduction: Literal["symmetric", "low-storage", "simplifying"] | None = None
+    reduction: Literal["symmetric", "low-storage", "simplifying", "spelling"] | None = None
     assumptions: dict[Literal["B", "C", "D"], Annotated[int, Meta(ge=0, le=40)]] = {}
     printed: dict[str, Coefficient] = {}
 

@@ -1,0 +1,163 @@
+"""``orderconds solve``: find a method of a family, prove its order, and write its tableau."""
+
+from __future__ import annotations
+
+import os
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from orderconds.commands import screen
+from orderconds.errors import InputError
+
+if TYPE_CHECKING:
+    from orderconds.solve.elimination import Infeasible
+    from orderconds.solve.solver import Order, Outcome
+
+
+@click.command(name="solve", short_help="Find a method, prove its order, and write its tableau.")
+@click.argument("family")
+@click.option("--stages", "-s", type=click.IntRange(1, 40), required=True, help="Stages, or steps composed.")
+@click.option("--order", "-p", type=click.IntRange(1, 12), required=True, help="Order to reach.")
+@click.option("--explicit", is_flag=True, help="a_ij = 0 for j >= i.")
+@click.option("--dirk", is_flag=True, help="a_ij = 0 for j > i.")
+@click.option("--symmetric", is_flag=True, help="A step of length -h undoes one of length h.")
+@click.option("--fsal", is_flag=True, help="The last stage is the first of the next step.")
+@click.option("--fix", multiple=True, metavar="a21=1/2", help="A linear equation; may be given often.")
+@click.option("--positive", multiple=True, metavar="NAME", help="A coefficient, or b for all weights.")
+@click.option("--size", metavar="X", help="No coefficient beyond X in size.")
+@click.option(
+    "--exponentials", type=click.IntRange(1, 12), default=2, show_default=True, help="cf, vcf: in the update."
+)
+@click.option(
+    "--inner", type=click.IntRange(1, 12), default=2, show_default=True, help="cf, vcf: in each stage."
+)
+@click.option("--rkn", is_flag=True, help="splitting: the parts are T and V with [V,[V,[V,T]]] = 0.")
+@click.option(
+    "--minimise", type=click.Choice(["error"]), help="Go through all starts for the least principal error."
+)
+@click.option("--starts", type=click.IntRange(1, 10**7), help="Random starts.  [4096; minimising 1024]")
+@click.option("--seed", type=click.IntRange(0, 2**31), default=0, show_default=True)
+@click.option("--processes", type=click.IntRange(1, 256), help="Local processes.  [one a processor]")
+@click.option("--dask", metavar="ADDRESS", help="Let the dask cluster at tcp://host:port work.")
+@click.option("--name", default="found", show_default=True, help="The tableau's name.")
+@click.option("--output", "-o", metavar="FILE", help="Write here instead of stdout.")
+@click.option("--checkpoint", metavar="FILE", help="Keep what is finished.  [FILE.search with -o FILE]")
+@click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
+def command(family: str, output: str | None, as_json: bool, **options: Any) -> int:
+    """Find a method of FAMILY with so many stages and an order, prove it, and write its tableau.
+
+    Exits with 0 if a method was found and proved, 1 if none was, or none exists, 2 for wishes that make no
+    sense. The same seed gives the same file, however many processes there are. What is finished when the
+    search is interrupted is kept in the checkpoint, and the same command goes on from there.
+    """
+    # One thread a process: results then do not depend on how many there are.
+    for library in ("OPENBLAS", "OMP", "MKL"):
+        os.environ[f"{library}_NUM_THREADS"] = "1"
+    from orderconds.solve.solver import solve
+
+    order = _order(family, output, options)
+    try:
+        with screen.working(f"searching {family}") as report:
+            outcome = solve(order, report)
+    except KeyboardInterrupt:
+        kept = f"; what is finished is kept in {order.checkpoint}" if order.checkpoint else ""
+        click.echo(f"orderconds: interrupted{kept}", err=True)
+        return 130
+    if outcome.found is not None and output is not None:
+        from orderconds.solve.search import write_whole
+
+        write_whole(Path(output), outcome.found.text)
+    if as_json:
+        screen.print_json(_record(order, outcome, output))
+    else:
+        _print(order, outcome, output)
+    return 0 if outcome.found is not None else 1
+
+
+def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
+    from orderconds.solve.solver import Order
+    from orderconds.solve.wishes import Wishes
+
+    wishes = Wishes(
+        **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},
+        **{key: options[key] for key in ("fix", "positive", "exponentials", "inner")},
+        size=_size(options["size"]),
+    )
+    path = options["checkpoint"] or (f"{output}.search" if output else None)
+    for given, option in ((output, "--output"), (path, "--checkpoint")):
+        if given is not None and not Path(given).absolute().parent.is_dir():
+            raise InputError(
+                "no such folder", where=f"{option} {given}", expected="a file in a folder that exists"
+            )
+    return Order(
+        family,
+        options["order"],
+        wishes,
+        seed=options["seed"],
+        minimised=options["minimise"] is not None,
+        starts=options["starts"],
+        processes=options["processes"] or os.cpu_count() or 1,
+        cluster=options["dask"],
+        checkpoint=Path(path) if path else None,
+        name=options["name"],
+    )
+
+
+def _size(text: str | None) -> Fraction | None:
+    if text is None:
+        return None
+    try:
+        size = Fraction(text)
+    except (ValueError, ZeroDivisionError):
+        size = Fraction(0)
+    if size <= 0:
+        raise InputError(repr(text), where="--size", expected="a positive number such as 2 or 3/2")
+    return size
+
+
+def _record(order: Order, outcome: Outcome, output: str | None) -> dict[str, Any]:
+    verdict = "found" if outcome.found else "infeasible" if outcome.none else "nothing found"
+    record: dict[str, Any] = {"verdict": verdict, "family": order.family, "order": order.order}
+    record |= {"stages": order.wishes.stages, "seed": order.seed, "command": order.command()}
+    if outcome.none is not None:
+        return {**record, "proof": outcome.none.as_json()}
+    record |= {"tried": outcome.tried, "best_residual": outcome.best}
+    if outcome.found is not None:
+        record |= {
+            "certificate": outcome.found.certificate,
+            "error_norm": outcome.found.error,
+            "file": output,
+            "tableau": outcome.found.text,
+        }
+    return record
+
+
+def _print(order: Order, outcome: Outcome, output: str | None) -> None:
+    if outcome.none is not None:
+        _print_proof(order, outcome.none)
+    elif outcome.found is None:
+        click.echo(
+            f"orderconds: no {order.family} method of order {order.order} with {order.wishes.stages} stages "
+            f"was found; best residual {outcome.best:.3g}",
+            err=True,
+        )
+        for line in outcome.tried:
+            click.echo(f"  tried {line}", err=True)
+    elif output is None:
+        click.echo(outcome.found.text, nl=False)
+    else:
+        error = "" if outcome.found.error is None else f", principal error {outcome.found.error:.6g}"
+        click.echo(f"{output}: {order.family} {order.order}, certificate {outcome.found.certificate}{error}")
+
+
+def _print_proof(order: Order, proof: Infeasible) -> None:
+    click.echo(f"no {order.family} method with {order.wishes.stages} stages has order {order.order}:")
+    for condition, equation, multiplier in zip(
+        proof.conditions, proof.equations, proof.multipliers, strict=True
+    ):
+        click.echo(f"  {condition}")
+        click.echo(f"    ({multiplier}) * ({equation})")
+    click.echo(f"  add up to {proof.reason}")

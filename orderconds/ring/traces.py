@@ -1,0 +1,174 @@
+"""Recorded arithmetic: elements are places in a straight-line program, whatever numbers run through it later.
+
+An engine that is run once over this ring leaves the list of its operations. Equal operations are recorded
+once, operations with constants 0 and 1 not at all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+ADD, MULTIPLY, DIVIDE, CONSTANT, INPUT = range(5)
+"""Operations: x + y, x y, x / y of two places; a rational number; an input by number."""
+
+
+@dataclass(frozen=True)
+class Operation:
+    """One step of a program; ``left`` and ``right`` are places before it, ``value`` a constant or input."""
+
+    kind: int
+    left: int = 0
+    right: int = 0
+    value: Fraction = Fraction(0)
+
+
+class Traces:
+    """The ring of programs in ``width`` inputs; ``operations`` grows while an engine runs over it.
+
+    >>> R = Traces(2)
+    >>> x, y = R.inputs
+    >>> z = (x + y) * (x + y) - 0 * x
+    >>> [operation.kind for operation in R.operations]
+    [4, 4, 0, 1]
+    >>> R.is_zero(z), R.is_zero(R.zero)
+    (False, True)
+    """
+
+    def __init__(self, width: int) -> None:
+        self.name = f"traces({width})"
+        self.operations: list[Operation] = []
+        self._places: dict[Operation, int] = {}
+        self.inputs = tuple(self._record(Operation(INPUT, value=Fraction(i))) for i in range(width))
+        self.zero = Trace(self, -1, Fraction(0))
+        self.one = Trace(self, -1, Fraction(1))
+
+    def _record(self, operation: Operation) -> Trace:
+        place = self._places.get(operation)
+        if place is None:
+            place = self._places[operation] = len(self.operations)
+            self.operations.append(operation)
+        return Trace(self, place)
+
+    def rational(self, p: int, q: int = 1) -> Trace:
+        """Return the constant p/q; it is recorded when a program needs it."""
+        return Trace(self, -1, Fraction(p, q))
+
+    def is_zero(self, x: Trace) -> bool:
+        """Say whether x is the constant zero; nothing is said of special values of the inputs."""
+        return x.constant == 0
+
+    def text(self, x: Trace) -> str:
+        """Return the constant, or the number of the operation."""
+        return str(x.constant) if x.constant is not None else f"%{x.place}"
+
+    def key(self, x: Trace) -> tuple[str]:
+        """Return what tells elements apart."""
+        return (self.text(x),)
+
+    def approximate(self, x: Trace, digits: int = 20) -> str:
+        """Return the text: a program has no value."""
+        return self.text(x)
+
+    def apply(self, kind: int, x: Trace, y: Trace) -> Trace:
+        """Record an operation of two elements that are not both constants."""
+        left, right = x.placed(), y.placed()
+        if kind != DIVIDE and left > right:
+            left, right = right, left
+        return self._record(Operation(kind, left, right))
+
+    def constant(self, value: Fraction) -> int:
+        """Return the place of a recorded constant."""
+        return self._record(Operation(CONSTANT, value=value)).place
+
+
+class Trace:
+    """An element: a place in the program, or a rational number that is not recorded yet."""
+
+    __slots__ = ("constant", "place", "ring")
+
+    def __init__(self, ring: Traces, place: int, constant: Fraction | None = None) -> None:
+        self.ring, self.place, self.constant = ring, place, constant
+
+    def __repr__(self) -> str:
+        return self.ring.text(self)
+
+    def placed(self) -> int:
+        """Return the place, recording a constant."""
+        return self.place if self.constant is None else self.ring.constant(self.constant)
+
+    def _lift(self, x: Any) -> Trace:
+        return x if isinstance(x, Trace) else Trace(self.ring, -1, Fraction(x))  # an int
+
+    def __add__(self, other: Any) -> Trace:
+        y = self._lift(other)
+        if self.constant is not None and y.constant is not None:
+            return Trace(self.ring, -1, self.constant + y.constant)
+        if self.constant == 0:
+            return y
+        return self if y.constant == 0 else self.ring.apply(ADD, self, y)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Trace:
+        return self * -1
+
+    def __sub__(self, other: Any) -> Trace:
+        return self + -self._lift(other)
+
+    def __rsub__(self, other: Any) -> Trace:
+        return (-self).__add__(other)
+
+    def __mul__(self, other: Any) -> Trace:
+        y = self._lift(other)
+        if self.constant is not None and y.constant is not None:
+            return Trace(self.ring, -1, self.constant * y.constant)
+        if self.constant == 0 or y.constant == 0:
+            return self.ring.zero
+        if self.constant == 1:
+            return y
+        return self if y.constant == 1 else self.ring.apply(MULTIPLY, self, y)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Any) -> Trace:
+        y = self._lift(other)
+        if y.constant is not None:
+            return self * (1 / y.constant)
+        return self.ring.zero if self.constant == 0 else self.ring.apply(DIVIDE, self, y)
+
+    def __rtruediv__(self, other: Any) -> Trace:
+        return self._lift(other) / self
+
+    def __pow__(self, n: int) -> Trace:
+        base, n = (self, n) if n >= 0 else (1 / self, -n)
+        result = self.ring.one
+        for _ in range(n):
+            result = result * base
+        return result
+
+
+def evaluate(operations: Sequence[Operation], inputs: Sequence[Any], ring: Any) -> list[Any]:
+    """Return the value of every operation, for inputs in any ring that divides.
+
+    >>> from orderconds.ring import QQ
+    >>> R = Traces(1)
+    >>> y = R.inputs[0] * R.inputs[0] / 3
+    >>> evaluate(R.operations, [QQ.rational(3)], QQ)[y.place]
+    3
+    """
+    found: list[Any] = []
+    for operation in operations:
+        if operation.kind == INPUT:
+            found.append(inputs[int(operation.value)])
+        elif operation.kind == CONSTANT:
+            found.append(ring.rational(operation.value.numerator, operation.value.denominator))
+        elif operation.kind == ADD:
+            found.append(found[operation.left] + found[operation.right])
+        elif operation.kind == MULTIPLY:
+            found.append(found[operation.left] * found[operation.right])
+        else:
+            found.append(found[operation.left] / found[operation.right])
+    return found

@@ -1,0 +1,107 @@
+"""Tableaux with c_i = chat_i = m_i, where m_i is the time at which the update passes stage i.
+
+For variational methods on a group three abscissae belong to a stage: c_i, that of q; chat_i, that of the
+momentum's forces; and m_i, that at which Ad* carries the momentum through the update,
+
+    1 - m_i = (1/b_i) sum_J beta_J^i (y_J/2 + sum_{K > J} y_K),   y_J = sum_j beta_J^j,
+
+for Crouch-Grossman methods m_i = b_1 + ... + b_{i-1} + b_i/2. The conditions of order three contain
+sum_i b_i x_i y_i = 1/3 for every two of them, hence sum_i b_i (c_i - m_i)^2 = 0 and the same for chat:
+where the weights are positive the three are equal, and where they are not it is what solutions do. Given
+the update, rows of A then sum to m_i and its columns, weighted, to b_j (1 - m_j): a transport problem, solved
+along a spanning tree of the entries that are free.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from orderconds.errors import InputError
+
+WHERE = "structure abscissae"
+
+
+def crouch_grossman_times(b: Sequence[str]) -> dict[str, str]:
+    """Return m_1, ..., m_s spelled by the weights.
+
+    >>> crouch_grossman_times(["b1", "b2"])
+    {'m1': '1/2*b1', 'm2': 'b1 + 1/2*b2'}
+    """
+    return {f"m{i + 1}": " + ".join([*b[:i], f"1/2*{b[i]}"]) for i in range(len(b))}
+
+
+def commutator_free_times(update: Sequence[Sequence[str]], b: Sequence[str]) -> dict[str, str]:
+    """Return b_i, y_J and m_i of an update of several exponentials, spelled by its coefficients.
+
+    >>> commutator_free_times([["x"], ["y"]], ["b1"])
+    {'b1': 'x + y', 'y1': 'x', 'y2': 'y', 'm1': '1 - (x*(1/2*y1 + y2) + y*(1/2*y2))/b1'}
+    """
+    found = {b[i]: _sum(column) for i, column in enumerate(zip(*update, strict=True))}
+    totals = [f"y{J + 1}" for J in range(len(update))]
+    found |= {y: _sum(row) for y, row in zip(totals, update, strict=True)}
+    for i, weight in enumerate(b):
+        later = [
+            f"{row[i]}*({' + '.join([f'1/2*{totals[J]}', *totals[J + 1 :]])})"
+            for J, row in enumerate(update)
+            if row[i] != "0"
+        ]
+        found[f"m{i + 1}"] = f"1 - ({' + '.join(later)})/{weight}"
+    return found
+
+
+def _sum(row: Sequence[str]) -> str:
+    return " + ".join(x for x in row if x != "0") or "0"
+
+
+def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, str]) -> dict[str, str]:
+    """Return the entries of A that its row sums m_i and weighted column sums b_j (1 - m_j) determine.
+
+    ``b`` spells the weights; ``fixed`` are entries with a value. Raises
+    :class:`~orderconds.errors.InputError` where the others do not connect all rows and columns.
+
+    >>> transport([["a11", "a12"], ["a21", "a22"]], ["b1", "b2"], {})
+    {'a12': 'm1 - a11', 'a21': '(b1*(1 - m1) - b1*a11)/b2', 'a22': 'm2 - a21'}
+    """
+    s = len(b)
+    entries = [(i, j) for i in range(s) for j in range(s)]
+    spelled = {(i, j): fixed.get(A[i][j], A[i][j]) for i, j in entries}
+    unknown = set(_spanning_tree([e for e in entries if A[e[0]][e[1]] not in fixed], s))
+    cells = {}
+    while unknown:
+        i, j, by_row = _leaf(unknown)
+        unknown.remove((i, j))
+        if by_row:
+            others = [spelled[i, k] for k in range(s) if k != j and spelled[i, k] != "0"]
+            cells[A[i][j]] = " - ".join([f"m{i + 1}", *others]).replace("- -", "+ ")
+        else:
+            others = [f"{b[k]}*{spelled[k, j]}" for k in range(s) if k != i and spelled[k, j] != "0"]
+            total = " - ".join([f"{b[j]}*(1 - m{j + 1})", *others])
+            cells[A[i][j]] = f"({total})/{b[i]}"
+    return cells
+
+
+def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, int]]:
+    """Return entries that connect the s rows and s columns, those of the last row and column preferred."""
+    component = list(range(2 * s))
+    kept = []
+    for i, j in sorted(edges, key=lambda e: (e[0] != s - 1 and e[1] != s - 1, -e[0], -e[1])):
+        row, column = component[i], component[s + j]
+        if row != column:
+            kept.append((i, j))
+            component = [row if x == column else x for x in component]
+    if len(kept) != 2 * s - 1:
+        raise InputError(
+            "the free entries of A do not connect its rows and columns",
+            where=WHERE,
+            expected="more free entries",
+        )
+    return kept
+
+
+def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
+    """Return an entry that is alone in its row, or else in its column."""
+    for alone, by_row in ((0, True), (1, False)):
+        for entry in sorted(unknown):
+            if sum(other[alone] == entry[alone] for other in unknown) == 1:
+                return (*entry, by_row)
+    raise InputError("a circle of entries", where=WHERE, expected="a tree")

@@ -1,0 +1,131 @@
+"""An ansatz: a tableau file whose decimals are what is to be found.
+
+The layout of a family with so many stages, its coefficients named a21, b1, ... and related by constraints, is
+spelled as a file. The same text then runs through every engine: over recorded programs for the search, over
+residues for ranks, over balls for the proof.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from orderconds import families
+from orderconds.errors import InputError
+from orderconds.solve.wishes import Wishes
+from orderconds.tableau import Tableau
+from orderconds.tableau.unknowns import Spelled
+
+
+@dataclass(frozen=True)
+class Ansatz:
+    """Spelled coefficients: ``numbers`` by name, of them ``free`` are unknown, and ``body`` that uses them.
+
+    ``cells`` are the coefficients of the file, by name, as spelled in ``numbers`` or as constants.
+    """
+
+    family: str
+    name: str
+    structure: str
+    body: tuple[str, ...]
+    free: tuple[str, ...]
+    numbers: Mapping[str, str]
+    cells: tuple[str, ...]
+    tail: tuple[str, ...] = ()
+
+    def text(self, values: Mapping[str, str], head: Sequence[str] = (), foot: Sequence[str] = ()) -> str:
+        """Return the file with these spellings for the free coefficients."""
+        spelled = {**{name: values[name] for name in self.free}, **self.numbers}
+        numbers = [f'{name} = "{spelled[name]}"' for name in sorted(spelled, key=_place)]
+        table = ["", "[numbers]", *numbers] if numbers else []
+        return "\n".join([*self.body, *head, *table, *self.tail, *foot]) + "\n"
+
+    def spelled(self) -> Spelled:
+        """Return the parsed file with an unknown for each free coefficient."""
+        places = {name: f"0.{123456789 + 7919 * place}~" for place, name in enumerate(self.free)}
+        foot = ["", "[proof]", f'conditions = "{self.family.partition("(")[0]}"', "order = 1"]
+        proof = Tableau.loads(self.text(places, foot=foot if self.free else ()), self.name).proof
+        if proof is None:
+            raise InputError(
+                "the constraints leave no coefficient free",
+                where="constraints",
+                expected="something to solve for",
+            )
+        return proof.spelled
+
+    def method(self, values: Sequence[Any], ring: Any) -> Any:
+        """Return the method with these elements of a ring for the free coefficients."""
+        spelled = self._spelled
+        known = {u.constant: x for u, x in zip(spelled.decimals(), self._sorted(values), strict=True)}
+        return spelled.method(ring, known)[0]
+
+    def _sorted(self, values: Sequence[Any]) -> list[Any]:
+        """Return the values in the order in which the file names them."""
+        return [x for _, x in sorted(zip(self.free, values, strict=True), key=lambda pair: _place(pair[0]))]
+
+    @property
+    def _spelled(self) -> Spelled:
+        found: Spelled | None = self.__dict__.get("_parsed")
+        if found is None:
+            found = self.spelled()
+            object.__setattr__(self, "_parsed", found)
+        return found
+
+    def coefficients(self, values: Sequence[Any], ring: Any) -> list[Any]:
+        """Return every coefficient that is no constant, in the order of ``cells``."""
+        spelled = self._spelled
+        known = {u.constant: x for u, x in zip(spelled.decimals(), self._sorted(values), strict=True)}
+        return [spelled.number(name, ring, known) for name in self.cells]
+
+
+def _place(name: str) -> tuple[Any, ...]:
+    """Sort names by their letters, then by their indices as numbers."""
+    letters = name.rstrip("0123456789_")
+    return (letters != "m", letters != "b", letters, [int(x) for x in name[len(letters) :].split("_") if x])
+
+
+def ansatz(family: str, wishes: Wishes, structure: str = "full", name: str = "found") -> Ansatz:
+    """Return the ansatz of a family, by its label, with these wishes.
+
+    Raises :class:`~orderconds.errors.InputError` for wishes that contradict each other or that the family
+    cannot meet.
+
+    >>> found = ansatz("rk", Wishes(stages=2, explicit=True, fix=("a21=1/2",)))
+    >>> found.free, found.body[2]
+    (('b1', 'b2'), 'A = [[], ["1/2"]]')
+    """
+    from orderconds.solve.layouts import LAYOUTS
+
+    layout = LAYOUTS.get(families.get(family).name)
+    if layout is None:
+        raise InputError(
+            f"no search in family {family!r}", where="solve", expected=f"one of {', '.join(LAYOUTS)}"
+        )
+    if wishes.stages < 1:
+        raise InputError(f"{wishes.stages} stages", where="--stages", expected="at least one")
+    return layout(family, wishes, structure, name)
+
+
+def structures(family: str, wishes: Wishes) -> tuple[str, ...]:
+    """Return the structures in which a search of this family begins, the most promising first.
+
+    >>> structures("vcg", Wishes(stages=3)), structures("cg", Wishes(stages=3))
+    (('abscissae', 'full'), ('full',))
+    """
+    name = families.get(family).name
+    if name == "vcf" and wishes.symmetric:
+        return ("symmetric",)
+    if name in ("vcg", "vcf") and not wishes.explicit:
+        return ("abscissae", "full")
+    return ("symmetric",) if name == "cf" and wishes.symmetric else ("full",)
+
+
+def renamed(found: Ansatz, name: str) -> Ansatz:
+    """Return the same ansatz with another name in its file.
+
+    >>> renamed(ansatz("rk", Wishes(stages=1)), "mine").body[0]
+    'name = "mine"'
+    """
+    body = (f'name = "{name}"', *found.body[1:])
+    return replace(found, name=name, body=body)

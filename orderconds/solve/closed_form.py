@@ -1,0 +1,150 @@
+"""Numbers known to many digits as elements of one number field: relations found by lattice reduction.
+
+A real number near a root of a polynomial with small integer coefficients shows as a short vector of the
+lattice spanned by (e_k, N x^k), with N large (Lenstra, Lenstra and Lovasz 1982). What is found is a guess,
+which whoever asks has to verify in the field.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import isqrt
+
+from flint import arb, fmpq, fmpq_poly, fmpz, fmpz_mat, fmpz_poly
+
+from orderconds.ring.decimals import endpoints
+from orderconds.ring.precision import precision
+from orderconds.ring.roots import isolating, real_roots
+
+MAX_DEGREE = 6
+"""Degree of the fields that are recognised."""
+
+MAX_TEXT = 120
+"""A closed form longer than this is none."""
+
+
+@dataclass(frozen=True)
+class Spelling:
+    """A number spelled for a tableau file; ``root`` defines the number ``r`` that it refers to."""
+
+    text: str
+    root: tuple[str, ...] = ()
+
+
+def spellings(numbers: Mapping[str, arb], bits: int) -> dict[str, Spelling] | None:
+    """Return all of the numbers as elements of one field of degree at most :data:`MAX_DEGREE`, or None.
+
+    ``bits`` is the precision to which the numbers are known.
+
+    >>> with precision(400):
+    ...     root = arb(3).sqrt()
+    ...     found = spellings({"x": root / 6, "y": (1 - root) / 2, "z": arb(1) / 4}, 400)
+    >>> {name: x.text for name, x in found.items()}
+    {'x': '1/6*sqrt(3)', 'y': '1/2 - 1/2*sqrt(3)', 'z': '1/4'}
+    """
+    with precision(bits):
+        polynomials = {}
+        for name, x in numbers.items():
+            found = minimal_polynomial(x, bits)
+            if found is None:
+                return None
+            polynomials[name] = found
+        degree = max((p.degree() for p in polynomials.values()), default=1)
+        if degree == 1:
+            return {name: Spelling(str(_root_of_linear(p))) for name, p in polynomials.items()}
+        first = next(name for name, p in polynomials.items() if p.degree() == degree)
+        if degree == 2:
+            base, called, root = _square_root(polynomials[first])
+        else:
+            base, called, root = _named(numbers[first], polynomials[first])
+        result = {}
+        for name, x in numbers.items():
+            spelled = combination(x, base, degree, bits)
+            if spelled is None or len(text := _spelled(spelled, called)) > MAX_TEXT:
+                return None
+            result[name] = Spelling(text, root)
+        return result
+
+
+def minimal_polynomial(x: arb, bits: int) -> fmpz_poly | None:
+    """Return the irreducible polynomial of least degree with a root at x, or None.
+
+    >>> with precision(300):
+    ...     minimal_polynomial(arb(2).root(3), 300)
+    x^3 + (-2)
+    """
+    for degree in range(1, MAX_DEGREE + 1):
+        relation = _relation([x**k for k in range(degree + 1)], bits)
+        if relation is not None and relation[-1]:
+            polynomial = fmpz_poly(relation)
+            factors = [f for f, _ in polynomial.factor()[1] if f.degree() == degree]
+            return factors[0] if factors else None
+    return None
+
+
+def combination(x: arb, base: arb, degree: int, bits: int) -> list[Fraction] | None:
+    """Return rationals c_k with x = sum_k c_k base^k, k < degree, or None.
+
+    >>> with precision(300):
+    ...     [str(c) for c in combination((1 - arb(5).sqrt()) / 2, arb(5).sqrt(), 2, 300)]
+    ['1/2', '-1/2']
+    """
+    relation = _relation([x, *(base**k for k in range(degree))], bits)
+    if relation is None or not relation[0]:
+        return None
+    return [Fraction(-int(c), int(relation[0])) for c in relation[1:]]
+
+
+def _relation(values: Sequence[arb], bits: int) -> list[int] | None:
+    """Return small integers with sum_k c_k values_k = 0 to the precision, or None."""
+    known = bits - 100
+    scale = fmpz(2) ** known
+    rows = []
+    for k, value in enumerate(values):
+        low, _ = endpoints(value.mid())
+        rows.append([int(k == j) for j in range(len(values))] + [int((low * fmpq(scale)).round())])
+    reduced = fmpz_mat(rows).lll()
+    shortest = [int(reduced[0, k]) for k in range(len(values) + 1)]
+    # By chance a vector is about as long as the determinant's root; a relation is much shorter.
+    longest = max(abs(c) for c in shortest).bit_length()
+    if 2 * longest * (len(values) + 1) > known:
+        return None
+    return shortest[:-1]
+
+
+def _root_of_linear(p: fmpz_poly) -> Fraction:
+    return Fraction(-int(p[0]), int(p[1]))
+
+
+def _square_root(p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
+    """Return sqrt(D), D without square factors, for the field of a quadratic polynomial."""
+    discriminant = int(p[1]) ** 2 - 4 * int(p[0]) * int(p[2])
+    free = 1
+    for prime, power in fmpz(discriminant).factor():
+        free *= int(prime) ** (power % 2)
+    assert isqrt(discriminant // free) ** 2 == discriminant // free
+    return arb(free).sqrt(), f"sqrt({free})", ()
+
+
+def _named(x: arb, p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
+    """Return the root itself under the name r, with what defines it in a file."""
+    monic = fmpq_poly([fmpq(c) for c in p.coeffs()]) / fmpq(p[p.degree()])
+    place = min(
+        range(len(real_roots(monic, 128))), key=lambda k: float(abs(real_roots(monic, 128)[k] - x).mid())
+    )
+    near = isolating(monic, lambda precise: real_roots(monic, precise)[place])
+    coefficients = ", ".join(f'"{c}"' for c in monic.coeffs())
+    return x, "r", ("[numbers.r]", f"minpoly = [{coefficients}]", f'near = "{near}"')
+
+
+def _spelled(coefficients: Sequence[Fraction], base: str) -> str:
+    text = ""
+    for power, c in enumerate(coefficients):
+        if not c:
+            continue
+        factor = "" if power == 0 else base if power == 1 else f"{base}^{power}"
+        size = str(abs(c)) if not factor else factor if abs(c) == 1 else f"{abs(c)}*{factor}"
+        text += ((" - " if c < 0 else " + ") if text else ("-" if c < 0 else "")) + size
+    return text or "0"

@@ -1,0 +1,221 @@
+"""Proofs that a method does not exist: order conditions that contradict each other, by exact elimination.
+
+Conditions in few coefficients are collected, and a Groebner basis of them is computed. If it holds 1 there is
+no method, real or complex; if it holds a polynomial in one coefficient without real roots, as counted by
+Sturm's theorem, there is no real one (zero does not count where the family divides by the coefficient). The
+consequence is then written as a combination of the conditions, which anybody can multiply out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any
+
+from flint import fmpq, fmpq_mat
+
+from orderconds.conditions import OrderCondition
+from orderconds.ring.laurent import LaurentPolynomials
+from orderconds.ring.polynomials import Polynomials
+from orderconds.solve.problem import Problem
+
+MAX_VARIABLES = 3
+"""Conditions in more coefficients than this are not eliminated."""
+
+MAX_DEGREE = 8
+"""Degree of the multipliers in a certificate."""
+
+
+@dataclass(frozen=True)
+class Infeasible:
+    """A contradiction: ``consequence`` = sum of ``multipliers`` times ``equations`` has no solution.
+
+    The equations are left-hand sides less right-hand sides of ``conditions``, cleared of denominators.
+    """
+
+    variables: tuple[str, ...]
+    conditions: tuple[OrderCondition, ...]
+    equations: tuple[str, ...]
+    multipliers: tuple[str, ...]
+    consequence: str
+    real: bool
+
+    @property
+    def reason(self) -> str:
+        """Say why the consequence has no solution."""
+        if not self.real:
+            return f"{self.consequence} = 0 is false"
+        return f"{self.consequence} = 0 has no real root (Sturm)"
+
+    def as_json(self) -> dict[str, Any]:
+        """Return the proof as plain data."""
+        return {
+            "conditions": [{"order": c.order, "tree": c.tree, "expression": str(c)} for c in self.conditions],
+            "equations": list(self.equations),
+            "multipliers": list(self.multipliers),
+            "consequence": self.consequence,
+            "reason": self.reason,
+        }
+
+
+def infeasible(problem: Problem) -> Infeasible | None:
+    """Return a proof that no real method solves the conditions, or None where this finds none.
+
+    >>> from orderconds.solve.wishes import Wishes
+    >>> from orderconds.solve.problem import find_problem
+    >>> print(infeasible(find_problem("vcg", 3, Wishes(stages=2), "full")).reason)
+    3*b2^2 - 3*b2 + 1 = 0 has no real root (Sturm)
+    >>> print(infeasible(find_problem("rk", 3, Wishes(stages=2, explicit=True), "full")).reason)
+    1 = 0 is false
+    """
+    names = problem.ansatz.free
+    ring = LaurentPolynomials(names) if problem.family.needs_nonzero_weights else Polynomials(names)
+    try:
+        values = problem.residuals(ring.generators, ring, _conditions(problem))
+    except (AttributeError, ArithmeticError, TypeError, ValueError):  # quotients by more than monomials
+        return None
+    plain = Polynomials(names)
+    system = [(c, _numerator(x, plain)) for c, x in zip(_conditions(problem), values, strict=True)]
+    for variables, members in _subsystems([x for x in system if not plain.is_zero(x[1])], plain):
+        consequence = _consequence(problem, variables, [x for _, x in members], plain)
+        if consequence is not None:
+            found = _certificate(variables, members, consequence, plain)
+            if found is not None:
+                return found
+    return None
+
+
+def _conditions(problem: Problem) -> tuple[OrderCondition, ...]:
+    return tuple(c for n in range(1, problem.order + 1) for c in problem.family.conditions(n))
+
+
+def _numerator(x: Any, plain: Polynomials) -> Any:
+    """Return a polynomial that vanishes with ``x`` wherever ``x`` is defined."""
+    numerator = getattr(x, "numerator", x)
+    return plain.zero.context().from_dict({tuple(map(int, e)): c for e, c in numerator.terms()})
+
+
+def _support(x: Any) -> frozenset[int]:
+    return frozenset(k for exponents, _ in x.terms() for k, e in enumerate(exponents) if e)
+
+
+def _subsystems(
+    system: Sequence[tuple[OrderCondition, Any]], plain: Polynomials
+) -> Iterator[tuple[tuple[int, ...], list[tuple[OrderCondition, Any]]]]:
+    """Yield sets of few variables with the conditions that hold no others, fewest first."""
+    supports = sorted({_support(x) for _, x in system if len(_support(x)) <= MAX_VARIABLES}, key=sorted)
+    wanted = {*supports, *(x | y for x, y in combinations(supports, 2) if len(x | y) <= MAX_VARIABLES)}
+    for variables in sorted(wanted, key=lambda x: (len(x), sorted(x))):
+        members = [(c, x) for c, x in system if _support(x) <= variables]
+        if len(members) > len(variables) or not variables or len(members) > 1:
+            yield tuple(sorted(variables)), members
+
+
+def _consequence(
+    problem: Problem, variables: Sequence[int], members: Sequence[Any], plain: Polynomials
+) -> Any:
+    """Return a polynomial of the ideal without admissible real roots, or None."""
+    import sympy
+
+    symbols = [sympy.Symbol(plain.names[k]) for k in variables]
+    if not symbols:
+        return plain.one
+    expressions = [_sympy(x, variables, symbols) for x in members]
+    basis = sympy.groebner(expressions, *symbols, order="lex")
+    for polynomial in basis.polys:
+        free = polynomial.free_symbols_in_domain | polynomial.as_expr().free_symbols
+        if not free:
+            return plain.one
+        if len(free) == 1:
+            (symbol,) = free
+            univariate = sympy.Poly(polynomial.as_expr(), symbol)
+            while problem.family.needs_nonzero_weights and symbol.name[0] == "b" and not univariate.eval(0):
+                univariate = sympy.div(univariate, sympy.Poly(symbol, symbol))[0]
+            if univariate.count_roots() == 0:
+                return _flint(sympy.Poly(polynomial.as_expr(), symbol), plain)
+    return None
+
+
+def _sympy(x: Any, variables: Sequence[int], symbols: Sequence[Any]) -> Any:
+    import sympy
+
+    return sum(
+        sympy.Rational(int(c.p), int(c.q))
+        * sympy.prod([s ** int(exponents[k]) for k, s in zip(variables, symbols, strict=True)])
+        for exponents, c in x.terms()
+    )
+
+
+def _flint(polynomial: Any, plain: Polynomials) -> Any:
+    """Return a univariate sympy polynomial, its coefficients whole and without common factor."""
+    place = plain.names.index(polynomial.gen.name)
+    found = plain.zero
+    for (power,), c in polynomial.primitive()[1].clear_denoms(convert=True)[1].terms():
+        found = found + plain.rational(int(c)) * plain.generators[place] ** power
+    return found
+
+
+def _certificate(
+    variables: Sequence[int],
+    members: Sequence[tuple[OrderCondition, Any]],
+    consequence: Any,
+    plain: Polynomials,
+) -> Infeasible | None:
+    """Return multipliers for the consequence, by linear algebra; None where they are too large."""
+    for degree in range(MAX_DEGREE):
+        multipliers = _multipliers(variables, [x for _, x in members], consequence, degree, plain)
+        if multipliers is not None:
+            total = sum((m * x for m, (_, x) in zip(multipliers, members, strict=True)), plain.zero)
+            assert plain.is_zero(total - consequence)
+            used = [(c, x, m) for m, (c, x) in zip(multipliers, members, strict=True) if not plain.is_zero(m)]
+            return Infeasible(
+                variables=tuple(plain.names[k] for k in variables),
+                conditions=tuple(c for c, _, _ in used),
+                equations=tuple(plain.text(x) for _, x, _ in used),
+                multipliers=tuple(plain.text(m) for _, _, m in used),
+                consequence=plain.text(consequence),
+                real=bool(_support(consequence)),
+            )
+    return None
+
+
+def _multipliers(
+    variables: Sequence[int], members: Sequence[Any], consequence: Any, degree: int, plain: Polynomials
+) -> list[Any] | None:
+    """Return polynomials m_k of at most this degree with sum_k m_k f_k = consequence, or None."""
+    monomials = [plain.one]
+    frontier = [plain.one]
+    for _ in range(degree):
+        frontier = list(
+            {
+                str(m * plain.generators[k]): m * plain.generators[k] for m in frontier for k in variables
+            }.values()
+        )
+        monomials += frontier
+    columns = [m * f for f in members for m in monomials]
+    rows: dict[tuple[int, ...], int] = {}
+    for x in (*columns, consequence):
+        for exponents, _ in x.terms():
+            rows.setdefault(tuple(map(int, exponents)), len(rows))
+    matrix = fmpq_mat(len(rows), len(columns) + 1)
+    for j, x in enumerate((*columns, consequence)):
+        for exponents, c in x.terms():
+            matrix[rows[tuple(map(int, exponents))], j] = c
+    reduced, rank = matrix.rref()
+    values = [fmpq(0)] * len(columns)
+    for i in range(rank):
+        pivot = next(j for j in range(len(columns) + 1) if reduced[i, j])
+        if pivot == len(columns):
+            return None
+        values[pivot] = reduced[i, len(columns)]
+    found = []
+    for k in range(len(members)):
+        share = values[k * len(monomials) : (k + 1) * len(monomials)]
+        found.append(
+            sum(
+                (plain.rational(int(c.p), int(c.q)) * m for c, m in zip(share, monomials, strict=True) if c),
+                plain.zero,
+            )
+        )
+    return found

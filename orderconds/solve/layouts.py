@@ -1,0 +1,246 @@
+"""How the coefficients of each kind of tableau are named, constrained and laid out in a file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from orderconds.errors import InputError
+from orderconds.solve.abscissae import WHERE, commutator_free_times, crouch_grossman_times, transport
+from orderconds.solve.ansatz import Ansatz
+from orderconds.solve.linear import Constraint, Elimination, equal, equality, named, spell, sum_to_one, zero
+from orderconds.solve.wishes import Wishes, refuse
+
+
+def _eliminated(names: Sequence[str], wishes: Wishes, constraints: Sequence[Constraint]) -> Elimination:
+    """Return the coefficients after a layout's own constraints and those of ``--fix``."""
+    found = Elimination(tuple(names))
+    fixed = [equality(text) for text in wishes.fix]
+    for constraint in fixed:
+        for name in constraint.form:
+            if name and name not in names:
+                raise InputError(
+                    f"unknown coefficient {name!r} in {constraint.text!r}",
+                    where="--fix",
+                    expected=f"one of {', '.join(names)}",
+                )
+    found.impose([*constraints, *fixed])
+    return found
+
+
+@dataclass(frozen=True)
+class _Cells:
+    """Coefficients after elimination: how each is written in the file, and the numbers behind them."""
+
+    elimination: Elimination
+    extra: Mapping[str, str] | None = None
+
+    def written(self, name: str) -> str:
+        """Return a constant, or the name of the number that holds the coefficient."""
+        form = self.elimination.cell(name)
+        if self.extra and name in self.extra:
+            return name
+        return spell(form) if set(form) <= {""} else name
+
+    def numbers(self, names: Sequence[str]) -> dict[str, str]:
+        """Return the spellings of dependent coefficients that are no constants."""
+        found = {}
+        for name in names:
+            form = self.elimination.cell(name)
+            if name in self.elimination.solved and not set(form) <= {""}:
+                found[name] = spell(form)
+        return {**found, **(self.extra or {})}
+
+    def unknown(self, names: Sequence[str]) -> tuple[str, ...]:
+        """Return the coefficients that are no constants."""
+        return tuple(name for name in names if self.written(name) == name)
+
+
+def _row(cells: _Cells, names: Sequence[str], full: bool = False) -> str:
+    """Spell a row of coefficients; zeros at its end are left out unless it is ``full``."""
+    spelled = [cells.written(name) for name in names]
+    while not full and spelled and spelled[-1] == "0":
+        spelled.pop()
+    return "[" + ", ".join(f'"{x}"' for x in spelled) + "]"
+
+
+def _runge_kutta(family: str, wishes: Wishes, structure: str, name: str) -> Ansatz:
+    refuse(family, wishes, ("rkn",))
+    s = wishes.stages
+    A = [[named("a", i + 1, j + 1) for j in range(s)] for i in range(s)]
+    b = [named("b", i + 1) for i in range(s)]
+    names = [*b, *(x for line in A for x in line)]
+    constraints = []
+    if wishes.explicit or wishes.dirk:
+        why = "--explicit" if wishes.explicit else "--dirk"
+        last = 0 if wishes.explicit else 1
+        constraints += [zero(A[i][j], why) for i in range(s) for j in range(i + last, s)]
+    if wishes.symmetric:
+        constraints += [equal("--symmetric", (1, b[s - 1 - i]), (-1, b[i])) for i in range(s // 2)]
+        constraints += [
+            equal("--symmetric", (1, A[s - 1 - i][s - 1 - j]), (1, A[i][j]), (-1, b[j]))
+            for i in range(s)
+            for j in range(s)
+        ]
+    if wishes.fsal:
+        constraints += [equal("--fsal", (1, A[s - 1][j]), (-1, b[j])) for j in range(s)]
+        constraints += [zero(A[0][j], "--fsal") for j in range(s)]
+    if structure == "abscissae":
+        constraints.append(sum_to_one(b))
+    found = _eliminated(names, wishes, constraints)
+    extra = {}
+    if structure == "abscissae":
+        weights = [_Cells(found).written(x) for x in b]
+        extra = {**crouch_grossman_times(weights), **transport(A, weights, _fixed(A, found))}
+    cells = _Cells(found, extra)
+    free = tuple(x for x in found.free if x not in extra)
+    rows = [_row(cells, line) for line in A]
+    body = (
+        f'name = "{name}"',
+        'family = "rk"',
+        *_matrix(rows),
+        f"b = {_row(cells, b, full=True)}",
+    )
+    return Ansatz(family, name, structure, body, free, cells.numbers(names), cells.unknown(names))
+
+
+def _fixed(A: Sequence[Sequence[str]], found: Elimination) -> dict[str, str]:
+    """Return the entries of A that are constants; InputError where one depends on others."""
+    values = {}
+    for name in (x for line in A for x in line):
+        form = found.cell(name)
+        if set(form) <= {""}:
+            values[name] = spell(form)
+        elif name in found.solved:
+            raise InputError(
+                f"{name} = {spell(form)}", where=WHERE, expected="entries of A that are numbers or free"
+            )
+    return values
+
+
+def _matrix(rows: Sequence[str]) -> list[str]:
+    line = f"A = [{', '.join(rows)}]"
+    return [line] if len(line) <= 110 else ["A = [", *(f"  {x}," for x in rows), "]"]
+
+
+def _commutator_free(family: str, wishes: Wishes, structure: str, name: str) -> Ansatz:
+    from orderconds.solve.paths import full_paths, symmetric_paths
+
+    refuse(family, wishes, ("rkn", "fsal"))
+    make = symmetric_paths if structure == "symmetric" else full_paths
+    stages, update, names, constraints = make(wishes)
+    extra: dict[str, str] = {}
+    if structure == "abscissae":
+        constraints.append(sum_to_one([x for line in update for x in line]))
+    found = _eliminated(names, wishes, constraints)
+    if structure == "abscissae":
+        extra = _abscissae(stages, update, found)
+    cells = _Cells(found, extra)
+    free = tuple(x for x in found.free if x not in extra)
+    free = (*free, *(x for x in extra if extra[x] == x))
+    numbers = {x: text for x, text in cells.numbers(names).items() if text != x}
+    tail = [""]
+    for stage in stages:
+        tail += ["[[stage]]", *_exponentials(stage, cells)]
+    tail += ["[update]", *_exponentials(update, cells)]
+    body = (f'name = "{name}"', 'family = "cf"')
+    return Ansatz(family, name, structure, body, free, numbers, cells.unknown(names), tuple(tail))
+
+
+def _abscissae(
+    stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], found: Elimination
+) -> dict[str, str]:
+    """Return totals a_ij with the right abscissae, and the last exponentials of the stages they determine."""
+    every = range(1, len(stages) + 1)
+    for name in (x for path in stages for line in path for x in line):
+        if name in found.solved:
+            raise InputError(
+                f"{name} = {spell(found.cell(name))}", where=WHERE, expected="no fixed coefficients of stages"
+            )
+    A = [[named("a", i, j) for j in every] for i in every]
+    b = [named("b", i) for i in every]
+    written = [[_Cells(found).written(x) for x in line] for line in update]
+    determined = transport(A, b, {})
+    extra = {**commutator_free_times(written, b)}
+    extra |= {x: determined.get(x, x) for line in A for x in line}
+    for i, path in enumerate(stages):
+        for j, last in enumerate(path[-1]):
+            extra[last] = " - ".join([A[i][j], *(line[j] for line in path[:-1])])
+    return extra
+
+
+def _exponentials(rows: Sequence[Sequence[str]], cells: _Cells) -> list[str]:
+    spelled = [line for names in rows if (line := _row(cells, names)) != "[]"]
+    if not spelled:
+        return []
+    text = f"exp = [{', '.join(spelled)}]"
+    return [text] if len(text) <= 110 else ["exp = [", *(f"  {x}," for x in spelled), "]"]
+
+
+def _composition(family: str, wishes: Wishes, structure: str, name: str) -> Ansatz:
+    refuse(family, wishes, ("rkn", "fsal", "explicit", "dirk"))
+    s = wishes.stages
+    gamma = [named("g", i + 1) for i in range(s)]
+    total = Constraint("the steps sum to 1", {**dict.fromkeys(gamma, Fraction(1)), "": Fraction(-1)})
+    mirrored = [
+        equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
+    ]
+    # The middle step is the one that the sum determines: the outer ones are named before it.
+    order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
+    found = Elimination(tuple(order))
+    found.impose(mirrored)
+    names = [x for x in order if x not in found.solved]
+    found = _eliminated(order, wishes, [*mirrored, total])
+    cells = _Cells(found)
+    body = (
+        f'name = "{name}"',
+        'family = "composition"',
+        'base = "symmetric-2"',
+        f"gamma = {_row(cells, gamma, full=True)}",
+    )
+    return Ansatz(
+        "symmetric_composition", name, structure, body, found.free, cells.numbers(order), cells.unknown(names)
+    )
+
+
+def _splitting(family: str, wishes: Wishes, structure: str, name: str) -> Ansatz:
+    refuse(family, wishes, ("fsal", "explicit", "dirk"))
+    s = wishes.stages
+    a, b = ([named(x, i + 1) for i in range(n)] for x, n in (("a", s + 1), ("b", s)))
+    constraints = []
+    if wishes.symmetric:
+        constraints += [
+            equal("--symmetric", (1, x[len(x) - 1 - i]), (-1, x[i]))
+            for x in (a, b)
+            for i in range(len(x) // 2)
+        ]
+    order = [name for x in (a, b) for name in sorted(x, key=lambda y: -abs(2 * int(y[1:]) - len(x) - 1))]
+    constraints += [
+        Constraint("the steps of a part sum to 1", {**dict.fromkeys(x, Fraction(1)), "": Fraction(-1)})
+        for x in (a, b)
+    ]
+    found = _eliminated(order, wishes, constraints)
+    cells = _Cells(found)
+    steps = [f'["T", "{cells.written(a[0])}"]']
+    for i in range(s):
+        steps += [f'["V", "{cells.written(b[i])}"]', f'["T", "{cells.written(a[i + 1])}"]']
+    body = (
+        f'name = "{name}"',
+        'family = "splitting"',
+        'parts = ["T", "V"]',
+        *(['rkn = "V"'] if wishes.rkn else []),
+        "step = [",
+        *(f"  {x}," for x in steps),
+        "]",
+    )
+    label = "rkn" if wishes.rkn else family
+    return Ansatz(label, name, structure, body, found.free, cells.numbers(order), cells.unknown(order))
+
+
+LAYOUTS: dict[str, Callable[[str, Wishes, str, str], Ansatz]] = {
+    **dict.fromkeys(("rk", "cg", "rkmk", "vcg", "vrkmk", "sprk", "symplectic_rk"), _runge_kutta),
+    **dict.fromkeys(("cf", "vcf"), _commutator_free),
+    **dict.fromkeys(("composition", "symmetric_composition"), _composition),
+    **dict.fromkeys(("splitting", "rkn"), _splitting),
+}

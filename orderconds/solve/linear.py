@@ -1,0 +1,185 @@
+"""Linear constraints on the coefficients of a tableau, eliminated exactly one after the other.
+
+A constraint that the ones before it rule out is refused by name; what remains are free coefficients, and the
+others as affine functions of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from orderconds.errors import InputError, TableauError
+from orderconds.tableau.grammar import Chain, Constant, Expression, Name, parse
+
+Affine = Mapping[str, Fraction]
+"""Coefficients by name; the constant has the empty name."""
+
+
+@dataclass(frozen=True)
+class Constraint:
+    """``form`` = 0; ``text`` says which wish of the user it is."""
+
+    text: str
+    form: Affine
+
+
+@dataclass
+class Elimination:
+    """Coefficients ``names``, later ones expressed by earlier ones as constraints come in.
+
+    >>> found = Elimination(("a", "b", "c"))
+    >>> found.impose([equality("c = a + 1/2"), equality("b = a")])
+    >>> found.free, spell(found.cell("c"))
+    (('a',), '1/2 + a')
+    """
+
+    names: Sequence[str]
+    solved: dict[str, dict[str, Fraction]] = field(default_factory=dict)
+
+    @property
+    def free(self) -> tuple[str, ...]:
+        """The names that no constraint determines, in their order."""
+        return tuple(name for name in self.names if name not in self.solved)
+
+    def cell(self, name: str) -> Affine:
+        """Return a coefficient as an affine function of free ones."""
+        return self.solved.get(name, {name: Fraction(1)})
+
+    def impose(self, constraints: Iterable[Constraint]) -> None:
+        """Add constraints; raises :class:`~orderconds.errors.InputError` for one that cannot hold as well."""
+        rank = {name: place for place, name in enumerate(self.names)}
+        for constraint in constraints:
+            form = self._reduced(constraint.form)
+            unknown = [name for name in form if name]
+            if not unknown:
+                if form:
+                    raise InputError(
+                        f"{constraint.text} contradicts the other constraints",
+                        where="constraints",
+                        expected="constraints that some tableau meets",
+                    )
+                continue
+            pivot = max(unknown, key=rank.__getitem__)
+            scale = -1 / form.pop(pivot)
+            row = {name: scale * x for name, x in form.items()}
+            for name, other in self.solved.items():
+                self.solved[name] = _substituted(other, pivot, row)
+            self.solved[pivot] = row
+
+    def _reduced(self, form: Affine) -> dict[str, Fraction]:
+        found = dict(form)
+        for name in form:
+            if name in self.solved:
+                found = _substituted(found, name, self.solved[name])
+        return {name: x for name, x in found.items() if x}
+
+
+def _substituted(form: Affine, name: str, by: Affine) -> dict[str, Fraction]:
+    found = dict(form)
+    scale = found.pop(name, Fraction(0))
+    for other, x in by.items():
+        found[other] = found.get(other, Fraction(0)) + scale * x
+    return {key: x for key, x in found.items() if x}
+
+
+def equality(text: str, where: str = "--fix") -> Constraint:
+    """Return the constraint that ``text`` spells, ``"a21 = 1/2"`` or ``"b3 = 1 - b1 - b2"``.
+
+    Raises :class:`~orderconds.errors.InputError` for a text that is no linear equation.
+
+    >>> {name: str(x) for name, x in equality("a21 = 1/2 - b1").form.items()}
+    {'a21': '1', '': '-1/2', 'b1': '1'}
+    """
+    left, sign, right = text.partition("=")
+    expected = "a linear equation such as a21=1/2 or b3=1-b1-b2"
+    if not sign:
+        raise InputError(repr(text), where=where, expected=expected)
+    try:
+        sides = [_affine(parse(side.strip(), where)) for side in (left, right)]
+    except TableauError as problem:
+        raise InputError(problem.found, where=where, expected=expected) from None
+    except (TypeError, ZeroDivisionError):
+        raise InputError(f"{text!r} is not linear", where=where, expected=expected) from None
+    form = dict(sides[0])
+    for name, x in sides[1].items():
+        form[name] = form.get(name, Fraction(0)) - x
+    return Constraint(text, {name: x for name, x in form.items() if x})
+
+
+def _affine(x: Expression) -> Affine:
+    if isinstance(x, Constant) and not x.unit:
+        return {"": x.value} if x.value else {}
+    if isinstance(x, Name):
+        return {x.name: Fraction(1)}
+    if not isinstance(x, Chain):
+        raise TypeError("not linear")
+    found = dict(_affine(x.operands[0]))
+    for sign, operand in zip(x.operators, map(_affine, x.operands[1:]), strict=True):
+        if sign in "+-":
+            for name, value in operand.items():
+                found[name] = found.get(name, Fraction(0)) + (value if sign == "+" else -value)
+            continue
+        if set(found) <= {""} and sign == "*":
+            found, operand = dict(operand), found
+        if not set(operand) <= {""}:
+            raise TypeError("not linear")
+        scale = operand.get("", Fraction(0))
+        found = {name: value * scale if sign == "*" else value / scale for name, value in found.items()}
+    return found
+
+
+def zero(name: str, why: str) -> Constraint:
+    """Return the constraint that a coefficient vanishes.
+
+    >>> zero("a11", "--explicit").text
+    '--explicit (a11 = 0)'
+    """
+    return Constraint(f"{why} ({name} = 0)", {name: Fraction(1)})
+
+
+def equal(why: str, *terms: tuple[int, str]) -> Constraint:
+    """Return the constraint that a sum of multiples of coefficients vanishes.
+
+    >>> {name: str(x) for name, x in equal("--symmetric", (1, "b1"), (-1, "b3")).form.items()}
+    {'b1': '1', 'b3': '-1'}
+    """
+    form: dict[str, Fraction] = {}
+    for scale, name in terms:
+        form[name] = form.get(name, Fraction(0)) + scale
+    return Constraint(why, {name: x for name, x in form.items() if x})
+
+
+def sum_to_one(names: Sequence[str]) -> Constraint:
+    """Return the constraint of consistency.
+
+    >>> sum_to_one(["b1"]).form
+    {'b1': Fraction(1, 1), '': Fraction(-1, 1)}
+    """
+    return Constraint("the weights sum to 1", {**dict.fromkeys(names, Fraction(1)), "": Fraction(-1)})
+
+
+def spell(form: Affine) -> str:
+    """Spell an affine function in the grammar of tableau files.
+
+    >>> spell({"": Fraction(1, 2), "b1": Fraction(-1), "b2": Fraction(3, 2)})
+    '1/2 - b1 + 3/2*b2'
+    """
+    text = ""
+    for name in sorted(form, key=lambda key: (key != "", key)):
+        x = form[name]
+        sign = ("-" if x < 0 else "") if not text else (" - " if x < 0 else " + ")
+        size = abs(x)
+        text += sign + (str(size) if not name else name if size == 1 else f"{size}*{name}")
+    return text or "0"
+
+
+def named(letter: str, *indices: int) -> str:
+    """Return the name of a coefficient: indices are joined by _ where one has two digits.
+
+    >>> named("a", 2, 1), named("a", 10, 1)
+    ('a21', 'a10_1')
+    """
+    joint = "" if all(i < 10 for i in indices) and len(indices) < 3 else "_"
+    return letter + joint.join(map(str, indices))

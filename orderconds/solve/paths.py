@@ -1,0 +1,98 @@
+"""The exponentials of commutator-free methods: all free, or arranged so that the method is symmetric.
+
+With s stages and m exponentials in the update, let bar exchange stages j and s + 1 - j. An update that reads
+the same backwards under bar, and stages i and s + 1 - i that leave it at places k and m - k,
+
+    Q_i = exp(X_r) ... exp(X_1) exp(Y_k) ... exp(Y_1) y0,
+    Q_{s+1-i} = exp(-bar X_r) ... exp(-bar X_1) exp(Y_{m-k}) ... exp(Y_1) y0,
+
+make a step of length -h undo one of length h: seen from y1, stage s + 1 - i is reached as stage i is from y0.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import ceil
+
+from orderconds.errors import InputError
+from orderconds.solve.linear import Constraint, equal, named, zero
+from orderconds.solve.wishes import Wishes
+
+Path = list[list[str]]
+Paths = tuple[list[Path], Path, list[str], list[Constraint]]
+"""Stages, update, all names, constraints."""
+
+
+def full_paths(wishes: Wishes) -> Paths:
+    """Return stages and update with every coefficient free; an explicit method's first stage is y0.
+
+    >>> stages, update, names, _ = full_paths(Wishes(stages=2, explicit=True, exponentials=1, inner=1))
+    >>> stages, update
+    ([[], [['a2_1_1', 'a2_1_2']]], [['b1_1', 'b1_2']])
+    """
+    if wishes.symmetric:
+        raise InputError("--symmetric", where="structure full", expected="structure symmetric")
+    every = range(1, wishes.stages + 1)
+    update = [[f"b{J}_{j}" for j in every] for J in range(1, wishes.exponentials + 1)]
+    numbers = range(1, wishes.inner + 1)
+    stages = [
+        [] if wishes.explicit and i == 1 else [[named("a", i, J, j) for j in every] for J in numbers]
+        for i in every
+    ]
+    names = [x for line in update for x in line] + [x for path in stages for line in path for x in line]
+    constraints = []
+    for i, path in enumerate(stages, start=1):
+        for line in path:
+            if wishes.explicit or wishes.dirk:
+                last = i if wishes.dirk else i - 1
+                constraints += [zero(x, "--dirk" if wishes.dirk else "--explicit") for x in line[last:]]
+    return stages, update, names, constraints
+
+
+def symmetric_paths(wishes: Wishes) -> Paths:
+    """Return stages that leave a symmetric update in pairs, with ``inner`` exponentials at most in each.
+
+    >>> stages, update, names, _ = symmetric_paths(Wishes(stages=2))
+    >>> stages[0], update
+    ([['b1_1', 'b1_2'], ['a1_2_1', 'a1_2_2']], [['b1_1', 'b1_2'], ['b2_1', 'b2_2']])
+    """
+    if wishes.explicit:
+        raise InputError(
+            "--explicit with --symmetric", where="constraints", expected="one of them: no symmetric method is"
+        )
+    s, m, inner = wishes.stages, wishes.exponentials, wishes.inner
+    every = range(1, s + 1)
+    update = [[f"b{J}_{j}" for j in every] for J in range(1, m + 1)]
+    names = [x for line in update for x in line]
+    why = "a symmetric update"
+    constraints = [
+        equal(why, (1, update[m - 1 - J][s - 1 - j]), (-1, update[J][j])) for J in range(m) for j in range(s)
+    ]
+    stages: list[Path] = []
+    for i in every:
+        # Stage i leaves the update where about its share of the step has been made.
+        middle = 2 * i == s + 1
+        share = ceil((min(i, s + 1 - i) - Fraction(1, 2)) * m / s)
+        whole = m // 2 if middle else share if 2 * i <= s else m - share
+        path = update[:whole]
+        extra = max(1, inner - (m // 2 if middle else share))
+        if middle and m % 2:
+            half = [named("a", i, whole + 1, j) for j in every]
+            names += half
+            constraints += [
+                equal("half of the middle exponential", (2, x), (-1, y))
+                for x, y in zip(half, update[whole], strict=True)
+            ]
+            path = [*path, half]
+        own = [[named("a", i, len(path) + r, j) for j in every] for r in range(1, extra + 1)]
+        names += [x for line in own for x in line]
+        stages.append([*path, *own])
+        mirror = stages[s - i] if s - i < i else None
+        if mirror is not None:
+            partner = mirror[len(mirror) - extra :]
+            constraints += [
+                equal("a symmetric pair of stages", (1, own[r][s - 1 - j]), (1, partner[r][j]))
+                for r in range(extra)
+                for j in range(s)
+            ]
+    return stages, update, names, constraints

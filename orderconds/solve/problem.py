@@ -1,0 +1,166 @@
+"""The equations of a search: independent conditions of an ansatz as functions of its free coefficients."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Any
+
+import numpy as np
+
+from orderconds import families
+from orderconds.conditions import OrderCondition
+from orderconds.errors import InputError
+from orderconds.families import Family, in_ring
+from orderconds.proof.spelling import independent_conditions
+from orderconds.ring.traces import Trace, Traces
+from orderconds.solve.ansatz import Ansatz, ansatz
+from orderconds.solve.tape import Floats, Tape
+from orderconds.solve.wishes import Wishes
+from orderconds.tableau import RungeKutta
+
+SMALLEST = 0.01
+"""What is asked to be positive is at least this."""
+
+
+@dataclass(frozen=True)
+class Problem:
+    """All that a search needs to know; equal problems of one process share their programs.
+
+    >>> problem = find_problem("rk", 2, Wishes(stages=2, explicit=True), "full")
+    >>> problem.ansatz.free, problem.tape.size
+    (('b1', 'b2', 'a21'), 2)
+    """
+
+    label: str
+    order: int
+    wishes: Wishes
+    structure: str
+
+    @cached_property
+    def ansatz(self) -> Ansatz:
+        """Return the spelled coefficients."""
+        return ansatz(self.label, self.wishes, self.structure)
+
+    @cached_property
+    def family(self) -> Family:
+        """Return the family whose conditions are solved."""
+        return families.get(self.ansatz.family)
+
+    @cached_property
+    def conditions(self) -> tuple[OrderCondition, ...]:
+        """Return the conditions up to the order that are independent for the ansatz."""
+        return independent_conditions(self.family, self.ansatz.spelled(), self.order)
+
+    @cached_property
+    def tape(self) -> Tape:
+        """Return the residuals of the conditions as a program."""
+        return Tape(self.trace(), len(self.ansatz.free))
+
+    def trace(self) -> list[Trace]:
+        """Return the residuals as elements of a ring of traces."""
+        ring = Traces(len(self.ansatz.free))
+        return list(self.residuals(ring.inputs, ring, self.conditions))
+
+    def residuals(self, values: Sequence[Any], ring: Any, conditions: Sequence[OrderCondition]) -> list[Any]:
+        """Return left-hand sides less right-hand sides for free coefficients in any ring."""
+        method = self.ansatz.method(values, ring)
+        return list(families.residuals(self.family, method, ring, conditions))
+
+    @cached_property
+    def error(self) -> Tape:
+        """Return the residuals of the next order as a program; their 2-norm is the principal error."""
+        ring = Traces(len(self.ansatz.free))
+        method = self.ansatz.method(ring.inputs, ring)
+        return Tape(principal_residuals(self.family, method, ring, self.order + 1), len(self.ansatz.free))
+
+    @cached_property
+    def coefficients(self) -> Tape:
+        """Return the coefficients that are no constants, then the weights b_i, as a program."""
+        ring = Traces(len(self.ansatz.free))
+        cells = self.ansatz.coefficients(ring.inputs, ring)
+        weights = _weights(self.ansatz.method(ring.inputs, ring), ring)
+        return Tape([*cells, *weights], len(self.ansatz.free))
+
+    @cached_property
+    def positive(self) -> tuple[int, ...]:
+        """Return the places, among ``coefficients``, of what is asked to be positive."""
+        names = self.ansatz.cells
+        found: list[int] = []
+        for wish in self.wishes.positive:
+            if wish == "b":
+                places = list(range(len(names), self.coefficients.size))
+            else:
+                places = [k for k, name in enumerate(names) if name == wish]
+            if not places:
+                raise InputError(f"{wish!r}", where="--positive", expected=f"b, or one of {', '.join(names)}")
+            found += places
+        return tuple(found)
+
+    def bounds(self, points: Floats) -> tuple[Floats, Floats]:
+        """Return how far coefficients are beyond the bounds asked for, and the Jacobian of that."""
+        values, slopes = self.coefficients.jacobians(points)
+        rows, derivatives = [], []
+        if self.positive:
+            places = list(self.positive)
+            rows.append(np.maximum(0.0, SMALLEST - values[:, places]))
+            derivatives.append(-slopes[:, places])
+        if self.wishes.size is not None:
+            rows.append(np.maximum(0.0, np.abs(values) - float(self.wishes.size)))
+            derivatives.append(slopes * np.sign(values)[..., None])
+        if not rows:
+            return values[:, :0], slopes[:, :0]
+        beyond, sloped = np.concatenate(rows, axis=1), np.concatenate(derivatives, axis=1)
+        return beyond, sloped * (beyond > 0)[..., None]
+
+    def system(self, points: Floats) -> tuple[Floats, Floats]:
+        """Return residuals and bounds overstepped, and their Jacobian, at many points."""
+        values, slopes = self.tape.jacobians(points)
+        beyond, sloped = self.bounds(points)
+        return np.concatenate([values, beyond], axis=1), np.concatenate([slopes, sloped], axis=1)
+
+    def starts(self, generator: np.random.Generator, count: int) -> Floats:
+        """Return random points: weights about equal, the rest about zero."""
+        free = self.ansatz.free
+        weights = [name for name in self.ansatz.cells if name[0] in "bg"]
+        mean = np.array([1 / max(len(weights), 1) if name[0] in "bg" else 0.0 for name in free])
+        return mean + 0.5 * generator.standard_normal((count, len(free)))
+
+
+@lru_cache(maxsize=8)
+def find_problem(label: str, order: int, wishes: Wishes, structure: str) -> Problem:
+    """Return the problem, made once in a process.
+
+    >>> wishes = Wishes(stages=2)
+    >>> find_problem("rk", 2, wishes, "full") is find_problem("rk", 2, wishes, "full")
+    True
+    """
+    return Problem(label, order, wishes, structure)
+
+
+def principal_residuals(family: Family, method: Any, ring: Any, order: int) -> list[Any]:
+    """Return the residuals of one order whose 2-norm measures a method's error.
+
+    For variational families those of all rooted action trees, as expanded about (q0, mu1) and not scaled;
+    else those of the family's independent conditions.
+
+    >>> from orderconds.ring import QQ
+    >>> from orderconds.tableau import Tableau, find
+    >>> midpoint = Tableau.load(find("gauss1"))
+    >>> len(principal_residuals(families.get("vcg"), midpoint.method, QQ, 3))
+    17
+    """
+    if getattr(family, "trees", "") != "action":
+        return list(families.residuals(family, method, ring, family.conditions(order)))
+    from orderconds.series.action_exact import condition
+    from orderconds.series.action_trees import velocities
+
+    series: Any = family.series(method, ring)  # type: ignore[attr-defined]  # action families have it
+    return [series.condition(t) - in_ring(ring, condition(t)) for t in velocities(order)]
+
+
+def _weights(method: Any, ring: Any) -> list[Any]:
+    if isinstance(method, RungeKutta):
+        return list(method.b)
+    return list(method.as_runge_kutta(ring).b) if hasattr(method, "update") else []

@@ -1,0 +1,240 @@
+"""Multistart: batches of random starts, each with its own seed, in one process, in several, or on a cluster.
+
+What a batch finds depends on the problem, the seed and the batch's number alone, and batches are read in
+their order: how many processes there are, and whether the search was interrupted and resumed, changes
+nothing. Processes get strings and numbers, and make their own programs.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from orderconds.errors import InputError
+from orderconds.solve.least_squares import least_squares, rank
+from orderconds.solve.minimise import minimise
+from orderconds.solve.problem import Problem, find_problem
+from orderconds.solve.tape import Floats
+from orderconds.solve.wishes import Wishes
+
+BATCH = 64
+"""Starts of a batch."""
+
+POLISHED = 1e-11
+"""A residual norm below which a point counts as a solution."""
+
+KEPT = 4
+"""Solutions of a batch that are kept, and of which the principal error is minimised."""
+
+
+CHEAP = 4
+"""Up to this order the principal error is computed beside what is asked for."""
+
+
+@dataclass(frozen=True)
+class Search:
+    """What is searched: everything that the result depends on."""
+
+    family: str
+    order: int
+    wishes: Wishes
+    structure: str
+    seed: int = 0
+    minimised: bool = False
+
+    def described(self) -> dict[str, Any]:
+        """Return the search as plain data, as a checkpoint keeps it."""
+        record = asdict(self)
+        record["wishes"] = {key: str(x) if key == "size" else x for key, x in record["wishes"].items()}
+        return dict(json.loads(json.dumps(record)))
+
+
+@dataclass(frozen=True)
+class Batch:
+    """What a batch found: ``solutions`` as (score, free coefficients), the best first.
+
+    The score is the principal error, or the largest coefficient where that would cost too much. ``best`` is
+    the least residual norm of all starts.
+    """
+
+    number: int
+    best: float
+    solutions: tuple[tuple[float, tuple[float, ...]], ...] = ()
+
+    def as_json(self) -> list[Any]:
+        """Return plain data; doubles keep all their bits."""
+        return [self.number, self.best.hex(), [[s.hex(), [x.hex() for x in p]] for s, p in self.solutions]]
+
+    @staticmethod
+    def read(record: Sequence[Any]) -> Batch:
+        """Return the batch that :meth:`as_json` wrote."""
+        number, best, solutions = record
+        read = tuple((float.fromhex(s), tuple(map(float.fromhex, p))) for s, p in solutions)
+        return Batch(int(number), float.fromhex(best), read)
+
+
+def run_batch(search: Search, number: int) -> Batch:
+    """Return what batch ``number`` finds.
+
+    >>> search = Search("rk", 2, Wishes(stages=2, explicit=True), "full")
+    >>> found = run_batch(search, 0)
+    >>> len(found.solutions) > 0, found == run_batch(search, 0)
+    (True, True)
+    """
+    problem = find_problem(search.family, search.order, search.wishes, search.structure)
+    generator = np.random.default_rng([search.seed, number])
+    points, norms = least_squares(problem.system, problem.starts(generator, BATCH))
+    solved = np.flatnonzero(norms < POLISHED)
+    regular = [
+        i for i in solved if rank(problem.tape.jacobians(points[i : i + 1])[1][0]) == problem.tape.size
+    ]
+    # Where every solution is singular, a closed form may still prove one.
+    chosen = [(_score(problem, points[i]), points[i]) for i in regular or solved]
+    if search.minimised:
+        nearest = sorted(chosen, key=lambda found: found[0])[:KEPT]
+        chosen = [(size, x) for x, size in (minimise(problem, x) for _, x in nearest)]
+    best = sorted(chosen, key=lambda found: found[0])[:KEPT]
+    solutions = tuple((score, tuple(map(float, x))) for score, x in best)
+    return Batch(number, float(norms.min()), solutions)
+
+
+def _score(problem: Problem, point: Floats) -> float:
+    """Return by what solutions are compared; less is better."""
+    if problem.order <= CHEAP:
+        return float(np.linalg.norm(problem.error.values(point[None])[0]))
+    return float(np.abs(problem.coefficients.values(point[None])).max())
+
+
+@dataclass
+class Checkpoint:
+    """Finished batches on disk, written whole or not at all; None keeps nothing."""
+
+    path: Path | None
+    search: Search
+    batches: dict[int, Batch] = field(default_factory=dict)
+
+    def load(self) -> None:
+        """Read what an interrupted search left; raises InputError where it was another search."""
+        if self.path is None or not self.path.exists():
+            return
+        try:
+            record = json.loads(self.path.read_text(encoding="utf-8"))
+            same = record["search"] == self.search.described()
+            batches = [Batch.read(x) for x in record["batches"]] if same else []
+        except (OSError, ValueError, KeyError, TypeError):
+            raise InputError(
+                "no checkpoint of a search", where=str(self.path), expected="what an interrupted search left"
+            ) from None
+        if not same:
+            raise InputError(
+                "the checkpoint of another search",
+                where=str(self.path),
+                expected="the same family, order, constraints and seed",
+                hint="delete it, or name another file",
+            )
+        self.batches = {batch.number: batch for batch in batches}
+
+    def add(self, batch: Batch) -> None:
+        """Keep one more batch."""
+        if batch.number in self.batches:
+            return
+        self.batches[batch.number] = batch
+        if self.path is not None:
+            batches = [self.batches[k].as_json() for k in sorted(self.batches)]
+            record = {"search": self.search.described(), "batches": batches}
+            write_whole(self.path, json.dumps(record) + "\n")
+
+    def remove(self) -> None:
+        """Delete the file of a search that is over."""
+        if self.path is not None:
+            self.path.unlink(missing_ok=True)
+
+
+def write_whole(path: Path, text: str) -> None:
+    """Write a file under another name first, so that nobody ever sees half of it.
+
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_whole(Path(folder) / "x", "text")
+    ...     (Path(folder) / "x").read_text()
+    'text'
+    """
+    partial = path.with_name(f".{path.name}.partial")
+    try:
+        partial.write_text(text, encoding="utf-8")
+        os.replace(partial, path)
+    except OSError as problem:
+        partial.unlink(missing_ok=True)
+        reason = (problem.strerror or "unwritable").lower()
+        raise InputError(reason, where=str(path), expected="a file that can be written") from None
+
+
+def batches(
+    search: Search, count: int, checkpoint: Checkpoint, processes: int = 1, cluster: str | None = None
+) -> Iterator[Batch]:
+    """Yield batches 0, 1, ... up to ``count`` in their order, those of the checkpoint without work.
+
+    The first batch that is not known runs here; more processes, or the dask cluster at the address
+    ``cluster``, are started for the others. Raises :class:`~orderconds.errors.InputError` for a cluster that
+    does not answer.
+
+    >>> search = Search("rk", 2, Wishes(stages=2, explicit=True), "full")
+    >>> [batch.number for batch in batches(search, 2, Checkpoint(None, search))]
+    [0, 1]
+    """
+    waiting = [number for number in range(count) if number not in checkpoint.batches]
+    alone = count if processes < 2 and cluster is None else 1 if cluster is None else 0
+    fresh = _computed(search, waiting, alone, processes, cluster)
+    for number in range(count):
+        batch = checkpoint.batches.get(number) or next(fresh)
+        checkpoint.add(batch)
+        yield batch
+
+
+def _computed(
+    search: Search, numbers: Sequence[int], alone: int, processes: int, cluster: str | None
+) -> Iterator[Batch]:
+    for number in numbers[:alone]:
+        yield run_batch(search, number)
+    rest = numbers[alone:]
+    if not rest:
+        return
+    import joblib
+
+    jobs = [joblib.delayed(run_batch)(search, number) for number in rest]
+    if cluster is None:
+        yield from joblib.Parallel(n_jobs=processes, return_as="generator", pre_dispatch=processes)(jobs)
+        return
+    with _client(cluster), joblib.parallel_config(backend="dask"):
+        yield from joblib.Parallel(return_as="generator")(jobs)
+
+
+def _client(address: str) -> Any:
+    """Return a client of a dask cluster."""
+    try:
+        from distributed import Client
+    except ImportError:
+        raise InputError(
+            "dask's distributed is not installed",
+            where="--dask",
+            expected="pip install 'orderconds[cluster]'",
+        ) from None
+    try:
+        return Client(address, timeout=3)
+    except (OSError, ValueError, TimeoutError) as problem:
+        reason = str(problem).splitlines()[0] if str(problem) else type(problem).__name__
+        raise InputError(
+            f"no cluster answers ({reason})",
+            where=f"--dask {address}",
+            expected="tcp://host:port of a scheduler",
+        ) from None
+
+
+Reported = Callable[[str], object]
+"""Takes a line about how far a search is."""

@@ -1,0 +1,166 @@
+"""The whole way: refuse what cannot be, search, and write the best method that can be proved."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from orderconds.errors import InputError
+from orderconds.proof.krawczyk import NotProved
+from orderconds.solve.abscissae import WHERE
+from orderconds.solve.ansatz import structures
+from orderconds.solve.elimination import Infeasible, infeasible
+from orderconds.solve.finish import Found, finish
+from orderconds.solve.problem import find_problem
+from orderconds.solve.search import BATCH, Batch, Checkpoint, Search, batches
+from orderconds.solve.wishes import Wishes
+
+PLAIN, MINIMISED = 4096, 1024
+"""Starts in each structure, where the principal error is not minimised, and where it is."""
+
+
+@dataclass
+class Outcome:
+    """What a search came to: a method, a proof that there is none, or neither.
+
+    ``best`` is the least residual norm of all starts, ``tried`` says in words what was done.
+    """
+
+    found: Found | None = None
+    none: Infeasible | None = None
+    best: float = float("inf")
+    tried: list[str] = field(default_factory=list)
+    structure: str = ""
+
+
+@dataclass(frozen=True)
+class Order:
+    """What is to be solved, and how much work may be spent on it."""
+
+    family: str
+    order: int
+    wishes: Wishes
+    seed: int = 0
+    minimised: bool = False
+    starts: int | None = None
+    processes: int = 1
+    cluster: str | None = None
+    checkpoint: Path | None = None
+    name: str = "found"
+
+    def command(self) -> str:
+        """Return the command line that repeats the search.
+
+        >>> Order("cg", 3, Wishes(stages=3, explicit=True)).command()
+        'orderconds solve cg --stages 3 --order 3 --explicit'
+        """
+        w = self.wishes
+        words = ["orderconds", "solve", self.family, "--stages", str(w.stages), "--order", str(self.order)]
+        words += [f"--{key}" for key in ("explicit", "dirk", "symmetric", "fsal", "rkn") if getattr(w, key)]
+        for option, values in (("--fix", w.fix), ("--positive", w.positive)):
+            for value in values:
+                words += [option, value]
+        if w.size is not None:
+            words += ["--size", str(w.size)]
+        for option, number, usual in (("--exponentials", w.exponentials, 2), ("--inner", w.inner, 2)):
+            if number != usual:
+                words += [option, str(number)]
+        words += ["--minimise", "error"] if self.minimised else []
+        words += ["--starts", str(self.starts)] if self.starts is not None else []
+        words += ["--seed", str(self.seed)] if self.seed else []
+        return shlex.join(words)
+
+
+def solve(order: Order, report: Callable[[str], object] = str) -> Outcome:
+    """Return what is found; ``report`` is told how far the search is.
+
+    Raises :class:`~orderconds.errors.InputError` for wishes that make no sense.
+
+    >>> outcome = solve(Order("cg", 3, Wishes(stages=3, explicit=True)))
+    >>> outcome.found.certificate
+    'exact'
+    """
+    outcome = Outcome()
+    applicable = list(_applicable(order))
+    full = find_problem(order.family, order.order, order.wishes, applicable[-1])
+    report("eliminating")
+    outcome.none = infeasible(full)
+    if outcome.none is not None:
+        return outcome
+    for structure in applicable:
+        _search(order, structure, outcome, report)
+        if outcome.found is not None:
+            return outcome
+    return outcome
+
+
+def _applicable(order: Order) -> list[str]:
+    """Return the structures that the wishes allow; raises InputError where there is none."""
+    found, refusal = [], None
+    for structure in structures(order.family, order.wishes):
+        try:
+            problem = find_problem(order.family, order.order, order.wishes, structure)
+            _ = problem.ansatz.spelled()
+            _ = problem.positive
+        except InputError as problem:
+            if problem.where != WHERE:
+                raise
+            refusal = problem
+        else:
+            found.append(structure)
+    if not found and refusal is not None:
+        raise refusal
+    return found
+
+
+def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[str], object]) -> None:
+    problem = find_problem(order.family, order.order, order.wishes, structure)
+    search = Search(order.family, order.order, order.wishes, structure, order.seed, order.minimised)
+    path = order.checkpoint
+    if path is not None and structure != structures(order.family, order.wishes)[0]:
+        path = path.with_name(f"{path.name}.{structure}")
+    checkpoint = Checkpoint(path, search)
+    checkpoint.load()
+    starts = order.starts or (MINIMISED if order.minimised else PLAIN)
+    count = -(-starts // BATCH)
+    seen: list[Batch] = []
+    source = order.command()
+    refused = ""
+    for batch in batches(search, count, checkpoint, order.processes, order.cluster):
+        seen.append(batch)
+        outcome.best = min(outcome.best, batch.best)
+        least = min((s for b in seen for s, _ in b.solutions), default=None)
+        shown = f", best score {least:.4g}" if least is not None else ""
+        done = f"{structure}: {len(seen) * BATCH} of {count * BATCH} starts"
+        report(f"{done}, best residual {outcome.best:.1e}{shown}")
+        if order.minimised:
+            continue
+        outcome.found, refused = _finished(problem, [batch], order, source, refused)
+        if outcome.found is not None:
+            break
+    if order.minimised:
+        outcome.found, refused = _finished(problem, seen, order, source, refused)
+    outcome.tried.append(
+        f"structure {structure}: {len(problem.ansatz.free)} free coefficients, "
+        f"{problem.tape.size} conditions, {len(seen) * BATCH} starts"
+        + (f"; solutions not proved: {refused}" if refused else "")
+    )
+    outcome.structure = structure
+    if outcome.found is not None:
+        checkpoint.remove()
+
+
+def _finished(
+    problem: Any, seen: list[Batch], order: Order, source: str, refused: str
+) -> tuple[Found | None, str]:
+    """Return the best solution that can be proved, or why the last could not be."""
+    solutions = sorted((s for batch in seen for s in batch.solutions), key=lambda found: found[0])
+    for _, point in solutions[:8]:
+        try:
+            return finish(problem, point, order.name, source, minimised=order.minimised), refused
+        except NotProved as problem_met:
+            refused = str(problem_met)
+    return None, refused

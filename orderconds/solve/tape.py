@@ -1,0 +1,147 @@
+"""A recorded program compiled for numpy: values and exact Jacobians at many points together.
+
+The operations that the outputs need are sorted into levels, each depending on earlier levels only, so that
+one level is a few calls of numpy, whatever the number of operations in it. The Jacobian is computed by
+forward differentiation: every operation carries its gradient.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from orderconds.ring.traces import ADD, CONSTANT, DIVIDE, INPUT, MULTIPLY, Operation, Trace
+
+Floats = NDArray[np.float64]
+Places = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class _Level:
+    """Operations of one kind whose operands are all known: they fill the rows ``start`` to ``stop``."""
+
+    kind: int
+    start: int
+    stop: int
+    left: Places
+    right: Places
+
+
+class Tape:
+    """Outputs of a program as a function of its inputs, over doubles.
+
+    ``outputs`` are elements of one ring of traces with ``width`` inputs.
+
+    >>> from orderconds.ring.traces import Traces
+    >>> R = Traces(2)
+    >>> x, y = R.inputs
+    >>> tape = Tape([x * y - 1, x / y], 2)
+    >>> tape.values(np.array([[4.0, 2.0], [1.0, 1.0]])).tolist()
+    [[7.0, 2.0], [0.0, 1.0]]
+    >>> tape.jacobians(np.array([[4.0, 2.0]]))[1].tolist()
+    [[[2.0, 4.0], [0.5, -1.0]]]
+    """
+
+    def __init__(self, outputs: Sequence[Trace], width: int) -> None:
+        self.width, self.size = width, len(outputs)
+        operations = outputs[0].ring.operations if outputs else []
+        wanted = [x.placed() for x in outputs]  # constants are recorded here
+        rows = _order(operations, wanted, width)
+        self._levels = _levels(operations, rows)
+        place = {operation: row for row, operation in enumerate(rows)}
+        self._inputs = [
+            (row, int(operations[p].value)) for row, p in enumerate(rows) if operations[p].kind == INPUT
+        ]
+        self._constants = [
+            (row, float(operations[p].value)) for row, p in enumerate(rows) if operations[p].kind == CONSTANT
+        ]
+        self._outputs = np.array([place[p] for p in wanted], dtype=np.int64)
+        self.length = len(rows)
+
+    def _start(self, points: Floats) -> Floats:
+        found = np.empty((self.length, points.shape[0]))
+        for row, number in self._inputs:
+            found[row] = points[:, number]
+        for row, value in self._constants:
+            found[row] = value
+        return found
+
+    def _forward(self, points: Floats) -> Floats:
+        found = self._start(points)
+        with np.errstate(all="ignore"):  # a start may run away; its residuals then say so
+            for level in self._levels:
+                operation = _UFUNC[level.kind]
+                operation(found[level.left], found[level.right], out=found[level.start : level.stop])
+        return found
+
+    def values(self, points: Floats) -> Floats:
+        """Return the outputs, points x outputs, at ``points`` (points x inputs)."""
+        return np.ascontiguousarray(self._forward(points)[self._outputs].T)
+
+    def jacobians(self, points: Floats) -> tuple[Floats, Floats]:
+        """Return the outputs and their Jacobians, points x outputs x inputs."""
+        found = self._forward(points)
+        slopes = np.zeros((self.length, points.shape[0], self.width))
+        for row, number in self._inputs:
+            slopes[row, :, number] = 1.0
+        with np.errstate(all="ignore"):
+            for level in self._levels:
+                x, y = level.left, level.right
+                out = slopes[level.start : level.stop]
+                if level.kind == ADD:
+                    np.add(slopes[x], slopes[y], out=out)
+                elif level.kind == MULTIPLY:
+                    np.multiply(slopes[x], found[y][..., None], out=out)
+                    out += slopes[y] * found[x][..., None]
+                else:
+                    np.multiply(slopes[y], -found[level.start : level.stop][..., None], out=out)
+                    out += slopes[x]
+                    out /= found[y][..., None]
+        return (
+            np.ascontiguousarray(found[self._outputs].T),
+            np.ascontiguousarray(slopes[self._outputs].transpose(1, 0, 2)),
+        )
+
+
+_UFUNC = {ADD: np.add, MULTIPLY: np.multiply, DIVIDE: np.divide}
+
+
+def _order(operations: Sequence[Operation], wanted: Sequence[int], width: int) -> list[int]:
+    """Return the operations that the outputs need, by level and kind; inputs and constants first."""
+    needed: set[int] = set(range(width))
+    waiting = list(wanted)
+    while waiting:
+        place = waiting.pop()
+        if place not in needed:
+            needed.add(place)
+            operation = operations[place]
+            if operation.kind <= DIVIDE:
+                waiting += (operation.left, operation.right)
+    level: dict[int, int] = {}
+    for place in sorted(needed):
+        operation = operations[place]
+        deeper = operation.kind <= DIVIDE
+        level[place] = 1 + max(level[operation.left], level[operation.right]) if deeper else 0
+    return sorted(needed, key=lambda place: (level[place], operations[place].kind, place))
+
+
+def _levels(operations: Sequence[Operation], rows: Sequence[int]) -> list[_Level]:
+    place = {operation: row for row, operation in enumerate(rows)}
+    depth: list[int] = []
+    for p in rows:
+        o = operations[p]
+        depth.append(1 + max(depth[place[o.left]], depth[place[o.right]]) if o.kind <= DIVIDE else 0)
+    found, start = list[_Level](), 0
+    while start < len(rows):
+        kind, stop = operations[rows[start]].kind, start + 1
+        while stop < len(rows) and operations[rows[stop]].kind == kind and depth[stop] == depth[start]:
+            stop += 1
+        if kind <= DIVIDE:
+            left = np.array([place[operations[p].left] for p in rows[start:stop]], dtype=np.int64)
+            right = np.array([place[operations[p].right] for p in rows[start:stop]], dtype=np.int64)
+            found.append(_Level(kind, start, stop, left, right))
+        start = stop
+    return found

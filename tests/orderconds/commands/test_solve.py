@@ -1,0 +1,131 @@
+"""``orderconds solve``: what it finds passes ``check``; what it cannot do it says in one message."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner, Result
+
+from orderconds.check import check
+from orderconds.cli import program
+
+
+def run(*args: str) -> Result:
+    return CliRunner().invoke(program, ["solve", *args, "--processes", "1"])
+
+
+def record(*args: str, status: int = 0) -> Any:
+    result = run(*args, "--json")
+    assert result.exit_code == status, result.stderr
+    return json.loads(result.stdout)
+
+
+@pytest.mark.parametrize(
+    ("args", "family", "certificate"),
+    [
+        ("vcg --stages 3 --order 3", "vcg", "exact"),
+        ("vcf --stages 2 --order 4", "vcf", "exact"),
+        ("cg --stages 3 --order 3 --explicit", "cg", "exact"),
+        ("rk --stages 4 --order 4 --explicit", "rk", "exact"),
+        ("rk --stages 6 --order 5 --explicit", "rk", "ball"),
+        ("vcg --stages 4 --order 4", "vcg", "ball"),
+        ("sprk --stages 2 --order 4", "sprk", "exact"),
+        ("vrkmk(2) --stages 2 --order 4", "vrkmk(2)", "exact"),
+        ("composition --stages 5 --order 4", "composition", "exact"),
+        ("splitting --stages 6 --order 4 --symmetric", "splitting", "exact"),
+        ("splitting --stages 3 --order 4 --symmetric --rkn", "rkn", "exact"),
+        ("cf --stages 3 --order 3 --explicit", "cf", ""),
+        ("rkmk(1) --stages 3 --order 3 --explicit", "rkmk(1)", "exact"),
+    ],
+)
+def test_what_is_found_passes_check(args: str, family: str, certificate: str, tmp_path: Path) -> None:
+    path = tmp_path / "found.toml"
+    found = record(*args.split(), "-o", str(path))
+    assert found["verdict"] == "found"
+    assert found["certificate"] in ("exact", "ball")
+    assert certificate in ("", found["certificate"])
+    report = check(path, complete=True, certified=True)
+    assert report.verdict == "holds"
+    (order,) = check(path, family).orders
+    assert order.order >= found["order"]
+    assert order.certificate == found["certificate"]
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["found.toml"]
+
+
+def test_the_command_in_the_source_finds_the_same_file() -> None:
+    found = record("rk", "--stages", "4", "--order", "4", "--explicit", "--fix", "a21=1/2", "--seed", "7")
+    command = found["command"].split()
+    assert command[:2] == ["orderconds", "solve"]
+    assert record(*command[2:])["tableau"] == found["tableau"]
+    assert (
+        'source = "orderconds solve rk --stages 4 --order 4 --explicit --fix a21=1/2 --seed 7"'
+        in (found["tableau"])
+    )
+
+
+def test_fixed_entries_are_in_the_file() -> None:
+    found = record("rk", "--stages", "3", "--order", "3", "--explicit", "--fix", "a21=2/5", "--fix", "a31=0")
+    assert 'A = [[], ["2/5"], ["0", ' in found["tableau"]
+
+
+def test_two_stages_of_order_three_are_refuted() -> None:
+    proof = record("vcg", "--stages", "2", "--order", "3", status=1)["proof"]
+    assert proof["reason"] == "3*b2^2 - 3*b2 + 1 = 0 has no real root (Sturm)"
+    result = run("vcg", "--stages", "2", "--order", "3")
+    assert result.exit_code == 1
+    assert "no vcg method with 2 stages has order 3" in result.stdout
+
+
+def test_nothing_found_says_what_was_tried() -> None:
+    result = run("cg", "--stages", "4", "--order", "4", "--explicit", "--starts", "64")
+    assert result.exit_code == 1
+    assert "best residual" in result.stderr
+    assert "structure full" in result.stderr
+    assert result.stdout == ""
+
+
+@pytest.mark.parametrize(
+    ("args", "said"),
+    [
+        ("rk --stages 0 --order 2", "--stages"),
+        ("magnus --stages 2 --order 2", "no search in family 'magnus'"),
+        ("nosuch --stages 2 --order 2", "unknown family"),
+        ("rk --stages 2 --order 2 --fix a21=1 --fix a21=2", "contradicts"),
+        ("rk --stages 2 --order 2 --explicit --fix a11=1", "contradicts"),
+        ("rk --stages 2 --order 2 --fix a99=1", "unknown coefficient"),
+        ("rk --stages 2 --order 2 --positive q", "--positive"),
+        ("rk --stages 2 --order 2 --size -1", "--size"),
+        ("composition --stages 3 --order 4 --explicit", "--explicit"),
+        ("vcf --stages 2 --order 4 --explicit --symmetric", "--explicit with --symmetric"),
+        ("rk --stages 2 --order 2 -o nowhere/found.toml", "no such folder"),
+        ("rk --stages 2 --order 2 --fix a21=sqrt(2)", "not linear"),
+    ],
+)
+def test_bad_input_is_one_message(args: str, said: str) -> None:
+    result = run(*args.split())
+    assert result.exit_code == 2
+    assert said in result.stderr
+    assert "Traceback" not in result.stderr
+    assert result.stdout == ""
+
+
+def test_a_killed_process_resumes_to_the_same_bytes(tmp_path: Path) -> None:
+    args = ["vcg", "--stages", "3", "--order", "3", "--minimise", "error", "--starts", "192"]
+    whole = tmp_path / "whole.toml"
+    start = [sys.executable, "-m", "orderconds", "solve", *args, "--processes", "1"]
+    subprocess.run([*start, "-o", str(whole)], check=True, capture_output=True)
+    killed = tmp_path / "killed.toml"
+    process = subprocess.Popen([*start, "-o", str(killed)], stdout=subprocess.DEVNULL)
+    checkpoint = tmp_path / "killed.toml.search"
+    while process.poll() is None and not checkpoint.exists():
+        os.sched_yield()
+    process.kill()
+    process.wait()
+    subprocess.run([*start, "-o", str(killed)], check=True, capture_output=True)
+    assert killed.read_bytes() == whole.read_bytes()

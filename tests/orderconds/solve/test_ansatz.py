@@ -1,0 +1,129 @@
+"""Constraints and structures: what the spelled coefficients satisfy, whatever the free ones are."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+from flint import fmpq
+
+from orderconds.errors import InputError
+from orderconds.families.elementary_weights import conjugate
+from orderconds.ring import QQ
+from orderconds.ring.laurent import LaurentPolynomials
+from orderconds.solve.ansatz import ansatz
+from orderconds.solve.linear import Elimination, equality
+from orderconds.solve.wishes import Wishes
+from orderconds.tableau.properties import explicit, fsal, symmetric
+
+
+def member(family: str, wishes: Wishes, structure: str = "full"):
+    """Return a method of the ansatz with rational numbers for its free coefficients."""
+    found = ansatz(family, wishes, structure)
+    return found.method([fmpq(3 * k + 2, 7 + (k * k) % 5) for k in range(len(found.free))], QQ)
+
+
+@pytest.mark.parametrize("s", [1, 2, 3, 4])
+def test_symmetric_tableaux_are_symmetric(s: int) -> None:
+    assert symmetric(member("rk", Wishes(s, symmetric=True)), QQ) is True
+
+
+def test_explicit_and_fsal_tableaux_are_that() -> None:
+    method = member("rk", Wishes(4, explicit=True, fsal=True))
+    assert explicit(method, QQ) is True
+    assert fsal(method, QQ) is True
+
+
+@pytest.mark.parametrize("s", [2, 3, 4])
+def test_the_three_abscissae_agree(s: int) -> None:
+    method = member("vcg", Wishes(s), "abscissae")
+    b, chat = method.b, [sum(row) for row in conjugate(method.A, method.b)]
+    times = [sum(b[:i], fmpq(0)) + b[i] / 2 for i in range(s)]
+    assert list(method.c) == times
+    assert chat == times
+
+
+def test_the_three_abscissae_agree_for_commutator_free_methods() -> None:
+    method = member("vcf", Wishes(3, exponentials=3, inner=2), "abscissae")
+    total = method.as_runge_kutta(QQ)
+    y = [sum(row) for row in method.update.exponentials]
+    for i in range(3):
+        later = sum(
+            row[i] * (y[J] / 2 + sum(y[J + 1 :], fmpq(0))) for J, row in enumerate(method.update.exponentials)
+        )
+        assert total.c[i] == 1 - later / total.b[i]
+    assert [sum(row) for row in conjugate(total.A, total.b)] == list(total.c)
+
+
+@pytest.mark.parametrize(("s", "m", "inner"), [(2, 2, 2), (3, 2, 2), (3, 3, 3), (4, 4, 3)])
+def test_symmetric_paths_reach_a_stage_from_either_end(s: int, m: int, inner: int) -> None:
+    method = member("vcf", Wishes(s, symmetric=True, exponentials=m, inner=inner), "symmetric")
+
+    def bar(row):
+        return tuple(-x for x in row[::-1])
+
+    def reduced(rows):
+        """Cancel and merge neighbours that are multiples of each other."""
+        found = []
+        for row in rows:
+            if found and parallel(found[-1], row):
+                merged = tuple(x + y for x, y in zip(found.pop(), row, strict=True))
+                if any(merged):
+                    found.append(merged)
+            else:
+                found.append(row)
+        return found
+
+    def parallel(x, y):
+        return all(x[i] * y[j] == x[j] * y[i] for i in range(s) for j in range(s))
+
+    update = method.update.exponentials
+    assert tuple(tuple(row[::-1]) for row in update[::-1]) == update
+    for i in range(s):
+        seen = reduced([*update, *map(bar, method.stages[s - 1 - i].exponentials)])
+        assert seen == reduced(method.stages[i].exponentials)
+
+
+def test_a_fixed_entry_may_depend_on_others() -> None:
+    found = ansatz("rk", Wishes(2, fix=("a21 = 2*b1 - 1/3", "b2 = 1 - b1")))
+    assert "a21" not in found.free
+    assert found.numbers["a21"] == "-1/3 + 2*b1"
+
+
+@pytest.mark.parametrize(
+    ("wishes", "said"),
+    [
+        (Wishes(2, fix=("a21=1/2", "a21=1/3")), "contradicts"),
+        (Wishes(2, explicit=True, fix=("a12=1",)), "contradicts"),
+        (Wishes(2, fix=("a31=1",)), "unknown coefficient 'a31'"),
+        (Wishes(2, fix=("a21",)), "linear equation"),
+        (Wishes(2, fix=("a21=b1*b2",)), "not linear"),
+        (Wishes(2, fix=("a21=1/0",)), "not linear"),
+        (Wishes(2, fix=("a21=",)), "linear equation"),
+        (Wishes(0), "0 stages"),
+        (Wishes(2, rkn=True), "--rkn"),
+    ],
+)
+def test_wishes_that_make_no_sense_are_refused(wishes: Wishes, said: str) -> None:
+    with pytest.raises(InputError) as problem:
+        ansatz("rk", wishes)
+    assert said in str(problem.value)
+
+
+def test_elimination_keeps_every_constraint() -> None:
+    names = ("x", "y", "z")
+    found = Elimination(names)
+    constraints = [equality("x + y + z = 1"), equality("x - 2*z = 1/2")]
+    found.impose(constraints)
+    R = LaurentPolynomials(list(found.free))
+    value = dict(zip(found.free, R.generators, strict=True))
+
+    def cell(name):
+        form = found.cell(name)
+        q = form.get("", Fraction(0))
+        terms = [R.rational(x.numerator, x.denominator) * value[n] for n, x in form.items() if n]
+        return sum(terms, R.rational(q.numerator, q.denominator))
+
+    x, y, z = map(cell, names)
+    assert R.is_zero(x + y + z - 1)
+    assert R.is_zero(x - z * 2 - R.rational(1, 2))

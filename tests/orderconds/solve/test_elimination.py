@@ -1,0 +1,50 @@
+"""Proofs that no method exists: the combination of conditions is multiplied out again here."""
+
+from __future__ import annotations
+
+import pytest
+import sympy
+
+from orderconds.solve.elimination import infeasible
+from orderconds.solve.problem import find_problem
+from orderconds.solve.wishes import Wishes
+
+CASES = [
+    ("vcg", 3, Wishes(2)),
+    ("vcg", 3, Wishes(1)),
+    ("rk", 4, Wishes(3, explicit=True)),
+    ("cg", 3, Wishes(2, explicit=True)),
+    ("vcg", 5, Wishes(3)),
+    ("composition", 6, Wishes(3)),
+]
+
+
+@pytest.mark.parametrize(("family", "order", "wishes"), CASES)
+def test_the_combination_of_conditions_is_the_contradiction(family: str, order: int, wishes: Wishes) -> None:
+    proof = infeasible(find_problem(family, order, wishes, "full"))
+    assert proof is not None
+    total = sum(
+        sympy.sympify(m.replace("^", "**")) * sympy.sympify(e.replace("^", "**"))
+        for m, e in zip(proof.multipliers, proof.equations, strict=True)
+    )
+    consequence = sympy.sympify(proof.consequence.replace("^", "**"))
+    assert sympy.expand(total - consequence) == 0
+    assert sympy.real_roots(consequence) == [] if proof.real else consequence == 1
+
+
+def test_the_equations_are_the_conditions() -> None:
+    proof = infeasible(find_problem("vcg", 3, Wishes(2), "full"))
+    assert proof is not None
+    b1, b2 = sympy.symbols("b1 b2")
+    half = sympy.Rational(1, 2)
+    printed = b1 * (b2 + half * b1) ** 2 + b2 * (half * b2) ** 2 - sympy.Rational(1, 3)
+    assert str(proof.conditions[1]) == "sum_i b_i (sum_{j>i} b_j + 1/2 b_i)^2 = 1/3"
+    assert sympy.expand(printed - sympy.sympify(proof.equations[1].replace("^", "**"))) == 0
+
+
+@pytest.mark.parametrize(
+    ("family", "order", "wishes"),
+    [("vcg", 3, Wishes(3)), ("rk", 3, Wishes(3, explicit=True)), ("vcg", 2, Wishes(1))],
+)
+def test_what_exists_is_not_refuted(family: str, order: int, wishes: Wishes) -> None:
+    assert infeasible(find_problem(family, order, wishes, "full")) is None

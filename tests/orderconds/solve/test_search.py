@@ -1,0 +1,132 @@
+"""A search is decided by its seed: not by processes, interruptions, or what was searched before."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from orderconds.errors import InputError
+from orderconds.solve.least_squares import least_squares
+from orderconds.solve.minimise import minimise
+from orderconds.solve.problem import find_problem
+from orderconds.solve.search import Batch, Checkpoint, Search, batches, run_batch, write_whole
+from orderconds.solve.solver import Order, solve
+from orderconds.solve.wishes import Wishes
+
+SEARCH = Search("vcg", 3, Wishes(3), "abscissae", seed=3, minimised=True)
+ORDER = Order("vcg", 3, Wishes(3), seed=3, minimised=True, starts=256)
+
+
+def test_batches_survive_being_written() -> None:
+    batch = run_batch(SEARCH, 1)
+    assert Batch.read(json.loads(json.dumps(batch.as_json()))) == batch
+
+
+def test_a_killed_search_resumed_gives_the_same_file(tmp_path: Path) -> None:
+    whole = solve(ORDER).found
+    assert whole is not None
+    path = tmp_path / "checkpoint"
+    stopped = batches(SEARCH, 4, Checkpoint(path, SEARCH))
+    next(stopped), next(stopped)
+    record = json.loads(path.read_text())
+    assert len(record["batches"]) == 2
+    resumed = solve(
+        Order(ORDER.family, 3, ORDER.wishes, seed=3, minimised=True, starts=256, checkpoint=path)
+    ).found
+    assert resumed is not None
+    assert resumed.text == whole.text
+    assert not path.exists()
+
+
+def test_the_checkpoint_is_used_and_not_computed_again(tmp_path: Path) -> None:
+    path = tmp_path / "checkpoint"
+    checkpoint = Checkpoint(path, SEARCH)
+    made_up = Batch(0, 0.125, ((7.0, (1.0, 2.0)),))
+    checkpoint.add(made_up)
+    again = Checkpoint(path, SEARCH)
+    again.load()
+    assert next(batches(SEARCH, 1, again)) == made_up
+
+
+def test_two_processes_give_the_same_file_as_one() -> None:
+    pytest.importorskip("joblib")
+    alone = solve(ORDER).found
+    together = solve(Order("vcg", 3, Wishes(3), seed=3, minimised=True, starts=256, processes=2)).found
+    assert alone is not None
+    assert together is not None
+    assert together.text == alone.text
+
+
+def test_a_dask_cluster_gives_the_same_batches() -> None:
+    distributed = pytest.importorskip("distributed")
+    pytest.importorskip("joblib")
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None
+    ) as cluster:
+        address = cluster.scheduler_address
+        there = list(batches(SEARCH, 2, Checkpoint(None, SEARCH), cluster=address))
+    assert there == list(batches(SEARCH, 2, Checkpoint(None, SEARCH)))
+
+
+def test_a_cluster_that_does_not_answer_is_named() -> None:
+    pytest.importorskip("joblib")
+    with pytest.raises(InputError, match=r"no cluster answers|not installed"):
+        list(batches(SEARCH, 2, Checkpoint(None, SEARCH), cluster="tcp://127.0.0.1:1"))
+
+
+def test_another_search_does_not_take_over_a_checkpoint(tmp_path: Path) -> None:
+    path = tmp_path / "checkpoint"
+    Checkpoint(path, SEARCH).add(Batch(0, 1.0))
+    other = Checkpoint(path, Search("vcg", 3, Wishes(3), "abscissae", seed=4))
+    with pytest.raises(InputError, match="another search"):
+        other.load()
+    path.write_text("{")
+    with pytest.raises(InputError, match="no checkpoint"):
+        other.load()
+
+
+def test_a_file_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
+    folder = tmp_path / "is_a_folder"
+    folder.mkdir()
+    (folder / "kept").touch()
+    with pytest.raises(InputError):
+        write_whole(folder, "text")
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["is_a_folder"]
+
+
+def test_minimising_stays_on_the_family_and_goes_down() -> None:
+    problem = find_problem("vcf", 4, Wishes(2), "abscissae")
+    start = np.array(run_batch(Search("vcf", 4, Wishes(2), "abscissae"), 0).solutions[-1][1])
+    before = float(np.linalg.norm(problem.error.values(start[None])[0]))
+    point, size = minimise(problem, start)
+    assert np.abs(problem.tape.values(point[None])).max() < 1e-12
+    assert size < before
+    assert size == pytest.approx(0.06785359536389, rel=1e-9)
+    values, slopes = problem.error.jacobians(point[None])
+    _, conditions = problem.tape.jacobians(point[None])
+    gradient = slopes[0].T @ values[0]
+    tangent = np.linalg.svd(conditions[0])[2][problem.tape.size :]
+    assert np.abs(tangent @ gradient).max() < 1e-6
+
+
+def test_least_squares_says_when_there_is_no_solution() -> None:
+    def never(x):
+        return x * x + 1, 2 * x[:, :, None]
+
+    _, norms = least_squares(never, np.array([[3.0], [np.inf]]))
+    assert norms[0] == pytest.approx(1.0)
+    assert norms[1] == np.inf
+
+
+def test_bounds_hold() -> None:
+    wishes = Wishes(4, explicit=True, positive=("b", "a32"), size=None)
+    for score, point in run_batch(Search("rk", 4, wishes, "full"), 0).solutions:
+        problem = find_problem("rk", 4, wishes, "full")
+        values = problem.coefficients.values(np.array([point]))[0]
+        named = dict(zip(problem.ansatz.cells, values, strict=False))
+        assert min(named[f"b{i}"] for i in range(1, 5)) > 0.009
+        assert named["a32"] > 0.009
+        assert score > 0
