@@ -1,0 +1,74 @@
+"""``orderconds longrun``: what emitted integrators keep over many steps."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import click
+
+from orderconds.commands.screen import counting, print_json, print_table, working
+from orderconds.commands.variadic import Variadic
+from orderconds.errors import InputError
+
+FEWEST = 200
+
+
+@click.command("longrun", cls=Variadic, short_help="Measure what is kept over many steps.")
+@click.argument("scene")
+@click.option("--method", "-m", "methods", multiple=True, help="TABLEAU or FAMILY:TABLEAU; may be repeated.")
+@click.option("--h", "size", type=float, help="The step size; by default a hundredth of the scene's span.")
+@click.option("--steps", default=100_000, show_default=True, type=click.IntRange(FEWEST, 10**9))
+@click.option("--one-way", is_flag=True, help="Leave out the way back.")
+@click.option("--json", "as_json", is_flag=True, help="The measurements on stdout, nothing else.")
+def command(
+    scene: str, methods: tuple[str, ...], size: float | None, steps: int, one_way: bool, as_json: bool
+) -> int:
+    """Run methods on SCENE over many steps; say what became of energy, invariants and the manifold.
+
+    The exit status is 1 when a run ends early.
+    """
+    from codegen import scenes
+    from codegen.emit import compile_method
+    from codegen.lab.longrun import longrun
+    from codegen.lab.study import methods_for
+
+    setting = scenes.load(scene)
+    h = float((setting.span[1] - setting.span[0]) / 100) if size is None else size
+    if not (math.isfinite(h) and h != 0.0):
+        raise InputError(f"the step size {h:g}", where="--h", expected="a finite number that is not 0")
+    with working("emitting"):
+        compiled = [compile_method(setting, m) for m in methods_for(setting, methods)]
+    found = []
+    with counting(f"{setting.name}: {steps} steps") as done:
+        for made in compiled:
+            found.append(longrun(made, h, steps, back=not one_way))
+            done(made.method.label)
+    if as_json:
+        print_json([run.as_json() for run in found])
+    else:
+        for run in found:
+            show(run)
+    return 1 if any(run.failure for run in found) else 0
+
+
+def show(run: Any) -> None:
+    """Print one run: a line a kept quantity, then the way back and the symplectic defect."""
+    click.echo(f"{run.method} on {run.scene}, {run.steps} steps of {run.h:g}")
+    rows = [
+        [
+            kept.name,
+            f"{kept.drift.largest:.2e}",
+            f"{kept.drift.slope:+.1e} ± {kept.drift.half_width:.0e}",
+            f"{kept.drift.exponent:.2f}",
+            kept.drift.law,
+        ]
+        for kept in run.kept
+    ]
+    print_table(["kept", "largest", "drift a unit of time", "t^p", "law"], rows, indent=2)
+    for steps, distance in run.reversals:
+        click.echo(f"  {steps} steps there and back: {distance:.2e} from the start")
+    if run.symplectic is not None:
+        click.echo(f"  symplectic defect of a step: {run.symplectic:.1e}")
+    if run.failure:
+        click.echo(f"  stopped: {run.failure}")

@@ -1,0 +1,161 @@
+"""Long runs of emitted code: invariants, the manifold, symplecticity, the way back, and how rounding grows.
+
+The trajectory is sampled evenly; energy, declared invariants and the laws of the manifold are evaluated on
+the samples. Deviations are relative to the size of what is kept. Reversibility is a run to the end and back
+with -h; a symmetric method returns to the start up to rounding.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from codegen.emit import Compiled
+from codegen.groups import LeftMultiplication
+from codegen.ir.domain import ExprDomain
+from codegen.ir.program import Kind
+from codegen.lab.distance import distance
+from codegen.lab.drift import BLOCKS, Drift, fit
+from codegen.lab.runner import Emitted
+from codegen.lab.straight import straight_line
+from codegen.lab.symplecticity import symplectic_defect
+from codegen.load import StepFailed
+from codegen.scene import Setting
+
+SAMPLES = 1000
+FUNCTIONS = {name: getattr(math, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
+
+
+@dataclass(frozen=True)
+class Kept:
+    """One quantity that the flow keeps: times, deviations relative to its size, and their drift."""
+
+    name: str
+    times: tuple[float, ...]
+    deviations: tuple[float, ...]
+    drift: Drift
+
+
+@dataclass(frozen=True)
+class LongRun:
+    """What a method kept on a scene over ``steps`` steps of size ``h``.
+
+    ``failure`` says at which step and why a run ended early; the rest then speaks of what was run, and
+    nothing is said of what was kept where that is too short.
+    ``reversals`` are numbers of steps with the distance from the start after the way there and back: of the
+    whole run and, as chaos magnifies rounding, of a hundredth of it. ``symplectic`` is the defect of one
+    step, None off T*G.
+    """
+
+    scene: str
+    method: str
+    h: float
+    steps: int
+    kept: tuple[Kept, ...]
+    reversals: tuple[tuple[int, float], ...]
+    symplectic: float | None
+    failure: str = ""
+
+    def as_json(self) -> dict[str, Any]:
+        """Return plain data, without the sampled deviations."""
+        return {
+            "scene": self.scene,
+            "method": self.method,
+            "h": self.h,
+            "steps": self.steps,
+            "kept": [
+                {
+                    "name": k.name,
+                    "largest": k.drift.largest,
+                    "slope": k.drift.slope,
+                    "half_width": k.drift.half_width,
+                    "exponent": k.drift.exponent,
+                    "law": k.drift.law,
+                }
+                for k in self.kept
+            ],
+            "reversals": [{"steps": n, "distance": x} for n, x in self.reversals],
+            "symplectic_defect": self.symplectic,
+            "failure": self.failure,
+        }
+
+
+def longrun(compiled: Compiled, h: float, steps: int, *, back: bool = True) -> LongRun:
+    """Run emitted C over many steps from the scene's initial state, and say what was kept.
+
+    ``back`` asks for the way back as well, which doubles the run.
+    """
+    scene, runner = compiled.scene, Emitted(compiled, "c")
+    first = float(scene.span[0])
+    stride = max(steps // SAMPLES, 1)
+    steps -= steps % stride
+    failure = ""
+    reversals: list[tuple[int, float]] = []
+    try:
+        rows = runner.integrator.trajectory(runner.initial, h, steps, stride, first)
+    except StepFailed as failed:
+        failure = str(failed)
+        stride = max(failed.step // SAMPLES, 1)
+        steps = failed.step - failed.step % stride
+        rows = runner.integrator.trajectory(runner.initial, h, steps, stride, first)
+    times = [first + h * stride * k for k in range(len(rows))]
+    kept: tuple[Kept, ...] = ()
+    if len(rows) > 2 * BLOCKS:
+        kept = tuple(_kept(name, times, x) for name, x in _quantities(scene, rows, times).items())
+    if back and not failure:
+        try:
+            for samples in (len(rows) // 100, len(rows) - 1):
+                n = samples * stride
+                end = runner.integrator.run(rows[samples], -h, n, times[samples])
+                reversals.append((n, distance(scene, end, runner.initial)))
+        except StepFailed as failed:
+            failure = f"on the way back, {failed}"
+    symplectic = symplectic_defect(compiled, rows[len(rows) // 2], h) if scene.is_hamiltonian else None
+    return LongRun(scene.name, compiled.method.label, h, steps, kept, tuple(reversals), symplectic, failure)
+
+
+def _kept(name: str, times: Sequence[float], values: Sequence[float]) -> Kept:
+    elapsed = [t - times[0] for t in times[1:]]
+    return Kept(name, tuple(elapsed), tuple(values[1:]), fit(elapsed, values[1:]))
+
+
+def _quantities(scene: Setting, rows: Sequence[Any], times: Sequence[float]) -> dict[str, list[float]]:
+    """Return deviations along a trajectory: of each invariant from its start, and from the manifold."""
+    found: dict[str, list[float]] = {}
+    for name, evaluate in functions(scene).items():
+        series = [evaluate(row, t) for row, t in zip(rows, times, strict=True)]
+        if name == MANIFOLD:
+            found[name] = [max(map(abs, values)) for values in series]
+            continue
+        start = series[0][0]
+        scale = abs(start) if start else max(1.0, *(abs(v[0]) for v in series))
+        found[name] = [(v[0] - start) / scale for v in series]
+    return found
+
+
+MANIFOLD = "manifold"
+
+
+def functions(scene: Setting) -> dict[str, Callable[..., tuple[float, ...]]]:
+    """Return what a scene keeps as functions of state and time: its invariants, and the manifold's laws."""
+    domain = ExprDomain()
+    state = tuple(domain.space.sym(s) for s in scene.symbols)
+    roots = {name: (scene.invariant(domain, name, state),) for name in scene.invariants}
+    laws = _laws(scene, domain, state)
+    if laws:
+        roots[MANIFOLD] = laws
+    return {name: straight_line(scene, exprs).python(float, FUNCTIONS) for name, exprs in roots.items()}
+
+
+def _laws(scene: Setting, domain: ExprDomain, state: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return what must vanish on the blocks of the state that are elements of the group."""
+    start, found = 0, []
+    for block in scene.state:
+        values = state[start : start + len(block.symbols)]
+        start += len(values)
+        acting = block.kind is Kind.POINT and isinstance(scene.action, LeftMultiplication)
+        if block.kind is Kind.GROUP or acting:
+            found += [x for _, x in scene.group.laws(domain, values)]
+    return tuple(found)
