@@ -46,7 +46,7 @@ class LongRun:
     nothing is said of what was kept where that is too short.
     ``reversals`` are numbers of steps with the distance from the start after the way there and back: of the
     whole run and, as chaos magnifies rounding, of a hundredth of it. ``symplectic`` is the defect of one
-    step, None off T*G.
+    step, None off T*G and for a run that failed.
     """
 
     scene: str
@@ -112,7 +112,8 @@ def longrun(compiled: Compiled, h: float, steps: int, *, back: bool = True) -> L
                 reversals.append((n, distance(scene, end, runner.initial)))
         except StepFailed as failed:
             failure = f"on the way back, {failed}"
-    symplectic = symplectic_defect(compiled, rows[len(rows) // 2], h) if scene.is_hamiltonian else None
+    paired = scene.is_hamiltonian and not failure
+    symplectic = symplectic_defect(compiled, rows[len(rows) // 2], h) if paired else None
     return LongRun(scene.name, compiled.method.label, h, steps, kept, tuple(reversals), symplectic, failure)
 
 
