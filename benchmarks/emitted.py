@@ -240,8 +240,8 @@ def run(program: Path, steps: int) -> Run:
 
 
 def check_same(x: tuple[float, ...], y: tuple[float, ...], tolerance: float = 1e-11) -> None:
-    """Refuse to time two programs that compute different things."""
-    gap = max(abs(a - b) for a, b in zip(x, y, strict=True))
+    """Refuse to time two programs that compute different things; ``tolerance`` is relative to the state."""
+    gap = max(abs(a - b) for a, b in zip(x, y, strict=True)) / max(1.0, *map(abs, x))
     if not gap <= tolerance:
         raise SystemExit(f"the hand-written and the emitted state differ by {gap:.3g}")
 
