@@ -21,6 +21,7 @@ from codegen.ir.kernel import Kernel, Loop
 from codegen.ir.program import Program
 from codegen.lower import families_for, lower, setting
 from codegen.lower.kernel import to_kernel
+from codegen.lower.put_off import with_put_off
 from codegen.method import Method, parse
 from codegen.passes import PassReport, optimise
 from codegen.printers import target as printer_of
@@ -75,7 +76,8 @@ def compile_method(scene: Setting | str, method: Method | str, parameters: Seque
     view = setting(scene, method)
     lowered = lower(scene, method)
     program, trace = optimise(lowered, view)
-    return Compiled(scene, method, view, lowered, program, trace, to_kernel(program, view))
+    kernel = with_put_off(to_kernel(program, view), program, view)
+    return Compiled(scene, method, view, lowered, program, trace, kernel)
 
 
 def emit(

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any, Protocol
 
 from codegen.ir.domain import Domain, NotConverged
-from codegen.ir.program import FLOWS, Assign, Coefficient, Kind, Program, Solve, Var
+from codegen.ir.program import FLOWS, FLOWS_FOR, Assign, Coefficient, Kind, Program, Solve, Var
 
 
 class Setting(Protocol):
@@ -41,6 +41,8 @@ def apply(setting: Setting, domain: Domain, assign: Assign, args: tuple[Any, ...
         return (_combine(domain, operation.coefficients, args),)
     if operation.name in FLOWS:
         return setting.flow(domain, operation.part, coefficient(domain, operation.coefficients[0]), args)
+    if operation.name in FLOWS_FOR:
+        return setting.flow(domain, operation.part, args[-1], args[:-1])
     return setting.apply(domain, operation.name, operation.order, args)
 
 

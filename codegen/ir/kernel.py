@@ -11,6 +11,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from codegen.ir.expr import Expr, walk
+from codegen.ir.number import Number
+
+LEAD = "lead.h"
+"""How long the first flow of a step lasts; no name that a user can give."""
+
+ELAPSED = "elapsed.h"
+"""How long the steps lasted whose end is put off."""
 
 UNIT = 2.0**-53
 """Half a unit in the last place of one."""
@@ -70,6 +77,20 @@ class Field:
 
 
 @dataclass(frozen=True)
+class PutOff:
+    """What a run does once and not in each step.
+
+    A step is the kernel with :data:`LEAD` = ``first`` h, and ``finish`` after it. Made n times, that equals
+    the kernel n times, with LEAD = ``later`` h from the second on, and ``finish`` once with :data:`ELAPSED` =
+    n h and the t of the last step.
+    """
+
+    finish: Kernel
+    first: Number
+    later: Number
+
+
+@dataclass(frozen=True)
 class Kernel:
     """One step: state fields, scalar inputs (h, t, run-time parameters), body, new state in field order."""
 
@@ -78,6 +99,7 @@ class Kernel:
     scalars: tuple[str, ...]
     body: tuple[Let | Loop, ...]
     outputs: tuple[Expr, ...]
+    put_off: PutOff | None = None
 
     def lets(self) -> Iterator[Let]:
         """Yield every assignment, those in loops included."""
@@ -103,6 +125,8 @@ class Kernel:
         return tuple(sorted({n.payload for n in walk(self.expressions()) if n.op == "call"}))
 
     def used_scalars(self) -> tuple[str, ...]:
-        """Return those of ``scalars`` that some expression reads, in order."""
+        """Return those of ``scalars`` that some expression reads, in order; what is put off reads too."""
         read = {n.payload for n in walk(self.expressions()) if n.op == "sym"}
+        if self.put_off is not None:
+            read |= set(self.put_off.finish.used_scalars())
         return tuple(s for s in self.scalars if s in read)

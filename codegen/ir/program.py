@@ -85,6 +85,8 @@ SIGNATURES: dict[str, tuple[tuple[Kind, ...], tuple[Kind, ...]]] = {
     "hamiltont": ((G, D, R), (A, D)),
     "flow": ((G, D), (G, D)),  # the exact flow of a part, for a time coefficient
     "flowt": ((G, D, R), (G, D)),  # the same of a part that depends on t, which stands still
+    "flowfor": ((G, D, R), (G, D)),  # the flow for a time that is a value
+    "flowtfor": ((G, D, R, R), (G, D)),  # the same at a time t, the duration last
 }
 """Argument and result kinds of every operation but ``lin`` and ``zero``, which are of any linear kind."""
 
@@ -93,6 +95,9 @@ CUT_OFF = frozenset({"dexpinv", "dexpinvt", "P"})
 
 FLOWS = frozenset({"flow", "flowt"})
 """Operations with a ``part``, and one coefficient: how long it flows."""
+
+FLOWS_FOR = frozenset({"flowfor", "flowtfor"})
+"""Operations with a ``part`` whose last argument says how long it flows."""
 
 LINEAR_LAST = frozenset({"Ad", "Adt", "Adtinv", "ad", "adt", "dexpinv", "dexpinvt", "P", "dexpt"})
 """Operations that are linear in their last argument."""
@@ -103,7 +108,7 @@ class Operation:
     """What is done: a name of :data:`SIGNATURES`, ``lin`` (with coefficients) or ``zero``.
 
     ``coefficients`` belongs to ``lin`` (one an argument), ``advance`` and :data:`FLOWS` (one), ``order`` to
-    :data:`CUT_OFF`, ``part`` to :data:`FLOWS`: which exact flow of the scene.
+    :data:`CUT_OFF`, ``part`` to flows: which exact flow of the scene.
     """
 
     name: str

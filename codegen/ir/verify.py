@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from codegen.ir.program import CUT_OFF, FLOWS, SIGNATURES, Assign, Kind, Program, Solve, Var
+from codegen.ir.program import CUT_OFF, FLOWS, FLOWS_FOR, SIGNATURES, Assign, Kind, Program, Solve, Var
 
 LINEAR = (Kind.ALG, Kind.DUAL)
 
@@ -74,7 +74,7 @@ def _types(name: str, assign: Assign) -> None:
     elif operation.name in SIGNATURES:
         good = (args, results) == SIGNATURES[operation.name]
         good = good and len(operation.coefficients) == (operation.name in {"advance", *FLOWS})
-        good = good and bool(operation.part) == (operation.name in FLOWS)
+        good = good and bool(operation.part) == (operation.name in FLOWS | FLOWS_FOR)
         good = good and (operation.order is not None) == (operation.name in CUT_OFF)
     else:
         good = False

@@ -15,7 +15,7 @@ from codegen.errors import SceneError
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, walk
 from codegen.ir.interpret import apply, flatten
-from codegen.ir.kernel import Field, Kernel, Let, Loop
+from codegen.ir.kernel import ELAPSED, LEAD, Field, Kernel, Let, Loop
 from codegen.ir.program import Assign, Kind, Program, Solve, Var
 from codegen.scene import TIME, Setting
 
@@ -43,7 +43,7 @@ def to_kernel(program: Program, scene: Setting) -> Kernel:
     env: dict[Var, Any] = {}
     hints: dict[int, str] = {}
     blocks: list[_Block] = []
-    taken = {*scene.symbols, *scene.runtime, "h", TIME}
+    taken = {*scene.symbols, *scene.runtime, "h", TIME, LEAD, ELAPSED}
 
     def name(base: str) -> str:
         candidate = base if base not in taken else base + "_"
@@ -73,7 +73,7 @@ def to_kernel(program: Program, scene: Setting) -> Kernel:
     blocks_by_name = {block.name: block for block in scene.state}
     for var in program.inputs:
         block = blocks_by_name.get(var.name)
-        env[var] = tuple(space.sym(s) for s in block.symbols) if block else space.sym(TIME)
+        env[var] = tuple(space.sym(s) for s in block.symbols) if block else space.sym(var.name)
     for statement in program.body:
         if isinstance(statement, Assign):
             run(statement)
@@ -82,7 +82,8 @@ def to_kernel(program: Program, scene: Setting) -> Kernel:
     outputs = tuple(x for n, var in program.outputs for x in flatten(var.kind, env[var]))
     schedule = _Schedule(blocks, outputs, hints, name)
     state = tuple(Field(b.name, b.symbols, _meaning(b.kind, scene)) for b in scene.state)
-    return Kernel(program.name, state, (TIME, "h", *scene.runtime), schedule.run(), outputs=schedule.outputs)
+    scalars = (TIME, "h", *scene.runtime, LEAD, ELAPSED)
+    return Kernel(program.name, state, scalars, schedule.run(), outputs=schedule.outputs)
 
 
 def _meaning(kind: Kind, scene: Setting) -> str:

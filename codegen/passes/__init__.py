@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from codegen.ir.program import Program
 from codegen.ir.verify import IllFormed, verify
-from codegen.passes import abelian, blocks, dead, factor, fuse, merge, sharing, zeros
+from codegen.passes import abelian, blocks, dead, factor, flows, fuse, merge, sharing, zeros
 from codegen.passes.meaning import Reference
 from codegen.scene import Setting
 
@@ -45,6 +45,7 @@ def optimise(program: Program, scene: Setting) -> tuple[Program, tuple[PassRepor
         ("sharing", sharing.run),
         ("merging", merge.run),
         ("cancellation", zeros.run),
+        ("flows", lambda p: flows.run(p, scene)),
         ("dead code", dead.run),
         ("blocks", blocks.run),
         ("dead code", dead.run),

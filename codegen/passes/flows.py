@@ -13,7 +13,7 @@ from functools import cache
 from itertools import combinations
 from typing import Any
 
-from codegen.ir.program import FLOWS, Assign, Coefficient, Program, Var
+from codegen.ir.program import FLOWS, Assign, Coefficient, Kind, Operation, Program, Var
 from codegen.scene import Setting, orbit_of
 
 
@@ -38,7 +38,8 @@ def run(program: Program, scene: Setting) -> Program:
         if at is not None:
             duration = letter.duration.value + kept.pop(at).duration.value
             letter = replace(letter, duration=Coefficient(duration, letter.duration.power))
-        kept.append(letter)
+        if not letter.duration.is_zero:
+            kept.append(letter)
     return program if len(kept) == len(letters) else spelled(program, kept)
 
 
@@ -55,7 +56,7 @@ def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str]
 def word(program: Program) -> list[Letter] | None:
     """Return the flows of a program in order, or None where it does something else as well."""
     letters = []
-    state = tuple(v for v in program.inputs if v.name != "t")
+    state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for statement in program.body:
         if not isinstance(statement, Assign) or statement.operation.name not in {"advance", *FLOWS}:
             return None
@@ -74,13 +75,12 @@ def word(program: Program) -> list[Letter] | None:
 
 def spelled(program: Program, letters: Sequence[Letter]) -> Program:
     """Return the program that makes these flows, with the times of the old one."""
-    assigns = list(program.assigns())
-    body = [a for a in assigns if a.operation.name == "advance"]
-    state = tuple(v for v in program.inputs if v.name != "t")
+    body = [a for a in program.assigns() if a.operation.name == "advance"]
+    first = state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for number, letter in enumerate(letters):
-        targets = tuple(Var(f"{v.name.rstrip('0123456789')}{number + 1}", v.kind) for v in state)
+        targets = tuple(Var(f"{v.name}{number + 1}", v.kind) for v in first)
         name = "flowt" if letter.time else "flow"
-        operation = replace(assigns[0].operation, name=name, coefficients=(letter.duration,), part=letter.part)
+        operation = Operation(name, (letter.duration,), part=letter.part)
         body.append(Assign(targets, operation, (*state, *letter.time)))
         state = targets
     outputs = tuple((name, var) for (name, _), var in zip(program.outputs, state, strict=True))

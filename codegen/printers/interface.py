@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from codegen.ir.kernel import Kernel, Loop
+from codegen.ir.kernel import ELAPSED, LEAD, Kernel, Loop
 from codegen.printers.precision import DOUBLE, Precision, precision
 
 
@@ -37,7 +37,7 @@ class Interface:
             prefix=prefix,
             size=sum(len(field.symbols) for field in kernel.state),
             time="t" in used,
-            parameters=tuple(name for name in used if name not in ("h", "t")),
+            parameters=tuple(name for name in used if name not in ("h", "t", LEAD, ELAPSED)),
             blocks=tuple(s.label for s in kernel.body if isinstance(s, Loop)),
             precision=precision,
         )

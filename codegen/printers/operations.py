@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from codegen.ir.expr import Expr, walk
-from codegen.printers.arrange import Arrangement, Assignment, Iteration, Joint
+from codegen.ir.kernel import Kernel
+from codegen.printers.arrange import Arrangement, Assignment, Iteration, Joint, arrange
 
 STEP = "step"
 """The key under which operations outside loops are counted."""
@@ -37,6 +38,15 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
     for block, found in counts.items():
         each = ", ".join(f"{n} {name}" for name, n in found.items()) or "none"
         lines.append(f"{each} a step" if block == STEP else f"{each} a sweep of {block}")
+    return lines
+
+
+def costs(kernel: Kernel) -> list[str]:
+    """Spell what a step, each sweep of its blocks and the end of a run cost."""
+    lines = sentences(operations(arrange(kernel)))
+    if kernel.put_off is not None:
+        (end,) = sentences(operations(arrange(kernel.put_off.finish)))
+        lines.append(f"{end.removesuffix(' a step')} at the end of a run")
     return lines
 
 

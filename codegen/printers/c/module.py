@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from codegen.ir.kernel import Kernel
-from codegen.printers.arrange import arrange
+from codegen.ir.kernel import ELAPSED, LEAD, Kernel, PutOff
+from codegen.printers.arrange import Arrangement, arrange
 from codegen.printers.c.statements import RESERVED, Statements, comment, fill, literal
 from codegen.printers.interface import Interface
 from codegen.printers.layout import layout, register
 from codegen.printers.names import Names
-from codegen.printers.operations import operations, sentences
+from codegen.printers.operations import costs
 from codegen.printers.precision import DOUBLE
 from codegen.printers.recipe import Recipe, header
 from codegen.snippets.graph import needed
 from codegen.templates import environment
+
+TIME = "t"
 
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """The flags that emitted C is promised to compile under, without a warning."""
@@ -25,32 +27,24 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     """Return the texts of PREFIX.h and PREFIX.c for one step."""
     arrangement = arrange(kernel)
     names = register(kernel, arrangement, Names(RESERVED | own_names(interface)))
-    variables = declarations(kernel, interface, names)
-    symbols = tuple(s for f in kernel.state for s in f.symbols)
-    real = interface.format.c_type
-    statements = Statements(arrangement, names, interface.prefix, interface.format)
-    body = list(statements.lines())
-    ends, new = statements.outputs(symbols)
-    read = arrangement.symbols()
-    loads = [f"const {real} {names.spelled[s]} = state[{i}];" for i, s in enumerate(symbols) if s in read]
+    variables = declarations(kernel, interface, names) | definition(kernel, arrangement, names, interface)
     functions = {*arrangement.functions(), "isfinite"}
     if interface.blocks:
         functions |= {"fabs", "greater"}
+    variables["put_off"], held = None, names.count
+    if kernel.put_off is not None:
+        variables["put_off"], variables["advance_source"], more, held = put_off(
+            kernel.put_off, arrangement, names, interface
+        )
+        functions |= more
     found = needed("c", sorted(functions), interface.format)
     variables |= {
         "recipe": [
             comment(line)
-            for line in header(
-                recipe, layout(kernel), sentences(operations(arrangement)), 96, stack(names, interface)
-            )
+            for line in header(recipe, layout(kernel), costs(kernel), 96, stack(held, interface))
         ],
         "usage": usage(interface, recipe),
         "snippets": found.texts,
-        "body": [*loads, *body, *ends],
-        "new": new,
-        "finite": fill(
-            "if (!(", (f"isfinite({new[0]})", *(f"&& isfinite({n})" for n in new[1:])), ")) {", joint=""
-        ),
     }
     env = environment("c")
     return {
@@ -59,18 +53,77 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     }
 
 
+def definition(
+    kernel: Kernel, arrangement: Arrangement, names: Names, interface: Interface
+) -> dict[str, object]:
+    """Return what the body of a function that changes the state is spelled from."""
+    symbols = tuple(s for f in kernel.state for s in f.symbols)
+    real = interface.format.c_type
+    statements = Statements(arrangement, names, interface.prefix, interface.format)
+    body = list(statements.lines())
+    ends, new = statements.outputs(symbols)
+    read = arrangement.symbols()
+    loads = [f"const {real} {names.spelled[s]} = state[{i}];" for i, s in enumerate(symbols) if s in read]
+    finite = (f"isfinite({new[0]})", *(f"&& isfinite({n})" for n in new[1:]))
+    return {
+        "body": [*loads, *body, *ends],
+        "new": new,
+        "finite": fill("if (!(", finite, ")) {", joint=""),
+    }
+
+
+def put_off(
+    what: PutOff, arrangement: Arrangement, names: Names, interface: Interface
+) -> tuple[dict[str, object], list[str], set[str], int]:
+    """Return what the template needs of an end that is put off, the head of ``advance``, functions, numbers.
+
+    The numbers are those that both functions and their caller hold, for :func:`stack`.
+    """
+    ending = arrange(what.finish)
+    own = register(what.finish, ending, Names(RESERVED | own_names(interface)))
+    real, scalars = interface.format, (TIME, "h", *interface.parameters, LEAD, ELAPSED)
+    read = [[s for s in scalars if s in a.symbols() | {"h"}] for a in (arrangement, ending)]
+    read[1] = [s for s in scalars if s in ending.symbols()]
+    wide = "" if real is DOUBLE else f"({real.c_type})"
+    product = "(double)step * h" if real is DOUBLE else f"{wide}((double)step * (double)h)"
+    before = later(interface).replace("(double)step", "(double)(step - 1)")
+
+    def passed(read: list[str], t: str, elapsed: str) -> str:
+        values = {TIME: t, LEAD: "lead", ELAPSED: elapsed}
+        return ", ".join(values.get(s, names.spelled.get(s, s)) for s in read)
+
+    heads = []
+    for name, spelled, arguments in (("advance", names, read[0]), ("finish", own, read[1])):
+        state = f"{real.c_type} state[static {interface.size}]"
+        more = [f"{real.c_type} {spelled.spelled[s]}" for s in arguments]
+        heads.append(signature(f"static inline int {name}", state, more, ""))
+    found = definition(what.finish, ending, own, interface)
+    found |= {
+        "finish_source": heads[1],
+        "leads": LEAD in read[0],
+        "first": literal(real, real.round(what.first)),
+        "later": literal(real, real.round(what.later)),
+        "one_step": passed(read[0], "t", "h"),
+        "one_end": passed(read[1], "t", "h"),
+        "each_step": passed(read[0], later(interface), ""),
+        "each_end": passed(read[1], before, product),
+    }
+    held = names.count + own.count + 2 * interface.size
+    return found, heads[0], set(ending.functions()), held
+
+
 FRAMES = 512
 """Bytes for what calls leave on the stack besides numbers, and for the frames of helpers."""
 
 
-def stack(names: Names, interface: Interface) -> str:
+def stack(numbers: int, interface: Interface) -> str:
     """Say how much of the stack a call takes at most: what holds every number of a step at once.
 
     That is what compilers take who keep all names apart (-O0); tests hold it against ``-fstack-usage``.
     """
     size = {"double": 8, "float": 4}[interface.format.c_type]
-    numbers = -(-size * names.count // 64) * 64
-    return f"at most {numbers + FRAMES} bytes, without what the mathematical library takes"
+    rounded = -(-size * numbers // 64) * 64
+    return f"at most {rounded + FRAMES} bytes, without what the mathematical library takes"
 
 
 def own_names(interface: Interface) -> frozenset[str]:

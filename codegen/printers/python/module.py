@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from codegen.ir.kernel import Kernel
-from codegen.printers.arrange import arrange
+from codegen.ir.kernel import ELAPSED, LEAD, Kernel, PutOff
+from codegen.printers.arrange import Arrangement, arrange
 from codegen.printers.interface import Interface
 from codegen.printers.layout import layout, register
 from codegen.printers.names import Names
-from codegen.printers.operations import operations, sentences
+from codegen.printers.operations import costs
 from codegen.printers.precision import DOUBLE
 from codegen.printers.python.statements import RESERVED, WIDTH, Statements, listed, quoted
 from codegen.printers.recipe import Recipe, header
@@ -25,7 +25,13 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     statements = Statements(arrangement, names, precision)
     body = list(statements.lines())
     ends, new = statements.outputs(symbols)
-    found = needed("python", sorted({*arrangement.functions(), "isfinite"}), precision)
+    functions = {*arrangement.functions(), "isfinite"}
+    ending: dict[str, object] | None = None
+    if kernel.put_off is not None:
+        ending, more, constants = put_off(kernel.put_off, arrangement, names, interface)
+        statements.constants |= constants
+        functions |= more
+    found = needed("python", sorted(functions), precision)
     library = [name for name in found.library if name != "fabs"]
     imports = ["isfinite"] if single else library
     arrays = ["errstate", "float32", *(n for n in library if n != "isfinite")] if single else []
@@ -43,7 +49,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         .render(
             recipe=[
                 line.replace("\\", "\\\\").replace('"""', "'''")
-                for line in header(recipe, layout(kernel), sentences(operations(arrangement)), 84)
+                for line in header(recipe, layout(kernel), costs(kernel), 84)
             ],
             usage=usage(interface, recipe),
             imports=imports,
@@ -62,11 +68,50 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             run=", ".join(["state", *time, "h", "steps", *arguments, *keywords(["stride=0", *optional])]),
             once=", ".join(["state", *time, "h", "1", *parameters, *(f"{n}={n}" for n in statistics)]),
             passed=", ".join(["h", *parameters, *statistics]),
+            put_off=ending,
+            again=", ".join(["state", *time, "h", "failure.step", *parameters]),
             body=[*body, *ends],
             new=listed("return ", new, 1),
         )
     )
     return {f"{interface.module}.py": text}
+
+
+def put_off(
+    what: PutOff, arrangement: Arrangement, names: Names, interface: Interface
+) -> tuple[dict[str, object], set[str], dict[str, str]]:
+    """Return what the template needs of an end that is put off, and its functions and constants."""
+    precision = interface.format
+    ending = arrange(what.finish)
+    own = register(what.finish, ending, Names(RESERVED))
+    symbols = tuple(s for f in what.finish.state for s in f.symbols)
+    statements = Statements(ending, own, precision, "E")
+    body = list(statements.lines())
+    ends, new = statements.outputs(symbols)
+    scalars = ("t", "h", *interface.parameters, LEAD, ELAPSED)
+    read = [[s for s in scalars if s in a.symbols()] for a in (arrangement, ending)]
+    single = precision is not DOUBLE
+    elapsed = "float32(made * float(h))" if single else "made * h"
+    time = "float32(float(t) + {} * float(h))" if single else "t + {} * h"
+
+    def passed(read: list[str], made: str) -> str:
+        values = {"t": time.format(made), LEAD: "lead", ELAPSED: elapsed}
+        return ", ".join(values.get(s, names.spelled.get(s, s)) for s in read)
+
+    number = "float32({})" if single else "{}"
+    found: dict[str, object] = {
+        "leads": LEAD in read[0],
+        "first": number.format(precision.text(precision.round(what.first))),
+        "later": number.format(precision.text(precision.round(what.later))),
+        "step": ", ".join(["state", *(names.spelled[s] for s in read[0])]),
+        "end": ", ".join(["state", *(own.spelled[s] for s in read[1])]),
+        "each_step": passed(read[0], "made"),
+        "each_end": passed(read[1], "(made - 1)"),
+        "state": unpacking([own.spelled[s] for s in symbols]),
+        "body": [*body, *ends],
+        "new": listed("return ", new, 1),
+    }
+    return found, set(ending.functions()), statements.constants
 
 
 def unpacking(symbols: list[str]) -> list[str]:

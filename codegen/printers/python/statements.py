@@ -30,11 +30,14 @@ RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split())
 class Statements:
     """Prints the statements of one arrangement at the indentation of a function body.
 
-    In single precision constants are NumPy's float32, made once: ``constants`` maps their names to digits.
+    In single precision constants are NumPy's float32, made once: ``constants`` maps their names, which begin
+    with ``letter``, to digits.
     """
 
-    def __init__(self, arrangement: Arrangement, names: Names, precision: Precision = DOUBLE) -> None:
-        self.arrangement, self.names, self.precision = arrangement, names, precision
+    def __init__(
+        self, arrangement: Arrangement, names: Names, precision: Precision = DOUBLE, letter: str = "C"
+    ) -> None:
+        self.arrangement, self.names, self.precision, self.letter = arrangement, names, precision, letter
         self.constants: dict[str, str] = {}
         self._named: dict[str, str] = {}
         self.style = Style() if precision is DOUBLE else Style(self._constant)
@@ -44,7 +47,7 @@ class Statements:
         text = self.precision.text(self.precision.round(value))
         size = text.removeprefix("-")
         if size not in self._named:
-            self._named[size] = self.names.fresh(f"C{len(self._named) + 1}")
+            self._named[size] = self.names.fresh(f"{self.letter}{len(self._named) + 1}")
             self.constants[self._named[size]] = size
         return ("-" if text.startswith("-") else "") + self._named[size]
 

@@ -1,0 +1,88 @@
+"""Flows of one part are gathered across what commutes with them, and across nothing else."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from sympy import Matrix, diag
+
+from codegen import scenes
+from codegen.flow import Kick
+from codegen.ir.program import Coefficient
+from codegen.lower import lower, setting
+from codegen.method import Method
+from codegen.passes import flows, optimise
+from tests.strategies import shipped, top_scene
+
+
+def spelled(scene, method):
+    view = setting(scene, method)
+    program = lower(scene, method)
+    return view, program, flows.run(program, view)
+
+
+def parts(program):
+    return [(letter.part, float(letter.duration.value)) for letter in flows.word(program)]
+
+
+FAST = Method("splitting", shipped("forest_ruth4"))
+
+
+def test_the_spin_of_a_top_that_its_potential_does_not_see_is_made_once():
+    view, program, gathered = spelled(scenes.load("fast_heavy_top"), FAST)
+    names = [name for name, _ in parts(gathered)]
+    assert names == ["V", "T.mean"] * 3 + ["T.turn", "V"]
+    assert parts(gathered)[-2] == ("T.turn", 1.0)
+    commute = flows.commuting(view)
+    assert commute("T.turn", "V")
+    assert commute("T.turn", "T.mean")
+    assert not commute("T.mean", "V")
+    assert flows.apart(flows.word(program), commute) == ("T.turn",)
+
+
+def test_the_spin_of_a_top_without_symmetry_is_not():
+    """The potential tells the body's axes apart."""
+    view, program, gathered = spelled(top_scene(diag(2, 3, 2)), FAST)
+    assert gathered == program
+    assert not flows.commuting(view)("T.turn", "V")
+
+
+def test_neighbours_of_one_part_are_one_and_nothing_is_left_of_flows_that_cancel():
+    view, program, _ = spelled(top_scene(diag(2, 3, 2)), Method("splitting", shipped("strang")))
+    letters = flows.word(program)
+    doubled = flows.spelled(program, [letters[0], *letters])
+    assert [d for p, d in parts(flows.run(doubled, view)) if p == "V"] == [1.0, 0.5]
+    back = replace(letters[0], duration=Coefficient(-letters[0].duration.value, 1))
+    undone = flows.spelled(program, [back, *letters])
+    assert [p for p, _ in parts(flows.run(undone, view))] == ["T.mean", "T.turn", "V"]
+
+
+def test_kicks_at_two_times_are_two():
+    """Between them stands nothing, but they see different times."""
+    view, program, _ = spelled(scenes.load("linear_oscillator"), Method("splitting", shipped("strang")))
+    letters = [letter for letter in flows.word(program) if letter.part == "V"]
+    assert len({letter.time for letter in letters}) == 2
+    assert len(flows.word(flows.run(flows.spelled(program, letters), view))) == 2
+
+
+def test_the_pass_is_undone_where_it_changes_what_is_computed(monkeypatch):
+    """The control: a pass that takes everything to commute is caught by interpretation."""
+    monkeypatch.setattr(flows, "commuting", lambda scene: lambda a, b: True)
+    scene = scenes.load("fast_heavy_top")
+    with pytest.raises(AssertionError, match="the pass flows changed the meaning"):
+        optimise(lower(scene, FAST), setting(scene, FAST))
+
+
+def test_a_program_that_is_no_splitting_is_left_alone():
+    scene, method = scenes.load("dipole"), Method("vcg", shipped("midpoint"))
+    program = lower(scene, method)
+    assert flows.word(program) is None
+    assert flows.run(program, scene) is program
+
+
+def test_flows_of_one_group_commute_where_their_brackets_vanish():
+    scene = top_scene(Matrix([[3, 1, 1], [1, 3, 1], [1, 1, 3]]))
+    view = setting(scene, Method("splitting", shipped("strang")))
+    assert isinstance(view.flows["V"], Kick)
+    assert flows.commuting(view)("T.mean", "T.turn")
