@@ -82,7 +82,8 @@ def to_kernel(program: Program, scene: Setting) -> Kernel:
     outputs = tuple(x for n, var in program.outputs for x in flatten(var.kind, env[var]))
     schedule = _Schedule(blocks, outputs, hints, name)
     state = tuple(Field(b.name, b.symbols, _meaning(b.kind, scene)) for b in scene.state)
-    scalars = (TIME, "h", *scene.runtime, LEAD, ELAPSED)
+    durations = [v.name for v in program.inputs if v.name in (LEAD, ELAPSED)]
+    scalars = (TIME, "h", *scene.runtime, *durations)
     return Kernel(program.name, state, scalars, schedule.run(), outputs=schedule.outputs)
 
 
