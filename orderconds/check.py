@@ -8,7 +8,7 @@ which equations its decimals solve, and interval arithmetic proves that they hav
 digits, which has the order (:mod:`orderconds.proof`). ``decimal``: some residuals are balls that contain
 zero, so the order is what the printed digits support, and no more than that is claimed: a ball never
 proves zero. A ball too wide to speak (see :data:`RESOLUTION`) leaves the
-order ``undecided``; one that excludes zero proves that the condition fails.
+order ``undecided`` and its certificate ``none``; one that excludes zero proves that the condition fails.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from orderconds.families import Family
 from orderconds.ring import Element, Ring
 from orderconds.served import served, unclaimed
 from orderconds.tableau import Magnus, RungeKutta, Splitting, Tableau, find
-from orderconds.tableau.properties import properties
+from orderconds.tableau.properties import properties, undecided
 from orderconds.tableau.work import Work, work
 
 if TYPE_CHECKING:
@@ -146,6 +146,8 @@ class Report:
     orders: tuple[FamilyOrder, ...]
     properties: dict[str, bool | None]
     broken_claims: tuple[str, ...] = ()
+    undecided: dict[str, str] = field(default_factory=dict)
+    """Property to the reason why it is neither true nor false."""
     proof: Certificate | None = None
     work: dict[str, Work] = field(default_factory=dict)
     embedded: EmbeddedOrder | None = None
@@ -169,7 +171,7 @@ class Report:
         return "\n".join([*lines, *(f"  claim fails: {broken}" for broken in self.broken_claims)])
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of one tableau; ``broken_claims`` only where there are any."""
+        """Return the JSON object of one tableau; ``undecided`` and ``broken_claims`` only where there are any."""
         record: dict[str, object] = {
             "name": self.name,
             "file": self.file,
@@ -183,6 +185,8 @@ class Report:
             record["embedded"] = self.embedded.as_json()
         if self.proof is not None:
             record["proof"] = self.proof.as_json()
+        if self.undecided:
+            record["undecided"] = self.undecided
         return {**record, "broken_claims": list(self.broken_claims)} if self.broken_claims else record
 
 
@@ -219,8 +223,9 @@ def check(
     enclosed = proof.tableau if proof else tableau
     facts = proof.facts if proof else ()
     embedded = _embedded(enclosed, [f for f, _ in wanted])
+    computed = properties(tableau)
     if family is None:
-        broken += _broken_claims(tableau, embedded)
+        broken += _broken_claims(tableau, computed, embedded)
     if complete:
         broken += [f"no order is claimed in family {name}, which it can serve" for name in unclaimed(tableau)]
     orders = _orders(enclosed, wanted, facts, order)
@@ -231,8 +236,9 @@ def check(
         file=tableau.path,
         format=tableau.family,
         orders=orders,
-        properties=properties(tableau),
+        properties=computed,
         broken_claims=tuple(broken),
+        undecided=undecided(tableau, computed),
         proof=proof,
         work={f.label(): cost for f, _ in wanted if (cost := _work(tableau, f)) is not None},
         embedded=embedded,
@@ -378,6 +384,7 @@ def _search(
                 break
         if failing or "undecided" in verdicts:
             decided, norm = bool(failing), None
+            certificate = certificate if decided else "none"
             if failing and len(conditions) <= EXHAUSTIVE:
                 norm = _norm([failure.decimal for failure in failing])
             return FamilyOrder(family.label(), n - 1, certificate, decided, failing, norm, claimed, required)
@@ -423,9 +430,18 @@ def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int 
         yield found, claims.get(found.label())
         return
     for label, order in claims.items():
-        yield families.get(label), order
+        yield _claimed(tableau, label), order
     if not claims:
         yield families.get(_family_of_format(tableau)), None
+
+
+def _claimed(tableau: Tableau, label: str) -> Family:
+    """Return the family of a claim; a name that there is not is an error of the file, at its key."""
+    try:
+        return families.get(label)
+    except InputError as problem:
+        problem.where = f"{tableau.path or tableau.name}: claims.{label.partition('(')[0]}"
+        raise
 
 
 def _family_of_format(tableau: Tableau) -> str:
@@ -457,9 +473,10 @@ def _conditions(family: Family, n: int) -> tuple[OrderCondition, ...]:
     return found
 
 
-def _broken_claims(tableau: Tableau, embedded: EmbeddedOrder | None) -> Iterator[str]:
+def _broken_claims(
+    tableau: Tableau, computed: dict[str, bool | None], embedded: EmbeddedOrder | None
+) -> Iterator[str]:
     """Yield what the file says of properties and of its embedded row, and what was computed instead."""
-    computed = properties(tableau)
     for name, claimed in tableau.claims.properties.items():
         found = computed.get(name)
         if found is not claimed:

@@ -6,6 +6,7 @@ from typing import Any
 
 import click
 
+from orderconds.commands.place import FOLDER
 from orderconds.commands.screen import counting, print_json, print_table, working
 from orderconds.commands.variadic import Variadic
 from orderconds.errors import InputError
@@ -17,7 +18,9 @@ from orderconds.errors import InputError
 @click.option("--target", "-t", "targets", multiple=True, help="c (the default) or python; may be repeated.")
 @click.option("--against", "-a", "peers", multiple=True, help="Peers, or scipy, c or all for several.")
 @click.option("--budget", default=1.0, show_default=True, help="CPU seconds that one run may take.")
-@click.option("--output", "-o", metavar="DIR", help="Write SCENE.csv, SCENE.json and SCENE.svg there.")
+@click.option(
+    "--output", "-o", type=FOLDER, metavar="DIR", help="Write SCENE.csv, SCENE.json and SCENE.svg there."
+)
 @click.option("--json", "as_json", is_flag=True, help="The rows on stdout, nothing else.")
 def command(
     scene: str,

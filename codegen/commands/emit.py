@@ -7,6 +7,7 @@ from typing import Any
 import click
 
 from orderconds.commands import screen
+from orderconds.commands.place import FOLDER
 
 
 @click.command(name="emit", short_help="Write a specialised integrator for a scene.")
@@ -15,7 +16,7 @@ from orderconds.commands import screen
     "--method", "-m", required=True, help="TABLEAU or FAMILY:TABLEAU, as cf4, vcg:triple_jump, 'rkmk(2):rk4'."
 )
 @click.option("--target", "-t", "targets", multiple=True, help="c (the default) or python; may be repeated.")
-@click.option("--output", "-o", metavar="DIR", help="The folder to write to.")
+@click.option("--output", "-o", type=FOLDER, metavar="DIR", help="The folder to write to.")
 @click.option("--prefix", default="", help="Start of every external name; by default scene and method.")
 @click.option(
     "--parameter",

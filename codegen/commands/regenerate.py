@@ -7,11 +7,14 @@ from pathlib import Path
 import click
 
 from orderconds.commands import screen
+from orderconds.commands.place import FOLDER
 
 
 @click.command(name="regenerate", short_help="Rewrite generated/, or check it to the byte.")
 @click.option("--check", "check_only", is_flag=True, help="Change nothing; exit 1 on a byte of difference.")
-@click.option("--output", "-o", metavar="DIR", help="The folder; by default generated/ of the source tree.")
+@click.option(
+    "--output", "-o", type=FOLDER, metavar="DIR", help="The folder; by default generated/ of the source tree."
+)
 @click.option("--list", "listing", metavar="FILE", help="The list of modules, by default regenerate.toml.")
 @click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
 def command(check_only: bool, output: str | None, listing: str | None, as_json: bool) -> int:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from orderconds.commands.place import FOLDER
 from orderconds.commands.screen import print_json, working
 from orderconds.commands.variadic import Variadic
 
@@ -13,7 +14,9 @@ from orderconds.commands.variadic import Variadic
 )
 @click.argument("scenes", nargs=-1, metavar="[SCENE]...")
 @click.option("--method", "-m", "methods", multiple=True, help="TABLEAU or FAMILY:TABLEAU; may be repeated.")
-@click.option("--output", "-o", metavar="DIR", required=True, help="The folder to write index.html to.")
+@click.option(
+    "--output", "-o", type=FOLDER, metavar="DIR", required=True, help="The folder to write index.html to."
+)
 @click.option("--json", "as_json", is_flag=True, help="The measurements on stdout, nothing else.")
 def command(scenes: tuple[str, ...], methods: tuple[str, ...], output: str, as_json: bool) -> int:
     """Measure SCENEs (names of the gallery or Python files; dipole and free_rigid_body by default).

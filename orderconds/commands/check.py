@@ -180,7 +180,11 @@ def _print_report(report: Report, *, detailed: bool) -> None:
     if report.work:
         click.echo(f"  a step: {_work(report.work)}")
     holding = [name for name, value in report.properties.items() if value]
-    click.echo(f"  properties: {', '.join(holding) or 'none'}\n")
+    click.echo(f"  properties: {', '.join(holding) or 'none'}")
+    for reason in dict.fromkeys(report.undecided.values()):
+        names = [name for name, why in report.undecided.items() if why == reason]
+        click.echo(f"  undecided: {', '.join(names)} ({reason})")
+    click.echo()
 
 
 def _work(work: dict[str, Work]) -> str:

@@ -8,13 +8,14 @@ from pathlib import Path
 import click
 
 from orderconds.commands import screen
+from orderconds.commands.place import FILE
 from orderconds.errors import TableauError
 
 
 @click.command(name="construct", short_help="Make a Gauss, Radau or Lobatto method from its definition.")
 @click.argument("kind")
 @click.option("--stages", "-s", type=click.IntRange(1, 50), required=True, help="The number of stages.")
-@click.option("--output", "-o", metavar="FILE", help="Write here instead of stdout.")
+@click.option("--output", "-o", type=FILE, metavar="FILE", help="Write here instead of stdout.")
 @click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
 def command(kind: str, stages: int, output: str | None, as_json: bool) -> int:
     """Write the tableau of KIND with so many stages, its coefficients exact. KIND is gauss, radau1a, radau2a,

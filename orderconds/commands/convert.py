@@ -8,6 +8,7 @@ from pathlib import Path
 
 import click
 
+from orderconds.commands.place import FILE
 from orderconds.errors import TableauError
 from orderconds.exchange import FORMATS, export, format_of, left_out, read_data
 from orderconds.tableau import find
@@ -21,7 +22,7 @@ NAMES = click.Choice(list(FORMATS))
 @click.option("--from", "of", type=NAMES, help="The format of FILE; by its suffix where left out.")
 @click.option("--to", type=NAMES, help="The format to write; by the suffix of --output, else toml.")
 @click.option("--name", help="A name for a tableau whose file gives none.")
-@click.option("--output", "-o", metavar="FILE", help="Write here instead of stdout.")
+@click.option("--output", "-o", type=FILE, metavar="FILE", help="Write here instead of stdout.")
 def command(source: str, of: str | None, to: str | None, name: str | None, output: str | None) -> int:
     """Convert a tableau: a file, or one of the library by name. Nothing that is read is run as code, and
     what is written reads back as the same method.

@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from orderconds.commands import screen
+from orderconds.commands.place import FILE
 from orderconds.errors import TableauError
 
 
@@ -17,7 +18,7 @@ from orderconds.errors import TableauError
 @click.option(
     "--digits", type=click.IntRange(10, 1000), default=60, show_default=True, help="Places to write."
 )
-@click.option("--output", "-o", metavar="FILE", help="Write here instead of stdout.")
+@click.option("--output", "-o", type=FILE, metavar="FILE", help="Write here instead of stdout.")
 @click.option("--json", "as_json", is_flag=True, help="Digits, pins and proof on stdout as JSON.")
 def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     """Solve the equations that the [proof] of FILE names, from the decimals ("0.8177~") that stand in it, and

@@ -34,6 +34,7 @@ from orderconds.tableau.record import Claims, File, OrderClaim, Tableau
 from orderconds.tableau.unknowns import Proof, Spelled
 
 MAX_BYTES = 1_000_000
+MAX_NAME = 64
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.+-]*")
 _NUMBER = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
@@ -187,6 +188,13 @@ def _explained(message: str, kind: type[Struct], prefix: str, where: str) -> Tab
 
 
 def _verify_names(entry: Format, where: str) -> None:
+    for name in (entry.name, entry.bibtex, *entry.numbers):
+        if len(name) > MAX_NAME:
+            raise TableauError(
+                f"a name of {len(name)} characters, {name[:20]!r} ...",
+                where=where,
+                expected=f"at most {MAX_NAME}",
+            )
     if not _NAME.fullmatch(entry.name):
         raise TableauError(
             f"name = {entry.name!r}", where=f"{where}: name", expected="letters, digits, _ . + -"

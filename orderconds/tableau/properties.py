@@ -5,8 +5,9 @@ Each is True, False, or None where the coefficients are balls too wide to tell.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
+from orderconds.ring import Balls
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.methods import CommutatorFree, Composition, PartitionedRungeKutta, RungeKutta
 from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
@@ -40,6 +41,19 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
         verdict = symmetric_product(method, ring)
         return {"symmetric": _symmetric_by_spelling(tableau) if verdict is None else verdict}
     return {**_of_tableau(method, ring), **stability(method, ring)}
+
+
+def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, str]:
+    """Return the properties that are None, with the reason.
+
+    >>> from orderconds.tableau import Tableau
+    >>> found = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]')
+    >>> undecided(found, properties(found))["a_stable"]
+    'rounded decimals'
+    """
+    balls = isinstance(tableau.ring, Balls)
+    reason = "rounded decimals" if balls else "not computed: exact signs would take more than a second"
+    return {name: reason for name, verdict in computed.items() if verdict is None}
 
 
 def _symmetric_by_spelling(tableau: Tableau) -> Verdict:

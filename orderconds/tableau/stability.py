@@ -4,7 +4,7 @@ R(z) = P(z)/Q(z) with Q = det(I - zA) and P = det(I - z(A - 1 b^T)), common fact
 A-stable iff every zero of Q has positive real part (Routh) and E(y) = |Q(iy)|^2 - |P(iy)|^2, a polynomial
 in y^2, is nowhere negative (Sturm); L-stable iff deg P < deg Q besides (Hairer and Wanner, *Solving
 Ordinary Differential Equations II*, Sections IV.3 and IV.5). Signs are decided in the field of the
-coefficients; of balls nothing is decided.
+coefficients; of balls nothing is decided, nor where a field's numbers would take long (:data:`LARGEST`).
 """
 
 from __future__ import annotations
@@ -14,11 +14,21 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
+from flint import fmpq
+
+from orderconds.ring import QQ, Balls
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.methods import RungeKutta
 
 Polynomial = list[Element]
 """Ascending coefficients, the last one not zero; the zero polynomial is empty."""
+
+
+LARGEST = 100
+"""Rational tableaux with a larger implicit block, over which flint takes a second, are left undecided."""
+
+EFFORT = 3 * 10**11
+"""How many pairs of bits may be multiplied over other fields, a second or so: Euclid's remainders swell."""
 
 
 @dataclass(frozen=True)
@@ -32,34 +42,52 @@ class StabilityFunction:
 def stability(method: RungeKutta, ring: Ring) -> dict[str, bool | None]:
     """Return ``a_stable`` and ``l_stable``; None where the ring has no signs (balls).
 
-    >>> from orderconds.ring import QQ
-    >>> half, one = QQ.rational(1, 2), QQ.one
-    >>> stability(RungeKutta(((half,),), (one,)), QQ)
-    {'a_stable': True, 'l_stable': False}
-    >>> stability(RungeKutta(((one,),), (one,)), QQ)
-    {'a_stable': True, 'l_stable': True}
+        >>> from flint import fmpq
+
+    from orderconds.ring import QQ, Balls
+        >>> half, one = QQ.rational(1, 2), QQ.one
+        >>> stability(RungeKutta(((half,),), (one,)), QQ)
+        {'a_stable': True, 'l_stable': False}
+        >>> stability(RungeKutta(((one,),), (one,)), QQ)
+        {'a_stable': True, 'l_stable': True}
     """
     if all(ring.is_zero(x) is True for i, row in enumerate(method.A) for x in row[i:]):
         return {"a_stable": False, "l_stable": False}  # a polynomial, unbounded
     if any(ring.is_zero(x) is None for row in (*method.A, method.b) for x in row):
         return {"a_stable": None, "l_stable": None}
     try:
-        R = stability_function(method, ring)
-        a_stable = poles_right(R.denominator, ring) and bounded_on_axis(R, ring)
+        a_stable, l_stable = _decided(method, ring)
     except _Undecided:
         return {"a_stable": None, "l_stable": None}
-    return {"a_stable": a_stable, "l_stable": a_stable and len(R.numerator) < len(R.denominator)}
+    return {"a_stable": a_stable, "l_stable": l_stable}
+
+
+def _decided(method: RungeKutta, ring: Any) -> tuple[bool, bool]:
+    if _largest_block(method, ring) > LARGEST:
+        raise _Undecided
+    if ring is QQ:
+        from orderconds.tableau.rational_stability import determinant, stable
+
+        less = [[a - w for a, w in zip(row, method.b, strict=True)] for row in method.A]
+        if (verdict := stable(determinant(less), determinant(method.A))) is not None:
+            return verdict
+    ring = _Limited(ring)
+    R = stability_function(method, ring)
+    a_stable = poles_right(R.denominator, ring) and bounded_on_axis(R, ring)
+    return a_stable, a_stable and len(R.numerator) < len(R.denominator)
 
 
 def stability_of_midpoints(gamma: Sequence[Element], ring: Any) -> dict[str, bool | None]:
     """Return the same of composed midpoints, R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
 
-    |R| = 1 on the axis and at infinity. A negative step is a pole on the left, unless a positive one
-    cancels it.
+        |R| = 1 on the axis and at infinity. A negative step is a pole on the left, unless a positive one
+        cancels it.
 
-    >>> from orderconds.ring import QQ
-    >>> stability_of_midpoints([QQ.rational(1, 2), QQ.rational(1, 2)], QQ)
-    {'a_stable': True, 'l_stable': False}
+        >>> from flint import fmpq
+
+    from orderconds.ring import QQ, Balls
+        >>> stability_of_midpoints([QQ.rational(1, 2), QQ.rational(1, 2)], QQ)
+        {'a_stable': True, 'l_stable': False}
     """
     signs = [ring.sign(x) for x in gamma]
     if all(sign in (0, 1) for sign in signs):
@@ -79,7 +107,45 @@ def stability_of_midpoints(gamma: Sequence[Element], ring: Any) -> dict[str, boo
 
 
 class _Undecided(Exception):
-    """A ball that contains zero stands where a sign is needed."""
+    """A ball that contains zero stands where a sign is needed, or a sign would take long."""
+
+
+class _Limited:
+    """A number field that gives up after so much work."""
+
+    def __init__(self, ring: Any) -> None:
+        self.ring, self.left = ring, EFFORT
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.ring, name)
+
+    def spend(self, count: int, *factors: Element) -> None:
+        """Take off the work of ``count`` products of numbers as large as the factors."""
+        degree = self.ring.modulus.degree() if hasattr(self.ring, "modulus") else 1
+        bits = 1000 + degree * max((_bits(x) for x in factors), default=1)
+        self.left -= count * bits * bits
+        if self.left < 0:
+            raise _Undecided
+
+
+def _bits(x: Element) -> int:
+    """Return the length of a number of Q or of a number field."""
+    coefficients = x.polynomial.coeffs() if hasattr(x, "polynomial") else [x]
+    return max((int(fmpq(c).p).bit_length() + int(fmpq(c).q).bit_length() for c in coefficients), default=1)
+
+
+def _spend(ring: Any, count: int, *factors: Element) -> None:
+    if isinstance(ring, _Limited) and not isinstance(ring.ring, Balls):
+        ring.spend(count, *factors)
+
+
+def _largest_block(method: RungeKutta, ring: Ring) -> int:
+    sizes, start = [0], 0
+    for end in range(1, method.s + 1):
+        if all(ring.is_zero(x) is True for row in method.A[:end] for x in row[end:]):
+            sizes.append(end - start)
+            start = end
+    return max(sizes)
 
 
 def _sign(x: Element, ring: Any) -> int:
@@ -92,10 +158,12 @@ def _sign(x: Element, ring: Any) -> int:
 def stability_function(method: RungeKutta, ring: Ring) -> StabilityFunction:
     """Return R in lowest terms, over an exact field (HW (IV.3.2), (IV.3.3)).
 
-    >>> from orderconds.ring import QQ
-    >>> R = stability_function(RungeKutta(((QQ.rational(1, 2),),), (QQ.one,)), QQ)
-    >>> [str(x) for x in R.numerator], [str(x) for x in R.denominator]
-    (['1', '1/2'], ['1', '-1/2'])
+        >>> from flint import fmpq
+
+    from orderconds.ring import QQ, Balls
+        >>> R = stability_function(RungeKutta(((QQ.rational(1, 2),),), (QQ.one,)), QQ)
+        >>> [str(x) for x in R.numerator], [str(x) for x in R.denominator]
+        (['1', '1/2'], ['1', '-1/2'])
     """
     A, b = method.A, method.b
     Q = _determinant(A, ring)
@@ -118,6 +186,7 @@ def _determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial:
 
 def _block_determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial:
     stages = range(len(A))
+    _spend(ring, len(A) ** 4, *(x for row in A for x in row))
     coefficients = [ring.one]
     M = [[ring.zero for _ in stages] for _ in stages]
     for k in range(1, len(A) + 1):
@@ -137,9 +206,11 @@ def _block_determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial
 def poles_right(Q: Sequence[Element], ring: Any) -> bool:
     """Say whether every zero of Q has positive real part: Routh's scheme of Q(-z) has no change of sign.
 
-    >>> from orderconds.ring import QQ
-    >>> [poles_right([QQ.rational(x) for x in Q], QQ) for Q in ((2, -3, 1), (1, 0, 1))]
-    [True, False]
+        >>> from flint import fmpq
+
+    from orderconds.ring import QQ, Balls
+        >>> [poles_right([QQ.rational(x) for x in Q], QQ) for Q in ((2, -3, 1), (1, 0, 1))]
+        [True, False]
     """
     p = [x if k % 2 == 0 else -x for k, x in enumerate(Q)][::-1]
     even, odd = list(p[0::2]), list(p[1::2])
@@ -184,9 +255,11 @@ def _modulus(p: Sequence[Element], ring: Ring) -> Polynomial:
 def positive_roots(p: Sequence[Element], ring: Any) -> int:
     """Return how many different zeros p has beyond 0, by Sturm's chain.
 
-    >>> from orderconds.ring import QQ
-    >>> positive_roots([QQ.rational(x) for x in (2, -3, 1)], QQ)
-    2
+        >>> from flint import fmpq
+
+    from orderconds.ring import QQ, Balls
+        >>> positive_roots([QQ.rational(x) for x in (2, -3, 1)], QQ)
+        2
     """
     chain = [list(p), _derivative(p, ring)]
     while chain[-1]:
@@ -233,6 +306,7 @@ def _quotient(p: Sequence[Element], q: Sequence[Element], ring: Ring) -> Polynom
 
 
 def _divided(p: Sequence[Element], q: Sequence[Element], ring: Ring) -> tuple[Polynomial, Polynomial]:
+    _spend(ring, max(len(p) - len(q) + 1, 0) * len(q), *p, *q)
     rest, quotient = list(p), [ring.zero] * max(len(p) - len(q) + 1, 0)
     inverse = ring.one / q[-1]
     for shift in range(len(p) - len(q), -1, -1):

@@ -101,6 +101,8 @@ class TestBalls:
             1,
             (),
         )
+        assert found.certificate == "none"
+        assert report.undecided["a_stable"] == "rounded decimals"
 
     def test_a_ball_that_excludes_zero_proves_that_the_condition_fails(self) -> None:
         (found,) = check(self.midpoint("0.50000001000~")).orders

@@ -68,7 +68,7 @@ REFUSED = {
     "embedded_equal": "its error estimate is identically zero",
     "name_twice": "Cannot overwrite a value",
     "row_sums": "c_3 = 17/25 beside a row of A that sums to 17/24",
-    "unknown_family": "unknown family 'rkkm'",
+    "unknown_family": "unknown_family.toml: claims.rkkm: unknown family 'rkkm'",
 }
 
 UNDECIDED = {"gauss2_four_digits": ("rk", 3)}

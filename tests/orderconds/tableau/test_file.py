@@ -131,6 +131,12 @@ MALFORMED = {
     "name twice": (EULER + '[numbers]\ng = "1"\ng = "2"\n', "Cannot overwrite", "once"),
     "no TOML": ("name = ", "Invalid value", "TOML"),
     "no name": ('family = "rk"\nA = [[]]\nb = ["1"]\n', "no name", "the key name"),
+    "a name without end": (EULER.replace('"t"', f'"{"a" * 65}"'), "a name of 65 characters", "at most 64"),
+    "a number's name without end": (
+        HEAD + f'A = [[]]\nb = [1]\nnumbers = {{ {"a" * 99} = "1" }}\n',
+        "a name of 99 characters",
+        "at most 64",
+    ),
     "bad name": ('name = "a b"\nfamily = "rk"\nA = [[]]\nb = ["1"]\n', "name = 'a b'", "letters"),
     "no family": (
         'name = "t"\nA = [[]]\nb = ["1"]\n',

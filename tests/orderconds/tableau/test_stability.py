@@ -7,8 +7,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from orderconds.ring import QQ
-from orderconds.tableau import RungeKutta, Tableau
-from orderconds.tableau.properties import properties
+from orderconds.tableau import RungeKutta, Tableau, find
+from orderconds.tableau.file import from_data
+from orderconds.tableau.properties import properties, undecided
+from orderconds.tableau.rational_stability import determinant, stable
 from orderconds.tableau.stability import (
     StabilityFunction,
     bounded_on_axis,
@@ -98,3 +100,58 @@ def test_l_stable_implies_a_stable() -> None:
         assert isinstance(tableau.method, RungeKutta)
         found = stability(tableau.method, tableau.ring)
         assert found["a_stable"] or not found["l_stable"]
+
+
+def dense(s: int, number: str = "") -> Tableau:
+    """Return a full tableau of small numbers, always the same."""
+    rows = [
+        [f"{(7 * i * i + 3 * j * j + i * j) % 19 - 9}/{(i + 2 * j) % 7 + 1}" for j in range(s)]
+        for i in range(s)
+    ]
+    A = [
+        [f"{x} + {number}/{i + j + 1}" if number else x for j, x in enumerate(row)]
+        for i, row in enumerate(rows)
+    ]
+    return from_data({"name": "t", "family": "rk", "A": A, "b": rows[0]})
+
+
+def by_flint(method: RungeKutta) -> tuple[bool, bool] | None:
+    less = [[a - w for a, w in zip(row, method.b, strict=True)] for row in method.A]
+    return stable(determinant(less), determinant(method.A))
+
+
+@pytest.mark.parametrize("s", [2, 3, 5, 8])
+def test_flint_decides_rational_tableaux_as_the_exact_signs_do(s: int) -> None:
+    method = dense(s).abelian()
+    R = stability_function(method, QQ)
+    a_stable = poles_right(R.denominator, QQ) and bounded_on_axis(R, QQ)
+    assert by_flint(method) == (a_stable, a_stable and len(R.numerator) < len(R.denominator))
+
+
+@pytest.mark.parametrize(
+    "name", ["gauss1", "radau2a2", "lobatto3b3", "lobatto3c3", "lobatto3a3", "qin_zhang2"]
+)
+def test_flint_decides_methods_of_the_library_as_the_exact_signs_do(name: str) -> None:
+    method = Tableau.load(find(name)).abelian()
+    R = stability_function(method, QQ)
+    a_stable = poles_right(R.denominator, QQ) and bounded_on_axis(R, QQ)
+    assert by_flint(method) == (a_stable, a_stable and len(R.numerator) < len(R.denominator))
+
+
+def test_a_pole_on_the_axis_is_left_to_exact_signs() -> None:
+    method = RungeKutta(((QQ.zero, -QQ.one), (QQ.one, QQ.zero)), (QQ.one, QQ.zero))
+    assert by_flint(method) is None
+    assert stability(method, QQ)["a_stable"] is False
+
+
+@pytest.mark.parametrize("s", [30, 60])
+def test_a_dense_rational_tableau_of_many_stages_is_decided(s: int) -> None:
+    assert stability(dense(s).abelian(), QQ)["a_stable"] is False
+
+
+@pytest.mark.parametrize(("s", "number"), [(101, ""), (60, "sqrt(2)"), (12, "2^(1/19)")])
+def test_what_would_take_long_is_not_computed_and_the_reason_given(s: int, number: str) -> None:
+    tableau = dense(s, number)
+    found = stability(tableau.abelian(), tableau.ring)
+    assert found == {"a_stable": None, "l_stable": None}
+    assert undecided(tableau, found)["a_stable"].startswith("not computed: ")
