@@ -171,7 +171,7 @@ class Report:
         return "\n".join([*lines, *(f"  claim fails: {broken}" for broken in self.broken_claims)])
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of one tableau; ``undecided`` and ``broken_claims`` only where there are any."""
+        """Return the JSON object of one tableau; ``undecided``, ``broken_claims`` where there are any."""
         record: dict[str, object] = {
             "name": self.name,
             "file": self.file,

@@ -27,7 +27,7 @@ Polynomial = list[Element]
 LARGEST = 100
 """Rational tableaux with a larger implicit block, over which flint takes a second, are left undecided."""
 
-EFFORT = 3 * 10**11
+EFFORT = 10**11
 """How many pairs of bits may be multiplied over other fields, a second or so: Euclid's remainders swell."""
 
 
@@ -119,11 +119,9 @@ class _Limited:
     def __getattr__(self, name: str) -> Any:
         return getattr(self.ring, name)
 
-    def spend(self, count: int, *factors: Element) -> None:
-        """Take off the work of ``count`` products of numbers as large as the factors."""
-        degree = self.ring.modulus.degree() if hasattr(self.ring, "modulus") else 1
-        bits = 1000 + degree * max((_bits(x) for x in factors), default=1)
-        self.left -= count * bits * bits
+    def spend(self, work: int) -> None:
+        """Take off so many pairs of bits."""
+        self.left -= work
         if self.left < 0:
             raise _Undecided
 
@@ -134,9 +132,12 @@ def _bits(x: Element) -> int:
     return max((int(fmpq(c).p).bit_length() + int(fmpq(c).q).bit_length() for c in coefficients), default=1)
 
 
-def _spend(ring: Any, count: int, *factors: Element) -> None:
+def _spend(ring: Any, count: int, numbers: Sequence[Element], quadratic: bool) -> None:
+    """Account for so many products of such numbers; quotients make it quadratic in their length."""
     if isinstance(ring, _Limited) and not isinstance(ring.ring, Balls):
-        ring.spend(count, *factors)
+        degree = ring.modulus.degree() if hasattr(ring.ring, "modulus") else 1
+        bits = 1000 + degree * max(map(_bits, numbers), default=1)
+        ring.spend(count * bits * (bits if quadratic else 1000))
 
 
 def _largest_block(method: RungeKutta, ring: Ring) -> int:
@@ -186,7 +187,7 @@ def _determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial:
 
 def _block_determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial:
     stages = range(len(A))
-    _spend(ring, len(A) ** 4, *(x for row in A for x in row))
+    _spend(ring, len(A) ** 4, [x for row in A for x in row], quadratic=False)
     coefficients = [ring.one]
     M = [[ring.zero for _ in stages] for _ in stages]
     for k in range(1, len(A) + 1):
@@ -306,7 +307,7 @@ def _quotient(p: Sequence[Element], q: Sequence[Element], ring: Ring) -> Polynom
 
 
 def _divided(p: Sequence[Element], q: Sequence[Element], ring: Ring) -> tuple[Polynomial, Polynomial]:
-    _spend(ring, max(len(p) - len(q) + 1, 0) * len(q), *p, *q)
+    _spend(ring, max(len(p) - len(q) + 1, 0) * len(q), [*p, *q], quadratic=True)
     rest, quotient = list(p), [ring.zero] * max(len(p) - len(q) + 1, 0)
     inverse = ring.one / q[-1]
     for shift in range(len(p) - len(q), -1, -1):
