@@ -22,7 +22,9 @@ from codegen.groups import (
     SO3,
     Cotangent,
     LeftMultiplication,
+    Linear,
     MatrixGroup,
+    Motion,
     Product,
     Rn,
     Rotation,
@@ -180,10 +182,15 @@ def field_scene(name: str, seed: int = 0, time: bool = False) -> Any:
         "SO(3)": (SO3(), LeftMultiplication(), 9),
         "GL(2)": (GL(2), LeftMultiplication(), 4),
         "Heisenberg": (heisenberg(), Rotation(), 3),
+        "S^3": (S3(), LeftMultiplication(), 4),
+        "SL(2)": (SL2(), Linear(), 2),
+        "SE(2)": (SE2(), Motion(), 2),
+        "SO(3) x R^2": (Product(SO3(), Rn(2)), LeftMultiplication(), 11),
     }[name]
     y = [Symbol(f"y{k}", real=True) for k in range(n)]
     f = [quadratic(rng, y) + (Symbol("t") * rng.choice(y) if time else 0) for _ in range(group.dim)]
-    y0 = list(quarter_turn()) if n == 9 else rationals(rng, n)
+    start = {"SO(3)": quarter_turn(), "SO(3) x R^2": quarter_turn(), "S^3": UNIT}.get(name, [])
+    y0 = [*start, *rationals(rng, n - len(start))]
     return FieldScene(group=group, action=action, y=Matrix(y), f=Matrix(f), y0=y0, span=(0, 1), name=name)
 
 
@@ -202,7 +209,7 @@ def hamiltonian_scene(name: str, seed: int = 0, time: bool = False) -> Any:
         "R^3": lambda: rationals(rng, 3),
         "GL(2)": lambda: [1, Rational(1, 2), Rational(-1, 3), 1],
         "Heisenberg": lambda: [1, Rational(1, 2), 2, 0, 1, Rational(-1, 3), 0, 0, 1],
-        "S^3": lambda: [Rational(k, 9) for k in (2, 4, -5, 6)],
+        "S^3": lambda: UNIT,
         "SE(2)": lambda: [Rational(3, 5), Rational(-4, 5), *rationals(rng, 2)],
         "SL(2)": lambda: [2, Rational(1, 2), 2, 1],
         "SO(3) x R^2": lambda: [*quarter_turn(), *rationals(rng, 2)],
@@ -235,6 +242,10 @@ def butcher(name: str, A: Any, b: Any) -> Tableau:
     rows = [*A, b]
     exact = [tuple(QQ.rational(*Fraction(x).as_integer_ratio()) for x in row) for row in rows]
     return Tableau(name, "rk", QQ, RungeKutta(tuple(exact[:-1]), exact[-1]))
+
+
+UNIT = [Rational(k, 9) for k in (2, 4, -5, 6)]
+"""A quaternion of length one."""
 
 
 def full(s: int, seed: int = 0) -> Tableau:

@@ -27,6 +27,8 @@ class MatrixGroup(LieGroup):
     of a Lie algebra are a :class:`codegen.errors.SceneError`.
     """
 
+    layout = ", row by row"
+
     def __init__(self, name: str, basis: Sequence[Sequence[Sequence[int | Fraction]]]) -> None:
         self.name = name
         self.n = len(basis[0]) if basis else 0

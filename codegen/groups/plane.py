@@ -16,7 +16,7 @@ class SE2(LieGroup):
     c_3(w^2) ad_x^2, and exp(w, u) turns by w and translates by (c_1(w^2) + c_2(w^2) w J) u.
     """
 
-    name = "SE(2)"
+    name, layout = "SE(2)", ", cosine and sine of the angle, then the translation"
     dim, size = 3, 4
 
     def identity(self, d: Domain) -> Scalars:

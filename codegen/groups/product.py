@@ -22,6 +22,7 @@ class Product(LieGroup):
         self.name = " x ".join(f.name for f in factors)
         self.dim, self.size = sum(f.dim for f in factors), sum(f.size for f in factors)
         self.abelian = all(f.abelian for f in factors)
+        self.layout = ": " + "; ".join(f.name + f.layout for f in factors)
 
     def parts(self, x: Scalars) -> tuple[Scalars, ...]:
         """Return the factors' coordinates of an element, or of one of the algebra or its dual, by length.

@@ -53,6 +53,8 @@ class LieGroup:
     dim: int
     size: int
     abelian = False
+    layout = ""
+    """What to add to the name to say how an element's coordinates are ordered: ``, row by row``."""
 
     def identity(self, d: Domain) -> Scalars:
         """Return the neutral element."""

@@ -17,7 +17,7 @@ class S3(LieGroup):
     = 1 + c_2(4z) ad_x + c_3(4z) ad_x^2.
     """
 
-    name = "S^3"
+    name, layout = "S^3", ", real part first"
     dim, size = 3, 4
 
     def identity(self, d: Domain) -> Scalars:

@@ -16,7 +16,7 @@ class SO3(LieGroup):
     1 + c_2 ad_x + c_3 ad_x^2.
     """
 
-    name = "SO(3)"
+    name, layout = "SO(3)", ", row by row"
     dim, size = 3, 9
 
     def identity(self, d: Domain) -> Scalars:

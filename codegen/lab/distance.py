@@ -11,7 +11,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from codegen.groups import Rn
+from codegen.groups import SO3, MatrixGroup, Product
 from codegen.ir.program import Kind
 from codegen.scene import Setting
 
@@ -28,11 +28,18 @@ def distance(scene: Setting, state: Sequence[Any], exact: Sequence[Any]) -> floa
     total, start = 0.0, 0
     for block in scene.state:
         end = start + len(block.symbols)
-        matrix = block.kind is Kind.GROUP and not isinstance(scene.group, Rn)
-        norm = spectral_norm if matrix else euclidean_norm
-        total += norm(gap[start:end])
+        own = gap[start:end]
+        total += _norm(scene.group, own) if block.kind is Kind.GROUP else euclidean_norm(own)
         start = end
     return total
+
+
+def _norm(group: Any, gap: Sequence[float]) -> float:
+    """Return the norm of a difference of two elements; a product adds those of its factors."""
+    if isinstance(group, Product):
+        return sum(map(_norm, group.factors, group.parts(tuple(gap))))
+    matrix = isinstance(group, SO3 | MatrixGroup)
+    return spectral_norm(gap) if matrix else euclidean_norm(gap)
 
 
 def euclidean_norm(vector: Sequence[float]) -> float:

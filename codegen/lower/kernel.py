@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from codegen.errors import SceneError
+from codegen.groups.actions import LeftMultiplication
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, walk
 from codegen.ir.interpret import apply, flatten
@@ -88,10 +89,14 @@ def to_kernel(program: Program, scene: Setting) -> Kernel:
 
 
 def _meaning(kind: Kind, scene: Setting) -> str:
+    group, acts = scene.group, f"acts on by {scene.action.name}"
+    on_itself = isinstance(scene.action, LeftMultiplication)
     texts = {
-        Kind.GROUP: f"element of {scene.group.name}, row by row",
-        Kind.DUAL: f"right-trivialised momentum in the dual algebra of {scene.group.name}",
-        Kind.POINT: f"point that {scene.group.name} acts on by {scene.action.name}",
+        Kind.GROUP: f"element of {group.name}{group.layout}",
+        Kind.DUAL: f"right-trivialised momentum in the dual algebra of {group.name}",
+        Kind.POINT: f"element of {group.name}{group.layout}"
+        if on_itself
+        else f"point that {group.name} {acts}",
     }
     return texts[kind]
 

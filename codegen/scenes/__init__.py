@@ -13,6 +13,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from codegen.errors import SceneError
+from codegen.extended import extended
 from codegen.scene import Setting
 from orderconds.errors import InputError, UnknownName
 
@@ -32,12 +33,23 @@ GALLERY = (
     "stiff_driven_spin",
 )
 
+EXTENDED = "+u"
+"""What asks for the extended scene."""
+
 
 def load(name: str) -> Setting:
     """Return a scene of the gallery, or the ``scene`` of the Python file at path ``name``.
 
-    A file that raises, or defines no scene, is a :class:`SceneError` that names file and line.
+    ``NAME+u`` is a Hamiltonian scene extended by the time and its momentum (:mod:`codegen.extended`). A file
+    that raises, or defines no scene, is a :class:`SceneError` that names file and line.
     """
+    if name.endswith(EXTENDED):
+        scene = load(name.removesuffix(EXTENDED))
+        return replace(extended(scene), name=scene.name + EXTENDED)
+    return _load(name)
+
+
+def _load(name: str) -> Setting:
     if name in GALLERY:
         scene: Setting = import_module(f"codegen.scenes.{name}").scene
         return replace(scene, name=name)

@@ -120,9 +120,14 @@ def test_lie_group_methods_by_frozen_derivatives(place, method, order):
     agree(field_scene(place), method, order)
 
 
-@pytest.mark.parametrize("place", ["SO(3)", "Heisenberg"])
+@pytest.mark.parametrize("place", ["SO(3)", "Heisenberg", "S^3", "SL(2)", "SE(2)", "SO(3) x R^2"])
 def test_on_other_groups_too(place):
     agree(field_scene(place), Method("cg", shipped("cg3")), 3)
+
+
+@pytest.mark.parametrize("place", ["S^3", "SL(2)", "SE(2)", "SO(3) x R^2"])
+def test_with_too_few_brackets_on_other_groups_too(place):
+    agree(field_scene(place), Method("rkmk", shipped("rk4"), 1), 3)
 
 
 def test_on_the_cotangent_group():
