@@ -49,8 +49,12 @@ CLASSICAL = {
 }
 """What a family is where brackets vanish and exponentials are sums."""
 
-SAME_CONDITIONS = {"slgi": "vrkmk(0)", "ambient": "rk"}
-"""Families that are others, differently written: whose order conditions are theirs."""
+SAME_CONDITIONS = {"slgi": "vrkmk(0)", "ambient": "rk", "discrete_gradient": "rk"}
+"""Families whose order conditions are those of others.
+
+SLGI and ambient methods are the others differently written; a discrete gradient has the orders one and two
+where its quadrature rule has them (sum b_i = 1, sum b_i c_i = 1/2), and no higher one.
+"""
 
 
 def family_of(method: Method) -> Family:
@@ -96,6 +100,8 @@ def certified_order(method: Method, scene: Setting | None = None) -> CertifiedOr
     else:
         name = SAME_CONDITIONS.get(method.family, method.family_label)
         (found,) = check(method.tableau, family=name).orders
+        if method.family == "discrete_gradient":
+            found = replace(found, order=min(found.order, 2), failing=(), limit=None)
     if not found.decided:
         raise MethodError(
             f"the order of {method.label} is undecided beyond {found.order}",

@@ -1,8 +1,8 @@
 """A Hamiltonian that depends on time, extended by the time and its momentum u: a scene on request only.
 
-On T*(G x R) the Hamiltonian K(q, tau, mu, u) = H(q, mu, tau) + u has no time: tau' = 1 and u' = -dH/dt, so u +
-H is kept, and u starts at -H (thesis, Paper 3, section 4.2). Canonical methods carry u by the sums of Example
-4.4.5, variational ones keep the extended form, discrete gradients keep K.
+On T*(G x R) the Hamiltonian K(q, tau, mu, u) = H(q, mu, tau) + u has no time: tau' = 1 and u' = -dH/dt, so
+u + H is kept, and u starts at -H (thesis, section 4.3.2). Variational methods carry u by the sum of Example
+4.4.5 and keep the extended symplectic form, discrete gradients keep K.
 """
 
 from __future__ import annotations
@@ -41,7 +41,9 @@ def extended(scene: Setting) -> Setting:
 
     def moved(root: Expr) -> Expr:
         """Return root with tau in place of the time."""
-        return evaluate([root], domain, {**here, TIME: space.sym(tau)})[0]
+        (found,) = evaluate([root], domain, {**here, TIME: space.sym(tau)})
+        assert isinstance(found, Expr)
+        return found
 
     hamiltonian = moved(scene.hamiltonian) + space.sym(u)
     group = Product(scene.group, Rn(1))

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
 
+from codegen import conserved
 from codegen.consistency import Orbit, check_equal, check_invariants, check_start
 from codegen.errors import SceneError
 from codegen.flow import Flow
@@ -181,6 +182,8 @@ class Setting:
             return (getattr(self.group, name)(domain, *args),)
         if name in ("act", "actexp"):
             return (getattr(self.action, name)(domain, self.group, *args),)
+        if name in conserved.OPERATIONS:
+            return (conserved.apply(self, domain, name, args),)
         return self._evaluate(domain, args)
 
     def flow(self, domain: Domain, part: str, tau: Any, args: tuple[Any, ...]) -> tuple[Any, ...]:

@@ -53,6 +53,16 @@ class Cotangent(LieGroup):
         bracket: Scalars = self.base.ad(d, a, b)
         return bracket + tuple(p - q for p, q in pairs)
 
+    def canonical(self, d: Domain, z: Scalars, covector: Scalars) -> Scalars:
+        """Return (b, ad*_b mu - a) for a covector (a, b): the bivector of (2.26), right-trivialised.
+
+        For the differential (ad*_xi mu - n, xi) of a Hamiltonian it is f = (xi, n).
+        """
+        mu = self._split(z)[1]
+        a, b = tuple(covector[: self.base.dim]), tuple(covector[self.base.dim :])
+        pairs = zip(self.base.adt(d, b, mu), a, strict=True)
+        return b + tuple(x - y for x, y in pairs)
+
     def laws(self, d: Domain, g: Scalars) -> tuple[tuple[str, Any], ...]:
         """Return those of the base; every covector is a momentum."""
         return tuple(self.base.laws(d, self._split(g)[0]))

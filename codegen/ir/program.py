@@ -83,6 +83,10 @@ SIGNATURES: dict[str, tuple[tuple[Kind, ...], tuple[Kind, ...]]] = {
     "fieldt": ((P, R), (A,)),  # f(y, t)
     "hamilton": ((G, D), (A, D)),  # xi = D_2 H, n = -(D_1 H).q^-1
     "hamiltont": ((G, D, R), (A, D)),
+    "energy": ((P,), (R,)),  # H(y)
+    "differential": ((P,), (D,)),  # R*_y dH: its pairing with e is d/deps H(exp(eps e).y) at eps = 0
+    "secant": ((D, A, R, R), (D,)),  # the covector nearest to g whose pairing with x is H1 - H0
+    "bivector": ((P, D), (A,)),  # omega_y(alpha, .), f(y) where alpha is the differential of H
     "flow": ((G, D), (G, D)),  # the exact flow of a part, for a time coefficient
     "flowt": ((G, D, R), (G, D)),  # the same of a part that depends on t, which stands still
     "flowfor": ((G, D, R), (G, D)),  # the flow for a time that is a value
@@ -99,7 +103,7 @@ FLOWS = frozenset({"flow", "flowt"})
 FLOWS_FOR = frozenset({"flowfor", "flowtfor"})
 """Operations with a ``part`` whose last argument says how long it flows."""
 
-LINEAR_LAST = frozenset({"Ad", "Adt", "Adtinv", "ad", "adt", "dexpinv", "dexpinvt", "P", "dexpt"})
+LINEAR_LAST = frozenset({"Ad", "Adt", "Adtinv", "ad", "adt", "dexpinv", "dexpinvt", "P", "dexpt", "bivector"})
 """Operations that are linear in their last argument."""
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from codegen.errors import MethodError
 from codegen.ir.program import Program
+from codegen.lower.discrete_gradient import keeps_energy
 from codegen.lower.splitting import setting as with_flows
 from codegen.method import Method
 from codegen.scene import Setting
@@ -21,6 +22,7 @@ LOWERINGS = {
     "vcf": "vcf",
     "vrkmk_pade": "vrkmk_pade",
     "slgi": "slgi",
+    "discrete_gradient": "discrete_gradient",
     "splitting": "splitting",
     "composition": "splitting",
     "ambient": "rkmk",
@@ -39,12 +41,13 @@ def families_for(scene: Setting) -> tuple[str, ...]:
     """Return the families that can be lowered onto a scene, in the order of preference where none is named.
 
     Variational families need a Hamiltonian and come first where there is one; ``rk`` needs R^n, splittings
-    need a Hamiltonian in parts.
+    need a Hamiltonian in parts, discrete gradients an energy.
     """
     able = dict.fromkeys(LOWERINGS, True)
     able |= dict.fromkeys(sorted(ON_COTANGENT), scene.is_hamiltonian)
     able |= dict.fromkeys(sorted(OF_PARTS), scene.is_hamiltonian and bool(scene.parts))
     able["rk"] = scene.as_field().group.abelian
+    able["discrete_gradient"] = keeps_energy(scene)
     return tuple(sorted((f for f in LOWERINGS if able[f]), key=lambda f: f not in ON_COTANGENT))
 
 

@@ -89,16 +89,12 @@ def to_kernel(program: Program, scene: Setting) -> Kernel:
 
 
 def _meaning(kind: Kind, scene: Setting) -> str:
-    group, acts = scene.group, f"acts on by {scene.action.name}"
-    on_itself = isinstance(scene.action, LeftMultiplication)
-    texts = {
-        Kind.GROUP: f"element of {group.name}{group.layout}",
-        Kind.DUAL: f"right-trivialised momentum in the dual algebra of {group.name}",
-        Kind.POINT: f"element of {group.name}{group.layout}"
-        if on_itself
-        else f"point that {group.name} {acts}",
-    }
-    return texts[kind]
+    group, action = scene.group, scene.action
+    if kind is Kind.DUAL:
+        return f"right-trivialised momentum in the dual algebra of {group.name}"
+    if kind is Kind.POINT and not isinstance(action, LeftMultiplication):
+        return f"point that {group.name} acts on by {action.name}"
+    return f"element of {group.name}{group.layout}"
 
 
 def _enter(

@@ -117,6 +117,11 @@ CASES = {
         Case("slgi:midpoint", 2, cotangent(), "dipole"),
         Case("slgi:gauss2", 2, cotangent(), "dipole"),
     ),
+    "discrete_gradient": (
+        Case("discrete_gradient:euler", 1, cotangent(), "dipole"),
+        Case("discrete_gradient:midpoint", 2, cotangent(), "free_rigid_body_s3"),
+        Case("discrete_gradient:gauss2", 2, cotangent(), "dipole"),
+    ),
     "splitting": (
         Case("splitting:forest_ruth4", 4, top("symmetric"), "fast_heavy_top"),
         Case("splitting:ruth3", 3, top("asymmetric"), "dipole"),
