@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING
 
 from orderconds.errors import InputError
 from orderconds.families.composition import composition_formula
+from orderconds.families.exponents import exponent_values
 from orderconds.families.magnus import random_product
 from orderconds.families.word_family import WordFamily
 from orderconds.formula import Formula, coefficient, fresh, index_sum, product
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.exponentials import ProductOfExponentials
-from orderconds.series.linear_flow import exponent_values
 from orderconds.tableau.products import Magnus
 from orderconds.words.expansions import iterated_integral, words_of_weight
 from orderconds.words.shuffle import Word
@@ -71,7 +71,7 @@ class CommutatorFreeMagnusFamily(WordFamily):
 
     def series(self, method: Magnus, ring: Ring) -> Callable[[Word], Element]:
         """Return the values of a step on words."""
-        rows = [exponent_values(ring, method.c, series) for series in method.words(ring)]
+        rows = exponent_values(ring, method)
         return ProductOfExponentials(ring, len(rows), lambda J, k: rows[J]((k,)))
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:

@@ -13,10 +13,11 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from orderconds.errors import InputError
+from orderconds.families.exponents import exponent_values
 from orderconds.families.magnus import MagnusFamily, node_sum
 from orderconds.formula import Formula
 from orderconds.ring.protocol import Element, Ring
-from orderconds.series.linear_flow import exponent_values, product_logarithm
+from orderconds.series.linear_flow import product_logarithm
 from orderconds.tableau.brackets import Bracket
 from orderconds.tableau.products import Magnus
 from orderconds.words.expansions import fer_remainder
@@ -42,8 +43,8 @@ class FerFamily(MagnusFamily):
     def require(self, method: Magnus, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` for a method that is no product of Fer's kind."""
         super().require(method, ring)
-        *others, last = method.words(ring)
-        if any(len(word) > 1 for word in last) or any(len(word) == 1 for x in others for word in x):
+        *others, last = method.extents()
+        if last[1] > 1 or any(least == 1 for least, _ in others):
             raise InputError(
                 "commutators in the last exponent, or nodes alone in another",
                 where=f"family {self.name}",
@@ -61,7 +62,7 @@ class FerFamily(MagnusFamily):
 
     def series(self, method: Magnus, ring: Ring) -> Callable[[Word], Element]:
         """Return the values of F_1 on letters and of the logarithm of the rest on longer words."""
-        *others, last = (exponent_values(ring, method.c, series) for series in method.words(ring))
+        *others, last = exponent_values(ring, method)
         rest = product_logarithm(ring, others)
         return lambda word: last(word) if len(word) == 1 else rest(word)
 

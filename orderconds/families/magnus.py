@@ -13,11 +13,12 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from orderconds.errors import InputError
+from orderconds.families.exponents import exponent_values
 from orderconds.families.relations import Polynomial
 from orderconds.families.word_family import WordFamily
 from orderconds.formula import Formula, coefficient, fresh, index_sum, product
 from orderconds.ring.protocol import Element, Ring
-from orderconds.series.linear_flow import exponent_values, product_logarithm
+from orderconds.series.linear_flow import product_logarithm
 from orderconds.tableau.products import Magnus
 from orderconds.words import expansions
 from orderconds.words.radford import in_lyndon_words
@@ -71,8 +72,7 @@ class MagnusFamily(WordFamily):
 
     def series(self, method: Magnus, ring: Ring) -> Callable[[Word], Element]:
         """Return the values of Omega on words."""
-        exponents = [exponent_values(ring, method.c, series) for series in method.words(ring)]
-        return product_logarithm(ring, exponents, self.transform)
+        return product_logarithm(ring, exponent_values(ring, method), self.transform)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
         """Return products of random exponentials over random nodes, ``order`` of each."""

@@ -1,11 +1,11 @@
-"""Methods for Y' = A(t) Y in words: A_i = h A(c_i h) = sum_k c_i^(k-1) h^k X_k put in what they exponentiate.
+"""Products of exponentials or Cayley transforms of elements given by their values on words.
 
 Letter k stands for X_k, the coefficient of t^(k-1) in A, and weighs k; words are in the order of action.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import cache
 
@@ -27,45 +27,6 @@ TRANSFORMS = {
     "cay": (cayley_scales, inverse_cayley_scales),
 }
 """For each map its series and that of its inverse, without constant terms."""
-
-
-def node_powers(ring: Ring, c: Sequence[Element]) -> Callable[[int, int], Element]:
-    """Return the function (i, n) -> c_i^n, each power computed once.
-
-    >>> from orderconds.ring import QQ
-    >>> node_powers(QQ, [QQ.rational(1, 2)])(0, 3)
-    1/8
-    """
-
-    @cache
-    def power(i: int, n: int) -> Element:
-        return ring.one if n == 0 else power(i, n - 1) * c[i]
-
-    return power
-
-
-def exponent_values(ring: Ring, c: Sequence[Element], series: Mapping[Word, Element]) -> Values:
-    """Return the values on words, not empty, of an exponent given by words of nodes.
-
-    >>> from orderconds.ring import QQ
-    >>> midpoint = exponent_values(QQ, [QQ.rational(1, 2)], {(0,): QQ.one})
-    >>> midpoint((3,)), midpoint((1, 1))
-    (1/4, 0)
-    """
-    power = node_powers(ring, c)
-
-    @cache
-    def value(word: Word) -> Element:
-        result = ring.zero
-        for nodes, scale in series.items():
-            if len(nodes) == len(word):
-                for i, k in zip(nodes, word, strict=True):
-                    if k > 1:
-                        scale = scale * power(i, k - 1)
-                result = result + scale
-        return result
-
-    return value
 
 
 def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = "exp") -> Values:

@@ -7,8 +7,9 @@ only where a method leaves the Lie algebra of all groups for that of quadratic o
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 from orderconds.errors import TableauError
@@ -100,6 +101,35 @@ def has_product(term: Term) -> bool:
     if isinstance(term, Bracket):
         return has_product(term.left) or has_product(term.right)
     return isinstance(term, Product)
+
+
+def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, int]]:
+    """Return the function that gives the least and the greatest number of nodes in a term's products.
+
+    >>> extents({"f": ((0, 1), (Bracket(0, 1), 1))})(Bracket("f", "f"))
+    (2, 4)
+    """
+
+    @cache
+    def extent(term: Term) -> tuple[int, int]:
+        if isinstance(term, int):
+            return 1, 1
+        if isinstance(term, str):
+            return extent_of_sum(elements[term], extent)
+        parts = term.factors if isinstance(term, Product) else (term.left, term.right)
+        return sum(extent(t)[0] for t in parts), sum(extent(t)[1] for t in parts)
+
+    return extent
+
+
+def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, int]]) -> tuple[int, int]:
+    """Return the least and the greatest number of nodes in the products of a combination.
+
+    >>> extent_of_sum(((0, 1), (Bracket(0, 1), 1)), extents({}))
+    (1, 2)
+    """
+    found = [extent(term) for term, _ in combination] or [(1, 1)]  # the empty sum, zero, is of any length
+    return min(least for least, _ in found), max(most for _, most in found)
 
 
 def expand(combination: Combination, named: Mapping[str, NodeSeries], ring: Ring) -> NodeSeries:

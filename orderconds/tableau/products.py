@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from orderconds.ring.protocol import Element, Ring
-from orderconds.tableau.brackets import Combination, NodeSeries, expand
+from orderconds.tableau.brackets import Combination, NodeSeries, expand, extent_of_sum, extents
 from orderconds.tableau.methods import (
     CommutatorFree,
     Composition,
@@ -96,6 +96,10 @@ class AdjointComposition:
         return Splitting(("A", "B"), tuple(steps))
 
 
+MOST_WORDS = 10_000
+"""Exponents whose brackets would expand to more products of nodes are judged without expanding them."""
+
+
 @dataclass(frozen=True)
 class Magnus:
     """A method for Y' = A(t) Y: a product of exponentials of combinations of brackets of A_i = h A(c_i h).
@@ -138,8 +142,20 @@ class Magnus:
             named[name] = expand(combination, named, ring)
         return tuple(expand(combination, named, ring) for combination in self.exponents)
 
+    def extents(self) -> tuple[tuple[int, int], ...]:
+        """Return for each exponent the least and the greatest number of nodes in its products."""
+        extent = extents(dict(self.elements))
+        return tuple(extent_of_sum(combination, extent) for combination in self.exponents)
+
+    def is_expandable(self) -> bool:
+        """Tell whether :meth:`words` are few enough to be written out."""
+        words = [self.s**most for _, most in self.extents()]
+        return int(sum(words)) <= MOST_WORDS
+
     def is_commutator_free(self, ring: Ring) -> bool:
         """Tell whether every exponent is a combination of the A_i alone."""
+        if not self.is_expandable():
+            return False
         return all(len(word) == 1 for series in self.words(ring) for word in series)
 
 

@@ -12,6 +12,7 @@ from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.methods import CommutatorFree, Composition, PartitionedRungeKutta, RungeKutta
 from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
 from orderconds.tableau.record import Tableau
+from orderconds.tableau.reversal import symmetric_exponents
 from orderconds.tableau.stability import stability, stability_of_midpoints
 
 Verdict = bool | None
@@ -235,15 +236,7 @@ def symmetric_product(method: AdjointComposition | Splitting | Magnus, ring: Rin
     if isinstance(method, Splitting):
         mirrored = zip(method.steps, method.steps[::-1], strict=True)
         return _all(p == q and _equal(x, y, ring) for (p, x), (q, y) in mirrored)
-    c, series, last = method.c, method.words(ring), method.s - 1
-    verdicts = [ring.is_zero(x + y - 1) for x, y in zip(c, c[::-1], strict=True)]
-    for one, other in zip(series, series[::-1], strict=True):
-        mirror = {tuple(last - i for i in word): value for word, value in other.items()}
-        for word in sorted({*one, *mirror}):
-            u: Element = one.get(word, ring.zero)
-            v: Element = mirror.get(word, ring.zero)
-            verdicts.append(ring.is_zero(u - v if len(word) % 2 else u + v))
-    return _all(verdicts)
+    return symmetric_exponents(method, ring)
 
 
 def _ends_at_update(method: CommutatorFree, ring: Ring) -> bool:

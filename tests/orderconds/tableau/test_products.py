@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -9,9 +11,11 @@ from hypothesis import strategies as st
 from orderconds.check import check
 from orderconds.errors import InputError, TableauError
 from orderconds.ring import QQ
-from orderconds.tableau import AdjointComposition, Magnus, RungeKutta, Splitting, Tableau, dumps
+from orderconds.tableau import AdjointComposition, Magnus, RungeKutta, Splitting, Tableau, dumps, find
 from orderconds.tableau.brackets import Bracket, Product, parse, spell
+from orderconds.tableau.file import text_of
 from orderconds.tableau.properties import properties
+from orderconds.tableau.reversal import sign, symmetric_exponents
 
 SPLITTING = 'name = "t"\nfamily = "splitting"\nparts = ["T", "V"]\n'
 PAIR = 'name = "t"\nfamily = "composition"\nbase = "adjoint-pair"\n'
@@ -94,6 +98,35 @@ def test_equal_brackets_that_cancel_leave_a_method_free_of_commutators() -> None
     method = Tableau.loads(MAGNUS + text).method
     assert isinstance(method, Magnus)
     assert method.is_commutator_free(QQ)
+
+
+def test_brackets_of_brackets_are_judged_without_writing_them_out() -> None:
+    text = text_of(find("magnus8"))
+    method = Tableau.loads(text).method
+    assert isinstance(method, Magnus)
+    assert method.extents() == ((1, 11),)  # 4^11 products of nodes
+    assert properties(Tableau.loads(text))["symmetric"] is True
+    assert not method.is_commutator_free(QQ)
+    # b is even under reversal where s1 is odd
+    skew = Tableau.loads(text.replace('s2 = "-7/120"', 's2 = "-7/120", b = "1/7"'))
+    assert properties(skew)["symmetric"] is None
+    moved = Tableau.loads(text.replace('"1/2 + u"]', '"1/2 + 2*u"]'))
+    assert properties(moved)["symmetric"] is False
+
+
+@pytest.mark.parametrize("name", ["magnus2", "magnus4", "magnus6", "fer4", "cayley4", "cayley6"])
+def test_the_sign_of_an_exponent_says_what_its_products_of_nodes_say(name: str) -> None:
+    tableau = Tableau.load(find(name))
+    method, ring = tableau.method, tableau.ring
+    assert isinstance(method, Magnus)
+    written_out = symmetric_exponents(replace(method, exponents=(*method.exponents, ())), ring)
+    assert written_out is False  # nothing undoes the first exponent
+    if sign(method, ring) == -1 and len(method.exponents) == 1:
+        (series,) = method.words(ring)
+        last = method.s - 1
+        for word, value in series.items():
+            mirrored = series.get(tuple(last - i for i in word), ring.zero)
+            assert ring.is_zero(value - mirrored if len(word) % 2 else value + mirrored)
 
 
 MALFORMED = {

@@ -40,7 +40,14 @@ PUBLISHED = {
         6: "blanes_moan6",
     },
     "rkn": {4: "mclachlan_atela4 blanes_moan_rkn4", 6: "blanes_moan_rkn6 blanes_moan_rkn6a"},
-    "magnus": {1: "lie_euler", 2: "magnus2", 4: "magnus4 fer4 cf_magnus4", 6: "magnus6 cf_magnus6"},
+    "magnus": {
+        1: "lie_euler",
+        2: "magnus2",
+        4: "magnus4 fer4 cf_magnus4",
+        6: "magnus6 fer6 cf_magnus6",
+        8: "magnus8",
+    },
+    "cayley": {2: "cayley2", 4: "cayley4", 6: "cayley6"},
     "sprk_separable": {
         1: "symplectic_euler",
         2: "stormer_verlet",

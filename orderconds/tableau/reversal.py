@@ -1,0 +1,81 @@
+"""Whether a Magnus method is symmetric: a step of length -h undoes one of length h.
+
+The step back sees -A_{s+1-i} at node i. Where the nodes lie symmetric about 1/2 it undoes the step if each
+exponent, with -A_{s+1-i} for A_i, is the negative of that which stands in its place from the other end.
+Combinations of nodes are odd or even under that substitution, or neither; brackets and products of such
+elements are odd or even as products of signs. A single odd exponent is thus seen without writing out
+brackets of brackets; others are compared as combinations of products of nodes.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.brackets import Combination, Product, Term
+from orderconds.tableau.products import Magnus
+
+
+def symmetric_exponents(method: Magnus, ring: Ring) -> bool | None:
+    """Return the verdict; None where balls, or brackets too many to write out, leave it open.
+
+    >>> from orderconds.ring import QQ
+    >>> half = QQ.rational(1, 2)
+    >>> symmetric_exponents(Magnus((half,), (((0, QQ.one),),)), QQ)
+    True
+    """
+    nodes = [ring.is_zero(x + y - 1) for x, y in zip(method.c, method.c[::-1], strict=True)]
+    if False in nodes:
+        return False
+    if len(method.exponents) == 1 and sign(method, ring) == -1:
+        return None if None in nodes else True
+    if not method.is_expandable():
+        return None
+    series, last, verdicts = method.words(ring), method.s - 1, nodes
+    for one, other in zip(series, series[::-1], strict=True):
+        mirror = {tuple(last - i for i in word): value for word, value in other.items()}
+        for word in sorted({*one, *mirror}):
+            u: Element = one.get(word, ring.zero)
+            v: Element = mirror.get(word, ring.zero)
+            verdicts.append(ring.is_zero(u - v if len(word) % 2 else u + v))
+    return False if False in verdicts else None if None in verdicts else True
+
+
+def sign(method: Magnus, ring: Ring) -> int | None:
+    """Return -1 where the first exponent is odd under A_i -> -A_{s+1-i}, 1 where even, None if not seen.
+
+    >>> from orderconds.ring import QQ
+    >>> sign(Magnus((QQ.zero, QQ.one), (((0, QQ.one), (1, QQ.one)),)), QQ)
+    -1
+    """
+    elements = dict(method.elements)
+
+    @cache
+    def of_term(term: Term) -> int | None:
+        if isinstance(term, int):
+            return of_nodes({term: ring.one})
+        if isinstance(term, str):
+            return of_combination(elements[term])
+        signs = [of_term(t) for t in (term.factors if isinstance(term, Product) else (term.left, term.right))]
+        result = 1
+        for x in signs:
+            if x is None:
+                return None
+            result *= x
+        return result
+
+    def of_nodes(row: dict[int, Element]) -> int | None:
+        pairs: list[tuple[Element, Element]] = [
+            (row.get(i, ring.zero), row.get(method.s - 1 - i, ring.zero)) for i in range(method.s)
+        ]
+        if all(ring.is_zero(x - y) is True for x, y in pairs):
+            return -1
+        return 1 if all(ring.is_zero(x + y) is True for x, y in pairs) else None
+
+    def of_combination(combination: Combination) -> int | None:
+        row = {term: x for term, x in combination if isinstance(term, int)}
+        signs = {of_term(term) for term, _ in combination if not isinstance(term, int)}
+        signs |= {of_nodes(row)} if row else set()
+        return signs.pop() if len(signs) == 1 else None
+
+    return of_combination(method.exponents[0])
