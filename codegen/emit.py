@@ -60,17 +60,21 @@ class Compiled:
     kernel: Kernel
 
 
-def compile_method(scene: Setting | str, method: Method | str, parameters: Sequence[str] = ()) -> Compiled:
+def compile_method(
+    scene: Setting | str, method: Method | str, parameters: Sequence[str] = (), inputs: Sequence[str] = ()
+) -> Compiled:
     """Return a method on a scene (or their names) lowered, optimised and made a kernel.
 
     ``parameters`` stay run-time arguments, or are folded at the value given (``alpha=1/2``); all others are
-    folded at the scene's values. SceneError,
+    folded at the scene's values; ``inputs`` are signals to be taken at run time. SceneError,
     MethodError, UnknownName or TableauError for what cannot be read or does not fit.
     """
     if isinstance(scene, str):
         scene = scenes.load(scene)
     if parameters:
         scene = scene.with_runtime(tuple(parameters))
+    if inputs:
+        scene = scene.with_inputs(tuple(inputs))
     if isinstance(method, str):
         method = parse(method, families_for(scene))
     view = setting(scene, method)
@@ -88,19 +92,20 @@ def emit(
     prefix: str = "",
     parameters: Sequence[str] = (),
     precision: str = DOUBLE.name,
+    inputs: Sequence[str] = (),
 ) -> Emission:
     """Return the integrator of a method on a scene as a module of a target.
 
     ``scene`` is a name of the gallery, the path of a Python file, or a setting; ``method`` is spelled
     ``FAMILY:TABLEAU`` or ``TABLEAU``; ``prefix`` starts every external name, by default scene and method;
-    ``precision`` is ``double`` or ``single``.
+    ``precision`` is ``double`` or ``single``; ``inputs`` are signals of the scene that are taken at run time.
     Errors as :func:`compile_method`, UnknownName for a target, InputError for a prefix that C cannot take.
     """
     printer_of(target)
     known_precision(precision)
     named = {"scene": bare(scene) if isinstance(scene, str) else scene.name}
     named["method"] = bare(method) if isinstance(method, str) else method.label
-    made = compile_method(scene, method, parameters)
+    made = compile_method(scene, method, parameters, inputs)
     return emit_compiled(made, target, prefix, named, precision=precision)
 
 
@@ -127,6 +132,7 @@ def emit_compiled(
     options += [f"--precision {precision}"] if single else []
     options += [f"--parameter {p}" for p in scene.runtime]
     options += [f"--parameter {p}={value}" for p, value in scene.fixed if p not in scene.runtime]
+    options += [f"--input {name}" for name in scene.inputs]
     words = ["orderconds emit", named["scene"], "--method", quoted(named["method"]), "--target", target]
     command = " ".join([*words, *options, "-o", "."])
     first, last = scene.span
@@ -203,6 +209,9 @@ def left_out(compiled: Compiled) -> tuple[str, ...]:
     folded = [f"{name} = {x.text()}" for name, x in scene.parameters.items() if name not in scene.runtime]
     if folded:
         lines.append(f"parameters, folded: {', '.join(folded)}")
+    closed = [name for name in scene.signals if name not in scene.inputs]
+    if closed:
+        lines.append(f"run-time inputs: {', '.join(closed)} by formula")
     if TIME not in kernel.used_scalars():
         lines.append("the time: the scene does not depend on it")
     if not any(isinstance(s, Loop) for s in kernel.body):

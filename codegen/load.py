@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 import operator
 import types
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
 from pathlib import Path
@@ -18,6 +19,9 @@ from codegen.printers.interface import Interface
 
 State = Any
 """A sequence of floats; a numpy array is answered by a numpy array, anything else by a list."""
+
+Signals = Callable[[float], Sequence[float]]
+"""A function from the time to the run-time inputs."""
 
 
 class Status(IntEnum):
@@ -58,10 +62,16 @@ class Integrator(ABC):
         h: float,
         t: float = 0.0,
         statistics: Statistics | None = None,
+        inputs: Sequence[float] | None = None,
         **parameters: float,
     ) -> State:
-        """Return the state after one step of size h; a StepFailed if it cannot be made."""
-        return self.run(state, h, 1, t, statistics, **parameters)
+        """Return the state after one step of size h; a StepFailed if it cannot be made.
+
+        ``inputs`` are the run-time inputs, in the interface's order, held over the step.
+        """
+        held = None if inputs is None else tuple(inputs)
+        function = None if held is None else lambda t: held
+        return self.run(state, h, 1, t, statistics, function, **parameters)
 
     def run(
         self,
@@ -70,13 +80,17 @@ class Integrator(ABC):
         steps: int,
         t: float = 0.0,
         statistics: Statistics | None = None,
+        inputs: Signals | None = None,
         **parameters: float,
     ) -> State:
-        """Return the state after that many steps of size h from time t; a StepFailed if one fails."""
+        """Return the state after that many steps of size h from time t; a StepFailed if one fails.
+
+        ``inputs`` is a function from the time to the run-time inputs, in the interface's order.
+        """
         steps = self._checked_count(steps)
-        final, _ = self._call(
-            self._numbers(state), t, h, steps, self._values(parameters), 0, statistics, state
-        )
+        self._known(inputs)
+        numbers, values = self._numbers(state), self._values(parameters)
+        final, _ = self._call(numbers, t, h, steps, values, 0, statistics, state, inputs)
         return like(state, final)
 
     def trajectory(
@@ -87,6 +101,7 @@ class Integrator(ABC):
         stride: int = 1,
         t: float = 0.0,
         statistics: Statistics | None = None,
+        inputs: Signals | None = None,
         **parameters: float,
     ) -> State:
         """Return rows: the initial state and every stride-th state after it."""
@@ -94,7 +109,8 @@ class Integrator(ABC):
             raise ValueError(f"expected a stride of at least 1, found {stride}")
         values = self._values(parameters)
         steps = self._checked_count(steps)
-        _, rows = self._call(self._numbers(state), t, h, steps, values, stride, statistics, state)
+        self._known(inputs)
+        _, rows = self._call(self._numbers(state), t, h, steps, values, stride, statistics, state, inputs)
         return like(state, rows)
 
     def _checked_count(self, steps: int) -> int:
@@ -102,6 +118,11 @@ class Integrator(ABC):
         if count < 0:
             raise ValueError(f"expected no negative number of steps, found {steps}")
         return count
+
+    def _known(self, inputs: Signals | None) -> None:
+        names = self.interface.inputs
+        if bool(names) != (inputs is not None):
+            raise TypeError(f"expected {'a function for ' + ', '.join(names) if names else 'no inputs'}")
 
     def _numbers(self, state: State) -> list[float]:
         numbers = [float(x) for x in state]
@@ -131,6 +152,7 @@ class Integrator(ABC):
         stride: int,
         statistics: Statistics | None,
         like_state: State,
+        inputs: Signals | None,
     ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
         """Run and return the final state and the rows."""
 
@@ -157,6 +179,7 @@ class CompiledIntegrator(Integrator):
         stride: int,
         statistics: Statistics | None,
         like_state: State,
+        inputs: Signals | None,
     ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
         size, blocks = self.interface.size, self.interface.blocks
         real = self.interface.format.c_type
@@ -165,8 +188,12 @@ class CompiledIntegrator(Integrator):
         rows = self._ffi.new(f"{real}[]", row_count * size) if stride else self._ffi.NULL
         completed = self._ffi.new("size_t *")
         counts = self._ffi.new(f"{self.interface.prefix}statistics *") if blocks else None
-        arguments = [state, *([t] if self.interface.time else []), h, steps, *values, rows, stride]
+        callback = None if inputs is None else _Callback(self._ffi, self.interface, inputs)
+        sampled = [] if callback is None else [callback.pointer, self._ffi.NULL]
+        arguments = [state, *([t] if self.interface.time else []), h, steps, *values, *sampled, rows, stride]
         status = Status(self._run(*arguments, *([counts] if blocks else []), completed))
+        if callback is not None and callback.failure is not None:
+            raise callback.failure
         if counts is not None and statistics is not None:
             before = statistics.sweeps or [0] * len(blocks)
             statistics.sweeps = [a + b for a, b in zip(before, counts.sweeps, strict=True)]
@@ -178,6 +205,28 @@ class CompiledIntegrator(Integrator):
             raise StepFailed(status, completed[0], like(like_state, final), reason(status, block, h))
         flat = self._ffi.unpack(rows, row_count * size) if stride else []
         return final, [flat[i : i + size] for i in range(0, len(flat), size)]
+
+
+class _Callback:
+    """A function of time that C may call; what it raises is kept, and the step that asked for it fails."""
+
+    def __init__(self, ffi: Any, interface: Interface, function: Signals) -> None:
+        self.function, self.count = function, len(interface.inputs)
+        self.failure: BaseException | None = None
+        real = interface.format.c_type
+        self.pointer = ffi.callback(f"void({real}, {real} *, void *)", self._write)
+
+    def _write(self, t: float, values: Any, context: Any) -> None:
+        found = [math.nan] * self.count
+        try:
+            if self.failure is None:
+                found = [float(x) for x in self.function(t)]
+            if len(found) != self.count:
+                raise TypeError(f"expected {self.count} inputs, found {len(found)}")
+        except BaseException as error:  # nothing may be raised through C
+            self.failure, found = error, [math.nan] * self.count
+        for k, x in enumerate(found):
+            values[k] = x
 
 
 class InterpretedIntegrator(Integrator):
@@ -198,6 +247,7 @@ class InterpretedIntegrator(Integrator):
         stride: int,
         statistics: Statistics | None,
         like_state: State,
+        inputs: Signals | None,
     ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
         keywords: dict[str, Any] = {}
         counts = self.module.Statistics() if self.interface.blocks else None
@@ -205,7 +255,11 @@ class InterpretedIntegrator(Integrator):
             keywords["statistics"] = counts
         try:
             found = self.module.run(
-                numbers, *([t] if self.interface.time else []), h, steps, *values, stride=stride, **keywords
+                *(numbers, *([t] if self.interface.time else []), h, steps),
+                *([] if inputs is None else [inputs]),
+                *values,
+                stride=stride,
+                **keywords,
             )
         except self.module.StepFailed as failure:
             status = Status(failure.status)

@@ -57,6 +57,24 @@ def param(name: str, default: Any) -> Any:
     return Parameter(name, int(value.p), int(value.q))
 
 
+def signal(name: str, formula: Any = 0) -> Any:
+    """Return a sympy symbol for a function of time: a control, a measured load.
+
+    It is folded into emitted code as its ``formula``, in t and parameters, unless it is asked for as a
+    run-time input (``emit --input NAME``). :class:`SceneError` for a formula that is none.
+    """
+    import sympy
+
+    from codegen.parameter import Signal
+
+    try:
+        return Signal(name, sympy.sympify(formula, strict=True))
+    except sympy.SympifyError:
+        raise SceneError(
+            f"the formula {formula!r}", where=f"signal {name}", expected="a sympy formula in t"
+        ) from None
+
+
 @dataclass(frozen=True)
 class StateField:
     """A block of the state: its name, kind, coordinates, and initial value as expressions."""
@@ -73,7 +91,10 @@ class Setting:
 
     ``roots`` are the components of f (field scenes) or of xi and n (Hamiltonian scenes) as expressions in the
     state's symbols, the parameters and ``t``; ``parts`` are named summands of the Hamiltonian, and ``flows``
-    the exact flows that a splitting composes. Values are flat tuples of scalars of a domain.
+    the exact flows that a splitting composes. ``open_roots`` are the roots with
+    the symbols of ``signals`` where ``roots`` have their formulas, and ``inputs`` those signals that emitted
+    code takes at run time; ``forced`` says that n is not a derivative of the Hamiltonian alone. Values are
+    flat tuples of scalars of a domain.
     """
 
     name: str
@@ -89,6 +110,10 @@ class Setting:
     runtime: tuple[str, ...] = ()
     paired: bool = False
     fixed: tuple[tuple[str, str], ...] = ()
+    signals: Mapping[str, Expr] = field(default_factory=dict)
+    open_roots: tuple[Expr, ...] = ()
+    inputs: tuple[str, ...] = ()
+    forced: bool = False
     parts: Mapping[str, Expr] = field(default_factory=dict)
     flows: Mapping[str, Flow] = field(default_factory=dict)
 
@@ -99,8 +124,8 @@ class Setting:
 
     @property
     def autonomous(self) -> bool:
-        """Whether the time does not occur in the field or Hamiltonian."""
-        return not any(n.op == "sym" and n.payload == TIME for n in walk(self.roots))
+        """Whether the time does not occur in the field or Hamiltonian, nor in what is put in at run time."""
+        return not self.inputs and not any(n.op == "sym" and n.payload == TIME for n in walk(self.roots))
 
     @property
     def is_hamiltonian(self) -> bool:
@@ -142,6 +167,14 @@ class Setting:
             _check(changed, {})
         return changed
 
+    def with_inputs(self, names: Sequence[str]) -> Setting:
+        """Return this scene with those signals taken at run time, in that order."""
+        for name in names:
+            if name not in self.signals:
+                known = ", ".join(self.signals) or "none: the scene has no signal"
+                raise SceneError(f"unknown signal {name!r}", where=self.name, expected=f"one of: {known}")
+        return replace(self, inputs=tuple(dict.fromkeys(names)))
+
     def as_field(self) -> Setting:
         """Return a Hamiltonian scene as the field f = (xi, n) on the group T*G acting on itself."""
         if not self.paired:
@@ -156,14 +189,26 @@ class Setting:
 
         What integrates it is of no group and leaves the manifold by as much as it errs.
         """
-        domain = ExprDomain(self.roots[0].space)
-        roots = self.velocity(
-            domain, tuple(domain.space.sym(s) for s in self.symbols), domain.space.sym(TIME)
-        )
+        field, domain = self.as_field(), ExprDomain(self.roots[0].space)
+        state = tuple(domain.space.sym(s) for s in self.symbols)
+        values = field.values(domain, state, domain.space.sym(TIME))
+        values |= {name: domain.space.sym(name) for name in self.signals}
+
+        def ambient(roots: tuple[Expr, ...]) -> tuple[Expr, ...]:
+            f = tuple(evaluate(roots, domain, values))
+            return tuple(field.action.velocity(domain, field.group, f, state))
+
         initial = tuple(x for block in self.state for x in block.initial)
         point = StateField("y", Kind.POINT, self.symbols, initial)
-        group, action = Rn(len(self.symbols)), LeftMultiplication()
-        return replace(self, group=group, action=action, state=(point,), roots=roots, paired=False)
+        return replace(
+            self,
+            group=Rn(len(self.symbols)),
+            action=LeftMultiplication(),
+            state=(point,),
+            roots=ambient(self.roots),
+            open_roots=ambient(self.open_roots),
+            paired=False,
+        )
 
     def values(self, domain: Domain, state: Sequence[Any], t: Any = None) -> dict[str, Any]:
         """Return the values of all symbols and parameters; run-time ones stay symbols in expressions."""
@@ -196,7 +241,14 @@ class Setting:
         blocks = args[: len(self.state)]
         t = args[len(self.state)] if len(args) > len(self.state) else None
         state = tuple(x for block in blocks for x in block)
-        result = tuple(evaluate(self.roots, domain, self.values(domain, state, t)))
+        values = self.values(domain, state, t)
+        roots = self.roots
+        if self.inputs and isinstance(domain, ExprDomain):
+            roots = self.open_roots
+            formulas = evaluate(list(self.signals.values()), domain, values)
+            samples = domain.sample(self.inputs, values[TIME])
+            values |= dict(zip(self.signals, formulas, strict=True)) | samples
+        result = tuple(evaluate(roots, domain, values))
         if not self.paired:
             return (result,)
         return result[: self.group.dim], result[self.group.dim :]
@@ -242,14 +294,17 @@ def FieldScene(
     """
     reader = _Reader(name, list(y))
     _acts(reader, group, action)
-    roots = reader.column(f, group.dim, "f")
+    open_roots = reader.column(f, group.dim, "f")
+    roots = reader.closed(open_roots)
     start = reader.column(y0, len(y), "y0", constant=True)
     state = (StateField("y", Kind.POINT, tuple(reader.coordinates), start),)
     known = {key: reader.scalar(value, f"invariant {key}") for key, value in (invariants or {}).items()}
-    stated = () if velocity is None else reader.column(velocity, len(y), "velocity")
+    stated = () if velocity is None else reader.closed(reader.column(velocity, len(y), "velocity"))
     setting = Setting(
         *(name, title or name, group, action, state, roots, None, known, _span(name, span)),
         reader.parameters(),
+        signals=reader.signals,
+        open_roots=open_roots,
     )
     _check(setting, {"velocity": (stated, None)} if stated else {})
     return setting
@@ -267,6 +322,7 @@ def HamiltonianScene(
     parts: Mapping[str, Any] | None = None,
     xi: Any = None,
     n: Any = None,
+    wrench: Any = None,
     invariants: Mapping[str, Any] | None = None,
     name: str = "scene",
     title: str = "",
@@ -276,7 +332,9 @@ def HamiltonianScene(
     ``q`` and ``mu`` are sympy matrices of symbols (``group.point``, ``group.dual``), ``q0`` and ``mu0`` exact
     initial values, ``parts`` named summands of H. xi = D_2 H and n = -(D_1 H).q^-1, that is n_a = -d/deps
     H(exp(eps e_a) q, mu) (thesis eq. 3.4), are found by differentiation; where ``xi`` or ``n`` is given by
-    hand it must agree. The energy is an invariant of a Hamiltonian without time. :class:`SceneError` as for
+    hand it must agree. ``wrench``, where it is given, is a column of ``group.dim`` components that no H has:
+    mu' = n + wrench - ad*_xi mu, in the same trivialisation (space); n given by hand is without it. The
+    energy is an invariant of a Hamiltonian without time and wrench. :class:`SceneError` as for
     :func:`FieldScene`.
     """
     reader = _Reader(name, [*q, *mu])
@@ -292,23 +350,32 @@ def HamiltonianScene(
     qs, mus = tuple(s.name for s in q), tuple(s.name for s in mu)
     derivatives = gradient(hamiltonian, qs + mus)
     roots = tuple(derivatives[len(qs) :]) + force(reader.space, group, qs, derivatives[: len(qs)])
+    loads = () if wrench is None else reader.column(wrench, group.dim, "wrench")
+    open_roots = roots
+    if loads:
+        pairs = zip(roots[group.dim :], loads, strict=True)
+        open_roots = roots[: group.dim] + tuple(x + y for x, y in pairs)
     state = (
         StateField("q", Kind.GROUP, qs, reader.column(q0, len(qs), "q0", constant=True)),
         StateField("mu", Kind.DUAL, mus, reader.column(mu0, len(mus), "mu0", constant=True)),
     )
-    timeless = not any(node.op == "sym" and node.payload == TIME for node in walk([hamiltonian]))
-    known = {"energy": hamiltonian} if timeless else {}
+    (closed,) = reader.closed((hamiltonian,))
+    timeless = not any(node.op == "sym" and node.payload == TIME for node in walk([closed]))
+    known = {"energy": closed} if timeless and not loads else {}
     known |= {key: reader.scalar(value, f"invariant {key}") for key, value in (invariants or {}).items()}
     stated = {
-        key: (reader.column(column, group.dim, key), derived)
+        key: (reader.closed(reader.column(column, group.dim, key)), reader.closed(derived))
         for key, column, derived in (("xi", xi, roots[: group.dim]), ("n", n, roots[group.dim :]))
         if column is not None
     }
     setting = Setting(
-        *(name, title or name, group, LeftMultiplication(), state, roots, hamiltonian, known),
+        *(name, title or name, group, LeftMultiplication(), state, reader.closed(open_roots), closed, known),
         *(_span(name, span), reader.parameters()),
         paired=True,
-        parts=summands,
+        parts={key: reader.closed((part,))[0] for key, part in summands.items()},
+        signals=reader.signals,
+        open_roots=open_roots,
+        forced=bool(loads),
     )
     _check(setting, stated)
     return setting
@@ -390,6 +457,7 @@ class _Reader:
             raise SceneError("a coordinate symbol twice", where=name, expected="distinct symbols")
         self.space = Space()
         self.defaults: dict[str, Number] = {}
+        self.signals: dict[str, Expr] = {}
 
     def _allowed(self, symbol: str) -> None:
         if symbol in RESERVED:
@@ -416,8 +484,32 @@ class _Reader:
                 expected="one meaning for each name",
             )
 
+    def _admit_signal(self, symbol: Any) -> None:
+        """Note a signal's formula, which holds the time and parameters and no coordinate."""
+        self._allowed(symbol.name)
+        what = f"signal {symbol.name}"
+        for inner in getattr(symbol.formula, "free_symbols", ()):
+            if inner.name != TIME and not hasattr(inner, "default"):
+                raise SceneError(f"{what} holds {inner.name}", where=self.name, expected="t and parameters")
+        formula = self.scalar(symbol.formula, what)
+        taken = symbol.name in self.coordinates or symbol.name in self.defaults
+        if taken or self.signals.setdefault(symbol.name, formula) is not formula:
+            raise SceneError(
+                f"the {what} has the name of another symbol, or two formulas",
+                where=self.name,
+                expected="one meaning for each name",
+            )
+
+    def closed(self, roots: Sequence[Expr]) -> tuple[Expr, ...]:
+        """Return formulas with every signal replaced by its own."""
+        if not self.signals:
+            return tuple(roots)
+        names = {n.payload for n in walk(roots) if n.op == "sym"}
+        values = {name: self.space.sym(name) for name in sorted(names)} | self.signals
+        return tuple(evaluate(list(roots), ExprDomain(self.space), values))
+
     def scalar(self, formula: Any, what: str, constant: bool = False) -> Expr:
-        """Return one formula; its symbols must be coordinates, t, or parameters."""
+        """Return one formula; its symbols must be coordinates, t, parameters or signals."""
         if getattr(formula, "shape", None) == (1, 1):
             formula = formula[0]
         if hasattr(formula, "shape"):
@@ -427,6 +519,8 @@ class _Reader:
         for symbol in sorted(getattr(formula, "free_symbols", ()), key=lambda s: str(s.name)):
             if hasattr(symbol, "default"):
                 self._admit(symbol)
+            elif hasattr(symbol, "formula") and not constant:
+                self._admit_signal(symbol)
             elif symbol.name not in known:
                 raise SceneError(
                     f"the symbol {symbol.name} in {what} has no value",

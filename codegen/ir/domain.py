@@ -224,6 +224,7 @@ class ExprDomain:
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
         self.h = self.space.sym("h")
+        self.samples: dict[int, tuple[Expr, dict[str, Expr]]] = {}
 
     def number(self, value: Number) -> Expr:
         """Return a constant."""
@@ -236,6 +237,13 @@ class ExprDomain:
     def call(self, function: str, *args: Expr) -> Expr:
         """Return a call node."""
         return self.space.call(function, *args)
+
+    def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:
+        """Return symbols for run-time inputs at a time, the same ones for the same time."""
+        if t.id not in self.samples:
+            k = len(self.samples) + 1
+            self.samples[t.id] = t, {name: self.space.sym(f"{name}_at{k}") for name in names}
+        return self.samples[t.id][1]
 
     def settled(self, old: Sequence[Any], new: Sequence[Any], previous: Any) -> tuple[bool, Any]:
         """Refuse: there is nothing to iterate."""

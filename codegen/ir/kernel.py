@@ -91,8 +91,19 @@ class PutOff:
 
 
 @dataclass(frozen=True)
+class Sample:
+    """Run-time inputs at one time of the step: a symbol for each, in the order of ``Kernel.inputs``."""
+
+    time: Expr
+    symbols: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class Kernel:
-    """One step: state fields, scalar inputs (h, t, run-time parameters), body, new state in field order."""
+    """One step: state fields, scalar inputs (h, t, run-time parameters), body, new state in field order.
+
+    ``inputs`` names functions of time that the caller supplies, ``samples`` are the times they are read at.
+    """
 
     name: str
     state: tuple[Field, ...]
@@ -100,6 +111,8 @@ class Kernel:
     body: tuple[Let | Loop, ...]
     outputs: tuple[Expr, ...]
     put_off: PutOff | None = None
+    inputs: tuple[str, ...] = ()
+    samples: tuple[Sample, ...] = ()
 
     def lets(self) -> Iterator[Let]:
         """Yield every assignment, those in loops included."""
@@ -111,6 +124,7 @@ class Kernel:
 
     def expressions(self) -> Iterator[Expr]:
         """Yield every expression root in order."""
+        yield from (sample.time for sample in self.samples)
         for statement in self.body:
             if isinstance(statement, Let):
                 yield statement.value

@@ -58,6 +58,13 @@ def setting(scene: Setting, method: Method) -> Setting:
         if not scene.is_hamiltonian:
             hint = f"use one of {', '.join(sorted(set(LOWERINGS) - ON_COTANGENT - OF_PARTS))}"
             raise MethodError(f"{family} on {scene.name}", expected="a Hamiltonian scene", hint=hint)
+        if family in OF_PARTS and (scene.forced or scene.inputs):
+            what = "a wrench" if scene.forced else "run-time inputs"
+            raise MethodError(
+                f"{family} on {scene.name}, which is driven by {what}",
+                expected="a Hamiltonian that is the sum of parts with exact flows",
+                hint="use one of " + ", ".join(sorted(set(LOWERINGS) - OF_PARTS)),
+            )
         return with_flows(scene, method) if family in OF_PARTS else scene
     if family == "ambient":
         return scene.as_ambient()

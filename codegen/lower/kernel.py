@@ -8,7 +8,7 @@ and body values needed later are read where the last sweep left them.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from codegen.errors import SceneError
@@ -16,7 +16,7 @@ from codegen.groups.actions import LeftMultiplication
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, walk
 from codegen.ir.interpret import apply, flatten
-from codegen.ir.kernel import ELAPSED, LEAD, Field, Kernel, Let, Loop
+from codegen.ir.kernel import ELAPSED, LEAD, Field, Kernel, Let, Loop, Sample
 from codegen.ir.program import Assign, Kind, Program, Solve, Var
 from codegen.scene import TIME, Setting
 
@@ -44,7 +44,7 @@ def to_kernel(program: Program, scene: Setting) -> Kernel:
     env: dict[Var, Any] = {}
     hints: dict[int, str] = {}
     blocks: list[_Block] = []
-    taken = {*scene.symbols, *scene.runtime, "h", TIME, LEAD, ELAPSED}
+    taken = {*scene.symbols, *scene.runtime, *scene.inputs, "h", TIME, LEAD, ELAPSED}
 
     def name(base: str) -> str:
         candidate = base if base not in taken else base + "_"
@@ -85,7 +85,20 @@ def to_kernel(program: Program, scene: Setting) -> Kernel:
     state = tuple(Field(b.name, b.symbols, _meaning(b.kind, scene)) for b in scene.state)
     durations = [v.name for v in program.inputs if v.name in (LEAD, ELAPSED)]
     scalars = (TIME, "h", *scene.runtime, *durations)
-    return Kernel(program.name, state, scalars, schedule.run(), outputs=schedule.outputs)
+    body = schedule.run()
+    made = Kernel(program.name, state, scalars, body, outputs=schedule.outputs)
+    return _sampled(made, scene, domain)
+
+
+def _sampled(kernel: Kernel, scene: Setting, domain: ExprDomain) -> Kernel:
+    """Return the kernel with the samples of run-time inputs that it reads."""
+    read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}
+    found = [
+        Sample(t, tuple(symbols[name].payload for name in scene.inputs))
+        for t, symbols in domain.samples.values()
+    ]
+    samples = tuple(sample for sample in found if read.intersection(sample.symbols))
+    return replace(kernel, inputs=scene.inputs if samples else (), samples=samples)
 
 
 def _meaning(kind: Kind, scene: Setting) -> str:

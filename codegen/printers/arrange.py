@@ -117,6 +117,7 @@ def arrange(kernel: Kernel) -> Arrangement:
 def _taken(kernel: Kernel) -> dict[str, int]:
     """Return a counter of fresh names that starts with every name of the kernel used."""
     names = [s for f in kernel.state for s in f.symbols] + list(kernel.scalars)
+    names += [s for sample in kernel.samples for s in sample.symbols]
     names += [let.name for let in kernel.lets()]
     names += [u for s in kernel.body if isinstance(s, Loop) for u in s.unknowns]
     return dict.fromkeys(names, 1)

@@ -11,6 +11,8 @@ from typing import Any
 from codegen.ir.kernel import ELAPSED, LEAD, Kernel, Loop
 from codegen.printers.precision import DOUBLE, Precision, precision
 
+LISTS = ("parameters", "blocks", "inputs")
+
 
 @dataclass(frozen=True)
 class Interface:
@@ -19,7 +21,8 @@ class Interface:
     ``prefix`` starts every external C name and ends in an underscore; ``size`` is how many numbers a state
     has; ``time`` says whether the step reads t; ``parameters`` are the run-time parameters in order;
     ``blocks`` are the labels of the implicit blocks, which statistics count; ``precision`` names the format
-    of all numbers (:mod:`codegen.printers.precision`).
+    of all numbers (:mod:`codegen.printers.precision`); ``inputs`` are the functions of time that are taken at
+    run time, in order.
     """
 
     prefix: str
@@ -28,11 +31,13 @@ class Interface:
     parameters: tuple[str, ...]
     blocks: tuple[str, ...]
     precision: str = DOUBLE.name
+    inputs: tuple[str, ...] = ()
 
     @classmethod
     def of(cls, kernel: Kernel, prefix: str, precision: str = DOUBLE.name) -> Interface:
         """Return the interface of a kernel: t and parameters that it never reads are left out."""
         used = kernel.used_scalars()
+        assert not kernel.inputs or "t" in used
         return cls(
             prefix=prefix,
             size=sum(len(field.symbols) for field in kernel.state),
@@ -40,6 +45,7 @@ class Interface:
             parameters=tuple(name for name in used if name not in ("h", "t", LEAD, ELAPSED)),
             blocks=tuple(s.label for s in kernel.body if isinstance(s, Loop)),
             precision=precision,
+            inputs=kernel.inputs,
         )
 
     @property
@@ -54,9 +60,9 @@ class Interface:
 
     def as_json(self) -> dict[str, Any]:
         """Return plain data for the manifest; :meth:`from_json` reads it back."""
-        return asdict(self) | {"parameters": list(self.parameters), "blocks": list(self.blocks)}
+        return asdict(self) | {name: list(getattr(self, name)) for name in LISTS}
 
     @classmethod
     def from_json(cls, data: dict[str, Any]) -> Interface:
         """Return the interface that :meth:`as_json` wrote."""
-        return cls(**(data | {"parameters": tuple(data["parameters"]), "blocks": tuple(data["blocks"])}))
+        return cls(**(data | {name: tuple(data[name]) for name in LISTS}))

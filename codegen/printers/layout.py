@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from codegen.ir.kernel import Kernel
 from codegen.printers.arrange import Arrangement, Iteration, Joint
+from codegen.printers.expression import spell
 from codegen.printers.names import Names
 
 
@@ -19,6 +20,14 @@ def layout(kernel: Kernel) -> tuple[str, ...]:
     return tuple(lines)
 
 
+def times(kernel: Kernel) -> tuple[str, ...]:
+    """Return a line that says what the inputs are and when they are read, none where there are none."""
+    if not kernel.inputs:
+        return ()
+    read = ", ".join(" ".join(spell(sample.time, {})) for sample in kernel.samples)
+    return (f"{', '.join(kernel.inputs)}, as functions of time, read at {read}",)
+
+
 def register(kernel: Kernel, arrangement: Arrangement, names: Names) -> Names:
     """Give every name of an arranged kernel an identifier and return the names.
 
@@ -26,6 +35,7 @@ def register(kernel: Kernel, arrangement: Arrangement, names: Names) -> Names:
     """
     names.add_all(kernel.scalars)
     names.add_all(s for f in kernel.state for s in f.symbols)
+    names.add_all(s for sample in kernel.samples for s in sample.symbols)
     for statement in arrangement.statements:
         if isinstance(statement, Iteration):
             names.add_all(statement.loop.unknowns)

@@ -46,11 +46,16 @@ def entry(word: str, sentences: Sequence[str], width: int) -> list[str]:
 
 
 def header(
-    recipe: Recipe, layout: Sequence[str], counts: Sequence[str], width: int, stack: str = ""
+    recipe: Recipe,
+    layout: Sequence[str],
+    counts: Sequence[str],
+    width: int,
+    stack: str = "",
+    inputs: Sequence[str] = (),
 ) -> list[str]:
     """Return the recipe's lines up to the usage example, none longer than width where words allow it.
 
-    ``stack`` says how much a call takes of it, where that is known.
+    ``stack`` says how much a call takes of it, where that is known, ``inputs`` what is read at run time.
 
     >>> header(Recipe("Step", (("method", "Lie-Euler"),), (1.0,)), ["m0: momentum"], ["2 mul a step"], 40)
     ['Step', '', 'method:     Lie-Euler', 'state:      m0: momentum', 'operations: 2 mul a step']
@@ -59,6 +64,7 @@ def header(
     for word, sentence in recipe.facts:
         lines += entry(word, [sentence], width)
     lines += entry("state", layout, width)
+    lines += entry("inputs", inputs, width)
     lines += entry("left out", recipe.left_out, width)
     lines += entry("operations", counts, width)
     lines += entry("stack", [stack] if stack else [], width)

@@ -18,6 +18,7 @@ from codegen.scene import Setting
 from orderconds.errors import InputError, UnknownName
 
 GALLERY = (
+    "actuated_rigid_body",
     "dipole",
     "driven_spin",
     "duffing",

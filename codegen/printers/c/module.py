@@ -5,8 +5,9 @@ from __future__ import annotations
 from codegen.ir.kernel import ELAPSED, LEAD, Kernel, PutOff
 from codegen.printers.arrange import Arrangement, arrange
 from codegen.printers.c.statements import RESERVED, Statements, comment, fill, literal
+from codegen.printers.expression import spell
 from codegen.printers.interface import Interface
-from codegen.printers.layout import layout, register
+from codegen.printers.layout import layout, register, times
 from codegen.printers.names import Names
 from codegen.printers.operations import costs
 from codegen.printers.precision import DOUBLE
@@ -31,7 +32,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     functions = {*arrangement.functions(), "isfinite"}
     if interface.blocks:
         functions |= {"fabs", "greater"}
-    variables["put_off"], held = None, names.count
+    variables["put_off"], held = None, names.count + len(kernel.samples) * len(kernel.inputs)
     if kernel.put_off is not None:
         variables["put_off"], variables["advance_source"], more, held = put_off(
             kernel.put_off, arrangement, names, interface
@@ -41,7 +42,9 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     variables |= {
         "recipe": [
             comment(line)
-            for line in header(recipe, layout(kernel), costs(kernel), 96, stack(held, interface))
+            for line in header(
+                recipe, layout(kernel), costs(kernel), 96, stack(held, interface), times(kernel)
+            )
         ],
         "usage": usage(interface, recipe),
         "snippets": found.texts,
@@ -66,7 +69,7 @@ def definition(
     loads = [f"const {real} {names.spelled[s]} = state[{i}];" for i, s in enumerate(symbols) if s in read]
     finite = (f"isfinite({new[0]})", *(f"&& isfinite({n})" for n in new[1:]))
     return {
-        "body": [*loads, *body, *ends],
+        "body": [*samples(kernel, read, names, statements), *loads, *body, *ends],
         "new": new,
         "finite": fill("if (!(", finite, ")) {", joint=""),
     }
@@ -112,6 +115,19 @@ def put_off(
     return found, heads[0], set(ending.functions()), held
 
 
+def samples(kernel: Kernel, read: frozenset[str], names: Names, statements: Statements) -> list[str]:
+    """Return the lines that call for the inputs at each time they are read, and name what is read."""
+    lines: list[str] = []
+    real = statements.real
+    for number, sample in enumerate(kernel.samples, 1):
+        name = names.fresh(f"inputs_{number}")
+        time = " ".join(spell(sample.time, names.spelled, statements.style))
+        lines += [f"{real} {name}[{len(kernel.inputs)}];", f"input({time}, {name}, context);"]
+        pairs = [(k, symbol) for k, symbol in enumerate(sample.symbols) if symbol in read]
+        lines += [f"const {real} {names.spelled[symbol]} = {name}[{k}];" for k, symbol in pairs]
+    return lines
+
+
 FRAMES = 512
 """Bytes for what calls leave on the stack besides numbers, and for the frames of helpers."""
 
@@ -129,7 +145,7 @@ def stack(numbers: int, interface: Interface) -> str:
 def own_names(interface: Interface) -> frozenset[str]:
     """Return what a module itself declares or defines, which no variable may hide."""
     prefix, upper = interface.prefix, interface.prefix.upper()
-    functions = {f"{prefix}{name}" for name in ("step", "run", "statistics")}
+    functions = {f"{prefix}{name}" for name in ("step", "run", "statistics", "input")}
     return frozenset(functions | {f"{upper}{name}" for name in (*STATUSES, "H")})
 
 
@@ -140,10 +156,15 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
     parameters = [f"{real} {names.spelled[p]}" for p in interface.parameters]
     statistics = [f"{interface.prefix}statistics *statistics"] if interface.blocks else []
     state = f"{real} state[static {interface.size}]"
-    step = [*time, f"{real} h", *parameters, *statistics]
-    run = [*time, f"{real} h", "size_t steps", *parameters, f"{real} *trajectory", "size_t stride"]
+    several = len(interface.inputs)
+    sampled = [f"{interface.prefix}input input", "void *context"] if several else []
+    constant = [f"const {real} inputs[{several}]"] if several else []
+    step = [*time, f"{real} h", *parameters, *constant, *statistics]
+    inner = [*time, f"{real} h", *parameters, *sampled, *statistics]
+    run = [*time, f"{real} h", "size_t steps", *parameters, *sampled, f"{real} *trajectory", "size_t stride"]
     run += [*statistics, "size_t *completed"]
     passed = ["h", *(names.spelled[p] for p in interface.parameters)]
+    given = ["statistics"] if interface.blocks else []
     return {
         "prefix": interface.prefix,
         "upper": interface.prefix.upper(),
@@ -155,10 +176,12 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
         "blocks": [comment(label) for label in interface.blocks],
         "step_header": signature(f"int {interface.prefix}step", f"{real} state[{interface.size}]", step, ";"),
         "run_header": signature(f"int {interface.prefix}run", f"{real} state[{interface.size}]", run, ";"),
-        "advance_source": signature("static inline int advance", state, step, ""),
+        "inputs": interface.inputs,
+        "advance_source": signature("static inline int advance", state, inner, ""),
         "step_source": signature(f"int {interface.prefix}step", state, step, ""),
         "run_source": signature(f"int {interface.prefix}run", state, run, ""),
-        "passed": ", ".join([*passed, *(["statistics"] if interface.blocks else [])]),
+        "passed": ", ".join([*passed, *(["input", "context"] if several else []), *given]),
+        "passed_once": ", ".join([*passed, *(["hold", "held"] if several else []), *given]),
     }
 
 
@@ -178,10 +201,30 @@ def prototypes(interface: Interface) -> str:
     record = (
         f"typedef struct {{ size_t sweeps[{blocks}]; size_t most; size_t failed; }} {prefix}statistics;\n"
     )
-    return (record if blocks else "") + (
-        f"int {prefix}run({real} *state, {time}{real} h, size_t steps, {parameters}"
-        f"{real} *trajectory, size_t stride, {statistics}size_t *completed);\n"
+    callback = f"typedef void (*{prefix}input)({real} t, {real} *inputs, void *context);\n"
+    sampled = f"{prefix}input input, void *context, " if interface.inputs else ""
+    return (
+        (record if blocks else "")
+        + (callback if interface.inputs else "")
+        + (
+            f"int {prefix}run({real} *state, {time}{real} h, size_t steps, {parameters}{sampled}"
+            f"{real} *trajectory, size_t stride, {statistics}size_t *completed);\n"
+        )
     )
+
+
+def example_input(interface: Interface) -> list[str]:
+    """Return a function of time for the example: constant inputs, whatever the time."""
+    real, several = interface.format, len(interface.inputs)
+    return [
+        f"static void constant({real.c_type} t, {real.c_type} inputs[{several}], void *context)",
+        "{",
+        "    (void)t;",
+        "    (void)context;",
+        *(f"    inputs[{k}] = {literal(real, 0.0)}; // {n}" for k, n in enumerate(interface.inputs)),
+        "}",
+        "",
+    ]
 
 
 def later(interface: Interface) -> str:
@@ -202,11 +245,13 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
     initial = ", ".join(map(number, recipe.initial))
     arguments = ["state", *([number(0.0)] if interface.time else []), number(recipe.h), str(recipe.steps)]
     arguments += [number(recipe.defaults.get(p, 0.0)) for p in interface.parameters]
+    arguments += ["constant", "NULL"] if interface.inputs else []
     arguments += ["NULL", "0", *(["NULL"] if interface.blocks else []), "&completed"]
     return [
         f'#include "{interface.module}.h"',
         "#include <stdio.h>",
         "",
+        *(example_input(interface) if interface.inputs else ()),
         "int main(void)",
         "{",
         f"    {real.c_type} state[{interface.size}] = {{{initial}}};",

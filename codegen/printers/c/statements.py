@@ -31,7 +31,7 @@ _WORDS = """
     sqrt sin cos exp log sinh cosh fabs isfinite greater quotient signed_stumpff0 signed_stumpff1
     sqrtf sinf cosf expf logf sinhf coshf fabsf
     state statistics steps step stride trajectory completed status advance row sweep change scale still close
-    count_sweeps
+    count_sweeps input inputs context held hold
 """
 RESERVED = frozenset(_WORDS.split()) | {f"stumpff_{''.join(map(str, orders))}" for orders in SETS}
 """Words that no variable may take.

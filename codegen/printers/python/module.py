@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from codegen.ir.kernel import ELAPSED, LEAD, Kernel, PutOff
 from codegen.printers.arrange import Arrangement, arrange
+from codegen.printers.expression import spell
 from codegen.printers.interface import Interface
-from codegen.printers.layout import layout, register
+from codegen.printers.layout import layout, register, times
 from codegen.printers.names import Names
 from codegen.printers.operations import costs
 from codegen.printers.precision import DOUBLE
@@ -42,6 +43,9 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         arguments = [f"{name}={float(recipe.defaults[p])!r}" for p, name in pairs]
     time = ["t"] if interface.time else []
     statistics = ["statistics"] if interface.blocks else []
+    inputs = ["inputs"] if interface.inputs else []
+    held = ["lambda t: inputs"] if interface.inputs else []
+    body = [*samples(kernel, arrangement.symbols(), names, statements), *body]
     optional = [f"{s}=None" for s in statistics]
     text = (
         environment("python")
@@ -49,7 +53,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         .render(
             recipe=[
                 line.replace("\\", "\\\\").replace('"""', "'''")
-                for line in header(recipe, layout(kernel), costs(kernel), 84)
+                for line in header(recipe, layout(kernel), costs(kernel), 84, "", times(kernel))
             ],
             usage=usage(interface, recipe),
             imports=imports,
@@ -63,11 +67,14 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             time=interface.time,
             floats=[*time, "h", *parameters],
             state=unpacking([names.spelled[s] for s in symbols]),
-            inner=", ".join(["state", *time, "h", *parameters, *statistics]),
-            step=", ".join(["state", *time, "h", *arguments, *keywords(optional)]),
-            run=", ".join(["state", *time, "h", "steps", *arguments, *keywords(["stride=0", *optional])]),
-            once=", ".join(["state", *time, "h", "1", *parameters, *(f"{n}={n}" for n in statistics)]),
-            passed=", ".join(["h", *parameters, *statistics]),
+            inner=", ".join(["state", *time, "h", *parameters, *inputs, *statistics]),
+            inputs=interface.inputs,
+            step=", ".join(["state", *time, "h", *inputs, *arguments, *keywords(optional)]),
+            run=", ".join(
+                ["state", *time, "h", "steps", *inputs, *arguments, *keywords(["stride=0", *optional])]
+            ),
+            once=", ".join(["state", *time, "h", "1", *held, *parameters, *(f"{n}={n}" for n in statistics)]),
+            passed=", ".join(["h", *parameters, *inputs, *statistics]),
             put_off=ending,
             again=", ".join(["state", *time, "h", "failure.step", *parameters]),
             body=[*body, *ends],
@@ -114,6 +121,17 @@ def put_off(
     return found, set(ending.functions()), statements.constants
 
 
+def samples(kernel: Kernel, read: frozenset[str], names: Names, statements: Statements) -> list[str]:
+    """Return the lines that ask for the inputs at each time they are read, and name what is read."""
+    lines = []
+    for sample in kernel.samples:
+        targets = [names.spelled[s] if s in read else "_" for s in sample.symbols]
+        time = " ".join(spell(sample.time, names.spelled, statements.style))
+        lines += listed("", targets, 1)
+        lines[-1] += f" = _sampled(inputs, {time})"
+    return lines
+
+
 def unpacking(symbols: list[str]) -> list[str]:
     """Return the lines that give the numbers of a state their names."""
     lines = listed("", symbols, 1)
@@ -140,7 +158,9 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
     time = ["0.0"] if interface.time else []
     known = all(p in recipe.defaults for p in interface.parameters)
     unset = [] if known else [number(recipe.defaults.get(p, 0.0)) for p in interface.parameters]
-    arguments = ["state", *time, number(recipe.h), str(recipe.steps), *unset]
+    zeros = ", ".join(["0.0"] * len(interface.inputs))
+    inputs = [f"lambda t: [{zeros}]"] if interface.inputs else []
+    arguments = ["state", *time, number(recipe.h), str(recipe.steps), *inputs, *unset]
     return [
         f"import {interface.module}",
         "",

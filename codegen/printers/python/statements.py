@@ -20,7 +20,7 @@ _WORDS = """
     sqrt sin cos exp log sinh cosh inf isfinite still close quotient signed_stumpff0 signed_stumpff1
     state statistics steps step stride trajectory run row rows sweep change scale total
     settled error failure labels count made new
-    float32 errstate
+    float32 errstate inputs _sampled
     OK NOT_CONVERGED NOT_FINITE BAD_STEP StepFailed Statistics
 """
 RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split())

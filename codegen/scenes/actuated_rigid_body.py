@@ -1,0 +1,32 @@
+"""Actuated rigid body: a body turned by three thrusters or wheels, on T*SO(3); their torques are signals.
+
+mu' = n - ad*_xi mu + g u, where u holds the torques in the body and g turns them into space. The formulas are
+what the torques are where nothing else is put in at run time; with u = 0 it is ``free_rigid_body_attitude``.
+"""
+
+from sympy import Matrix, Rational, Symbol, cos, diag, eye, sin
+
+from codegen.groups import SO3
+from codegen.scene import HamiltonianScene, signal
+
+G = SO3()
+g, mu, t = G.point("g"), G.dual("mu"), Symbol("t")
+I = diag(Rational(3, 5), Rational(4, 5), 1)  # noqa: E741 (the inertia tensor's name)
+P0 = Matrix([Rational(9, 5), Rational(2, 5), Rational(-9, 10)])
+w = g * I.inv() * g.T * mu
+formulas = (sin(t) / 2, Rational(1, 10), cos(2 * t) / 5)
+u = Matrix([signal(f"u{k}", formula) for k, formula in enumerate(formulas)])
+
+scene = HamiltonianScene(
+    title="Rigid body turned by torques in the body, T*SO(3)",
+    group=G,
+    q=g,
+    mu=mu,
+    H=mu.dot(w) / 2,
+    q0=eye(3),
+    mu0=P0,
+    span=(0, 5),
+    xi=w,
+    n=mu.cross(w),
+    wrench=g * u,
+)

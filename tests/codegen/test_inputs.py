@@ -1,0 +1,247 @@
+"""Run-time inputs: functions of time that the caller supplies, read at the stages' own times."""
+
+from __future__ import annotations
+
+import math
+import random
+from dataclasses import replace
+from functools import cache
+
+import pytest
+from sympy import Matrix, Symbol, cos, sin
+
+from codegen.build import Compiler
+from codegen.emit import compile_method, emit_compiled
+from codegen.errors import MethodError, SceneError
+from codegen.groups import SO3, Rotation
+from codegen.ir.domain import FloatDomain
+from codegen.lab.local_error import local_error, valuation
+from codegen.load import Status, StepFailed, load
+from codegen.lower import LOWERINGS, lower, setting
+from codegen.method import Method
+from codegen.passes import optimise
+from codegen.scene import FieldScene, HamiltonianScene, param, signal
+from codegen.scenes import load as gallery
+from tests.promises import clean_c, clean_python
+from tests.strategies import hamiltonian_scene, quadratic, shipped
+
+TORQUES = ("u0", "u1", "u2")
+SCENE = "actuated_rigid_body"
+METHODS = {
+    "rkmk": "rkmk:rk4",
+    "cg": "cg:cg3",
+    "cf": "cf:cf4",
+    "vcg": "vcg:triple_jump",
+    "vrkmk": "vrkmk(2):gauss2",
+    "vcf": "vcf:cf4",
+    "vrkmk_pade": "vrkmk_pade(1):kutta3",
+    "slgi": "slgi:midpoint",
+    "ambient": "ambient:rk4",
+}
+ELSEWHERE = {"rk": "R^n only", "splitting": "no parts", "composition": "no parts"}
+"""Families that do not serve the scene."""
+
+
+def torques(t):
+    return [math.sin(t) / 2, 0.1, math.cos(2 * t) / 5]
+
+
+@cache
+def emitted(method, target, inputs=TORQUES):
+    return emit_compiled(compile_method(SCENE, method, (), inputs), target, prefix="driven_")
+
+
+def start_of(scene):
+    return [float(x) for x in gallery(scene).initial(FloatDomain(0.0))]
+
+
+def test_every_family_is_tried():
+    assert sorted({*METHODS, *ELSEWHERE}) == sorted(LOWERINGS)
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+@pytest.mark.parametrize("method", METHODS.values())
+def test_an_input_is_the_formula_that_it_stands_for(method, target):
+    """Read at the stage times: with a formula folded in, or put in by the caller, the steps are the same."""
+    folded, driven = (load(emitted(method, target, names)) for names in ((), TORQUES))
+    start = emitted(method, target).manifest["initial"]
+    found = driven.run(start, 0.1, 10, 0.25, inputs=torques)
+    assert found == pytest.approx(folded.run(start, 0.1, 10, 0.25), rel=0, abs=1e-14)
+    late = driven.run(start, 0.1, 10, 0.25, inputs=lambda t: torques(t - 0.05))
+    assert late != pytest.approx(found, rel=0, abs=1e-4)
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+def test_a_single_step_holds_its_inputs(target):
+    driven, start = (
+        load(emitted("vcg:triple_jump", target)),
+        emitted("vcg:triple_jump", "c").manifest["initial"],
+    )
+    one = driven.step(start, 0.1, inputs=[1.0, 2.0, 3.0])
+    assert one == driven.run(start, 0.1, 1, inputs=lambda t: (1.0, 2.0, 3.0))
+    assert one != driven.step(start, 0.1, inputs=[1.0, 2.0, 3.5])
+
+
+def test_the_times_at_which_inputs_are_read_are_in_the_head():
+    text = emitted("rkmk:rk4", "c").files["driven_.c".replace("_.", ".")]
+    assert " * inputs:     u0, u1, u2, as functions of time, read at t, t + 0.5 * h, h + t\n" in text
+    asked = []
+    load(emitted("rkmk:rk4", "c")).run(
+        emitted("rkmk:rk4", "c").manifest["initial"],
+        0.5,
+        1,
+        2.0,
+        inputs=lambda t: asked.append(t) or [0, 0, 0],
+    )
+    assert asked == [2.0, 2.25, 2.5]
+
+
+def test_some_inputs_and_the_formulas_of_the_others():
+    emission = emitted("cf:cf4", "c", ("u2", "u0"))
+    assert emission.manifest["interface"]["inputs"] == ["u2", "u0"]
+    assert "run-time inputs: u1 by formula" in emission.manifest["left_out"]
+    assert "--input u2 --input u0" in emission.manifest["command"]
+    start = emission.manifest["initial"]
+    both = load(emission).run(start, 0.1, 5, inputs=lambda t: torques(t)[::-2])
+    assert both == pytest.approx(load(emitted("cf:cf4", "c", ())).run(start, 0.1, 5), rel=0, abs=1e-14)
+
+
+def test_driven_modules_are_clean(compiler: Compiler, tmp_path):
+    (tmp_path / "c").mkdir()
+    zero = clean_c(emitted("vcg:triple_jump", "c"), compiler, tmp_path / "c")
+    start = emitted("vcg:triple_jump", "c").manifest["initial"]
+    driven = load(emitted("vcg:triple_jump", "c"))
+    assert zero == pytest.approx(driven.run(start, 0.05, 100, inputs=lambda t: [0, 0, 0]), abs=1e-12)
+    assert clean_python(emitted("vcg:triple_jump", "python"), tmp_path) == pytest.approx(zero, abs=1e-12)
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+def test_what_an_input_raises_is_raised_and_nothing_else(target):
+    driven, start = load(emitted("rkmk:rk4", target)), emitted("rkmk:rk4", "c").manifest["initial"]
+
+    def broken(t):
+        if t > 0.35:
+            raise KeyError("no torque after that")
+        return torques(t)
+
+    with pytest.raises(KeyError, match="no torque"):
+        driven.run(start, 0.1, 10, inputs=broken)
+    with pytest.raises(TypeError, match="expected 3 inputs, found 2"):
+        driven.run(start, 0.1, 10, inputs=lambda t: [1, 2])
+    with pytest.raises(TypeError, match="expected a function for u0, u1, u2"):
+        driven.run(start, 0.1, 10)
+    with pytest.raises(TypeError, match="expected no inputs"):
+        load(emitted("rkmk:rk4", target, ())).run(start, 0.1, 10, inputs=torques)
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+@pytest.mark.parametrize("method", ["rkmk:rk4", "vcg:triple_jump"])
+def test_an_input_that_is_no_number_stops_the_run_at_the_last_good_state(target, method):
+    driven, start = load(emitted(method, target)), emitted(method, target).manifest["initial"]
+    good = driven.run(start, 0.1, 3, inputs=torques)
+    with pytest.raises(StepFailed) as failure:
+        driven.run(start, 0.1, 9, inputs=lambda t: torques(t) if t < 0.31 else [math.nan, 0, 0])
+    assert (failure.value.status, failure.value.step) == (Status.NOT_FINITE, 3)
+    assert list(failure.value.state) == good
+
+
+def test_without_inputs_a_module_knows_nothing_of_them():
+    for target in ("c", "python"):
+        text = "".join(emitted("rkmk:rk4", target, ()).files.values())
+        assert "inputs" not in text.replace("run-time inputs: u0, u1, u2 by formula", "")
+        assert "context" not in text
+
+
+def forced_scene(name):
+    """A cubic Hamiltonian on T*G with a quadratic wrench in all its coordinates, and in time."""
+    base = hamiltonian_scene(name)
+    rng = random.Random(f"wrench {name}")
+    group = base.group
+    q, mu, t = group.point("q"), group.dual("p"), Symbol("t")
+    loads = [quadratic(rng, [*q, *mu]) + signal(f"u{k}", t - k * t**2) for k in range(group.dim)]
+    H = quadratic(rng, list(mu)) + quadratic(rng, list(q)) + q[0] * mu[0] * mu[1]
+    start = [e for block in base.state for e in block.initial]
+    numbers = [x.payload.fraction() for x in start]
+    return HamiltonianScene(
+        group=group,
+        q=q,
+        mu=mu,
+        H=H,
+        q0=numbers[: group.size],
+        mu0=numbers[group.size :],
+        span=(0, 1),
+        wrench=loads,
+    )
+
+
+@pytest.mark.parametrize("group", ["SO(3)", "R^3"])
+@pytest.mark.parametrize(
+    ("family", "tableau", "cutoff", "order"),
+    [
+        ("vcg", "midpoint", None, 2),
+        ("vcg", "triple_jump", None, 4),
+        ("vcf", "cf4", None, 4),
+        ("vrkmk", "kutta3", 1, 3),
+        ("vrkmk", "gauss2", 2, 4),
+        ("vrkmk_pade", "gauss2", 2, 4),
+        ("slgi", "midpoint", None, 2),
+    ],
+)
+def test_under_a_wrench_variational_methods_keep_their_order(group, family, tableau, cutoff, order):
+    """Forces enter as d'Alembert's principle says, beside -(D_1 H).q^-1: exactly the stated order."""
+    scene, method = forced_scene(group), Method(family, shipped(tableau), cutoff)
+    view = setting(scene, method)
+    program, _ = optimise(lower(scene, method), view)
+    assert valuation(local_error(program, view, method.ring, order + 1)) == order + 1
+
+
+def test_a_wrench_changes_the_energy_and_so_it_is_no_invariant():
+    assert "energy" not in gallery(SCENE).invariants
+    assert "energy" in gallery("free_rigid_body_attitude").invariants
+
+
+def test_signals_of_a_field_scene_are_inputs_too():
+    y = Matrix([Symbol(f"y{k}", real=True) for k in range(3)])
+    u, t = signal("wind", sin(Symbol("t")) * param("gust", 2)), Symbol("t")
+    scene = FieldScene(
+        group=SO3(),
+        action=Rotation(),
+        y=y,
+        f=Matrix([u, cos(t), y[0]]),
+        y0=[1, 0, 0],
+        span=(0, 1),
+        name="vane",
+    )
+    driven = load(emit_compiled(compile_method(scene, "rkmk:rk4", (), ["wind"]), "c"))
+    folded = load(emit_compiled(compile_method(scene, "rkmk:rk4"), "c"))
+    found = driven.run([1.0, 0.0, 0.0], 0.1, 10, inputs=lambda t: [2 * math.sin(t)])
+    assert found == pytest.approx(folded.run([1.0, 0.0, 0.0], 0.1, 10), abs=1e-14)
+
+
+def tried(**changes):
+    y = Matrix([Symbol(f"y{k}", real=True) for k in range(3)])
+    given = {"f": Matrix([y[0], 1, 2]), "y0": [1, 0, 0]} | changes
+    return FieldScene(group=SO3(), action=Rotation(), y=y, span=(0, 1), name="vane", **given)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: tried(f=Matrix([signal("u", Symbol("y0", real=True)), 1, 2])), "signal u holds y0"),
+        (lambda: tried(f=Matrix([signal("y1", 1), 1, 2])), "signal y1 has the name of another symbol"),
+        (lambda: tried(f=Matrix([signal("u", 1), signal("u", 2), 2])), "two formulas"),
+        (lambda: tried(y0=[signal("u", 1), 0, 0]), "the symbol u in y0"),
+        (lambda: signal("u", "sin("), "the formula 'sin\\('"),
+        (lambda: gallery(SCENE).with_inputs(["u7"]), "unknown signal 'u7'.*u0, u1, u2"),
+        (lambda: gallery("dipole").with_inputs(["u"]), "the scene has no signal"),
+    ],
+)
+def test_bad_signals_are_one_message(make, message):
+    with pytest.raises(SceneError, match=message):
+        make()
+
+
+def test_splittings_refuse_what_no_part_holds():
+    scene = replace(gallery(SCENE), parts={"T": gallery(SCENE).hamiltonian})
+    with pytest.raises(MethodError, match="driven by a wrench"):
+        compile_method(scene, Method("splitting", shipped("strang")))
