@@ -19,6 +19,7 @@ EXPLICIT = {
     "rkmk": ("free_rigid_body", "rkmk:rk4"),
     "cg": ("free_rigid_body", "cg:cg3"),
     "cf": ("driven_spin", "cf:cf4"),
+    "ambient": ("dipole", "ambient:rk4"),
     "splitting": ("fast_heavy_top", "splitting:blanes_moan_rkn4"),
     "composition": ("linear_oscillator", "composition:triple_jump"),
 }
@@ -31,6 +32,7 @@ IMPLICIT = {
     "vrkmk": ("dipole", "vrkmk(2):gauss2"),
     "vcf": ("dipole", "vcf:cf4"),
     "vrkmk_pade": ("heavy_top", "vrkmk_pade(1):kutta3"),
+    "slgi": ("dipole", "slgi:midpoint"),
 }
 ALL = [*EXPLICIT.values(), *IMPLICIT.values()]
 
@@ -94,6 +96,8 @@ ON_VECTOR_SPACES = {
     "vrkmk_pade": "vrkmk_pade(2):gauss2",
     "splitting": "splitting:forest_ruth4",
     "composition": "composition:suzuki4",
+    "slgi": "slgi:midpoint",
+    "ambient": "ambient:rk4",
 }
 
 
@@ -102,7 +106,7 @@ def test_abelian_groups_have_no_brackets_and_no_trigonometry_of_rotations(family
     made = compiled("linear_oscillator", ON_VECTOR_SPACES[family])
     assert not BRACKETS & set(made.program.counts())
     assert "stumpff" not in "".join(texts("linear_oscillator", ON_VECTOR_SPACES[family]))
-    if family not in ("rk", "cg", "cf", *OF_PARTS):
+    if family not in ("rk", "ambient", "cg", "cf", *OF_PARTS):
         assert BRACKETS & set(made.lowered.counts())
 
 

@@ -94,7 +94,9 @@ def test_an_interrupt_inside_a_scene_is_an_interrupt(tmp_path):
 
 
 def test_an_unknown_scene_lists_the_known_ones():
-    with pytest.raises(UnknownName, match="unknown scene 'dipol'; expected one of actuated_rigid_body, dipole, driven_spin, "):
+    with pytest.raises(
+        UnknownName, match="unknown scene 'dipol'; expected one of actuated_rigid_body, dipole, "
+    ):
         scenes.load("dipol")
 
 
