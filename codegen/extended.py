@@ -71,6 +71,8 @@ def extended(scene: Setting) -> Setting:
         roots=(*slopes[len(qs) :], *force(space, group, qs, slopes[: len(qs)])),
         invariants={"energy": hamiltonian} | {k: moved(x) for k, x in scene.invariants.items()},
         parts=parts,
+        signals={},
+        open_roots=(),
     )
 
 

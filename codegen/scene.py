@@ -333,9 +333,9 @@ def HamiltonianScene(
     initial values, ``parts`` named summands of H. xi = D_2 H and n = -(D_1 H).q^-1, that is n_a = -d/deps
     H(exp(eps e_a) q, mu) (thesis eq. 3.4), are found by differentiation; where ``xi`` or ``n`` is given by
     hand it must agree. ``wrench``, where it is given, is a column of ``group.dim`` components that no H has:
-    mu' = n + wrench - ad*_xi mu, in the same trivialisation (space); n given by hand is without it. The
-    energy is an invariant of a Hamiltonian without time and wrench. :class:`SceneError` as for
-    :func:`FieldScene`.
+    mu' = n + wrench - ad*_xi mu, in the same trivialisation (space); n given by hand is without it. Such a
+    scene has no energy and no parts. The energy is an invariant of a Hamiltonian without time.
+    :class:`SceneError` as for :func:`FieldScene`.
     """
     reader = _Reader(name, [*q, *mu])
     if (len(q), len(mu)) != (group.size, group.dim):
@@ -369,10 +369,11 @@ def HamiltonianScene(
         if column is not None
     }
     setting = Setting(
-        *(name, title or name, group, LeftMultiplication(), state, reader.closed(open_roots), closed, known),
+        *(name, title or name, group, LeftMultiplication(), state, reader.closed(open_roots)),
+        *(None if loads else closed, known),
         *(_span(name, span), reader.parameters()),
         paired=True,
-        parts={key: reader.closed((part,))[0] for key, part in summands.items()},
+        parts={} if loads else {key: reader.closed((part,))[0] for key, part in summands.items()},
         signals=reader.signals,
         open_roots=open_roots,
         forced=bool(loads),

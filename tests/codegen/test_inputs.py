@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import random
-from dataclasses import replace
 from functools import cache
 
 import pytest
@@ -38,7 +37,12 @@ METHODS = {
     "slgi": "slgi:midpoint",
     "ambient": "ambient:rk4",
 }
-ELSEWHERE = {"rk": "R^n only", "splitting": "no parts", "composition": "no parts"}
+ELSEWHERE = {
+    "rk": "R^n only",
+    "splitting": "no parts",
+    "composition": "no parts",
+    "discrete_gradient": "no energy",
+}
 """Families that do not serve the scene."""
 
 
@@ -241,7 +245,8 @@ def test_bad_signals_are_one_message(make, message):
         make()
 
 
-def test_splittings_refuse_what_no_part_holds():
-    scene = replace(gallery(SCENE), parts={"T": gallery(SCENE).hamiltonian})
-    with pytest.raises(MethodError, match="driven by a wrench"):
-        compile_method(scene, Method("splitting", shipped("strang")))
+@pytest.mark.parametrize("family", ["splitting", "composition", "discrete_gradient"])
+def test_families_that_need_an_energy_or_its_parts_refuse_a_wrench(family):
+    tableau = {"splitting": "strang", "composition": "triple_jump"}.get(family, "midpoint")
+    with pytest.raises(MethodError, match=r"driven by a wrench|depends on time"):
+        compile_method(gallery(SCENE), Method(family, shipped(tableau)))

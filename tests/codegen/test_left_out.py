@@ -33,6 +33,7 @@ IMPLICIT = {
     "vcf": ("dipole", "vcf:cf4"),
     "vrkmk_pade": ("heavy_top", "vrkmk_pade(1):kutta3"),
     "slgi": ("dipole", "slgi:midpoint"),
+    "discrete_gradient": ("free_rigid_body_s3", "discrete_gradient:midpoint"),
 }
 ALL = [*EXPLICIT.values(), *IMPLICIT.values()]
 
@@ -58,6 +59,7 @@ def code(source):
 
 def test_every_family_is_looked_at():
     assert sorted({*EXPLICIT, *IMPLICIT}) == sorted(LOWERINGS)
+    assert sorted({*ON_VECTOR_SPACES, *WITHOUT_TIME}) == sorted(LOWERINGS)
 
 
 SOLVING = ("sweep", "statistics", "NOT_CONVERGED", "previous", "greater", "fabs", "max(")
@@ -101,7 +103,11 @@ ON_VECTOR_SPACES = {
 }
 
 
-@pytest.mark.parametrize("family", LOWERINGS)
+WITHOUT_TIME = {"discrete_gradient"}
+"""Families that do not serve a scene that depends on time."""
+
+
+@pytest.mark.parametrize("family", ON_VECTOR_SPACES)
 def test_abelian_groups_have_no_brackets_and_no_trigonometry_of_rotations(family):
     made = compiled("linear_oscillator", ON_VECTOR_SPACES[family])
     assert not BRACKETS & set(made.program.counts())
@@ -110,7 +116,7 @@ def test_abelian_groups_have_no_brackets_and_no_trigonometry_of_rotations(family
         assert BRACKETS & set(made.lowered.counts())
 
 
-@pytest.mark.parametrize("family", LOWERINGS)
+@pytest.mark.parametrize("family", ON_VECTOR_SPACES)
 def test_the_energy_variable_of_a_scene_with_time_is_not_carried_along(family):
     """H depends on t; its conjugate variable u would be a ninth number of the state."""
     emission = emit_compiled(compiled("linear_oscillator", ON_VECTOR_SPACES[family]), "c")
