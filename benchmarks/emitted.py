@@ -81,6 +81,8 @@ CASES = {
         "fast_heavy_top", "splitting:blanes_moan_rkn6a", "fast_heavy_top_splitting6", 0.02, 500_000
     ),
     "vcg2": Case("dipole", "vcg:midpoint", "dipole_vcg2", 0.01, 150_000, sweeps=True),
+    "vrkmk4": Case("dipole", "vrkmk(2):gauss2", "dipole_vrkmk4", 0.01, 100_000, sweeps=True),
+    "vcf4": Case("dipole", "vcf:cf4", "dipole_vcf4", 0.01, 60_000, sweeps=True),
 }
 
 
