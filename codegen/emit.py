@@ -27,7 +27,7 @@ from codegen.passes import PassReport, optimise
 from codegen.printers import target as printer_of
 from codegen.printers.arrange import arrange
 from codegen.printers.interface import Interface
-from codegen.printers.operations import operations
+from codegen.printers.operations import STEP, operations
 from codegen.printers.precision import DOUBLE
 from codegen.printers.precision import precision as known_precision
 from codegen.printers.recipe import Recipe
@@ -36,6 +36,10 @@ from orderconds import __version__
 from orderconds.errors import InputError
 
 SINGLE_IS = "single: constants are rounded once, implicit stages settle at its rounding"
+
+SWEEPS = 5
+WEIGHTS = {"div": 4, "sqrt": 5}
+"""What a step is taken to cost where two forms of it are compared: other functions cost twelve additions."""
 
 STEPS = 100
 """How many steps the usage example makes over the scene's span."""
@@ -79,9 +83,21 @@ def compile_method(
         method = parse(method, families_for(scene))
     view = setting(scene, method)
     lowered = lower(scene, method)
-    program, trace = optimise(lowered, view)
-    kernel = with_put_off(to_kernel(program, view), program, view)
-    return Compiled(scene, method, view, lowered, program, trace, kernel)
+    candidates = []
+    for framed in (False, True) if view.has_body else (False,):
+        program, trace = optimise(lowered, view, framed=framed)
+        kernel = with_put_off(to_kernel(program, view), program, view)
+        candidates.append(Compiled(scene, method, view, lowered, program, trace, kernel))
+    return min(candidates, key=lambda c: work(c.kernel))
+
+
+def work(kernel: Kernel) -> int:
+    """Return about what a step costs, in additions: five sweeps over each block and the rest once."""
+    total = 0
+    for key, counts in operations(arrange(kernel)).items():
+        cost = sum(n * WEIGHTS.get(name, 1 if name in ("add", "mul") else 12) for name, n in counts.items())
+        total += cost * (1 if key == STEP else SWEEPS)
+    return total
 
 
 def emit(

@@ -11,9 +11,11 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 from codegen import conserved
+from codegen.body import BodyFrame, applied, body_frame
 from codegen.consistency import Orbit, check_equal, check_invariants, check_start
 from codegen.errors import SceneError
 from codegen.flow import Flow
@@ -25,7 +27,7 @@ from codegen.ir.domain import Domain, ExprDomain
 from codegen.ir.expr import Expr, Space, evaluate, walk
 from codegen.ir.from_sympy import read
 from codegen.ir.number import Number
-from codegen.ir.program import CUT_OFF, Kind
+from codegen.ir.program import CUT_OFF, Factor, Kind
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 RESERVED = {
@@ -34,7 +36,8 @@ RESERVED = {
 }
 """Names that programs use themselves, and why."""
 
-GROUP_OPERATIONS = frozenset({"identity", "exp", "mul", "Ad", "Adt", "Adtinv", "ad", "adt", "dexpt"})
+GROUP_OPERATIONS = frozenset({"identity", "exp", "mul", "Ad", "Adinv", "Adt", "Adtinv", "ad", "adt", "dexpt"})
+BODY = frozenset({"velocity", "velocityt", "force", "forcet", "legendre"})
 TIME = "t"
 
 
@@ -229,6 +232,8 @@ class Setting:
             return (getattr(self.action, name)(domain, self.group, *args),)
         if name in conserved.OPERATIONS:
             return (conserved.apply(self, domain, name, args),)
+        if name in BODY:
+            return (self._in_body(domain, name, args),)
         return self._evaluate(domain, args)
 
     def flow(self, domain: Domain, part: str, tau: Any, args: tuple[Any, ...]) -> tuple[Any, ...]:
@@ -236,6 +241,30 @@ class Setting:
         q, mu, *time = args
         values = self.values(domain, (*q, *mu), *time)
         return self.flows[part].advance(domain, self.group, values, tau, q, mu)
+
+    def series(self, domain: Domain, word: tuple[Factor, ...], dual: bool, x: Any, v: Any) -> tuple[Any, ...]:
+        """Return the product of a word's functions of ad_x, of ad*_x where ``dual``, applied to v."""
+        return tuple(self.group.series(domain, word, dual, x, v))
+
+    @property
+    def has_body(self) -> bool:
+        """Whether there is a body frame to see the field from."""
+        return self.body is not None
+
+    @cached_property
+    def body(self) -> BodyFrame | None:
+        """The field in the body frame; None without a Hamiltonian, or on a group that does not offer it."""
+        if not self.paired or self.hamiltonian is None or not hasattr(self.group, "relations"):
+            return None
+        q, mu = (block.symbols for block in self.state)
+        return body_frame(self.group, q, mu, self.hamiltonian, self.group.relations(q))
+
+    def _in_body(self, domain: Domain, name: str, args: tuple[Any, ...]) -> tuple[Any, ...]:
+        assert self.body is not None
+        if name == "legendre":
+            return applied(self.body, name, domain, {}, args[0])
+        t = args[2] if len(args) > 2 else None
+        return applied(self.body, name, domain, self.values(domain, (*args[0], *args[1]), t))
 
     def _evaluate(self, domain: Domain, args: tuple[Any, ...]) -> tuple[Any, ...]:
         blocks = args[: len(self.state)]

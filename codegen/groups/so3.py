@@ -2,10 +2,77 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from fractions import Fraction
 from typing import Any
 
-from codegen.groups.protocol import LieGroup, Scalars, cross, dot, matmul, matvec
+from codegen.groups.protocol import LieGroup, Scalars, bernoulli_over_factorial, cross, dot, matmul, matvec
 from codegen.ir.domain import Domain
+from codegen.ir.normal import Relation
+from codegen.ir.number import Number
+from codegen.ir.program import Factor
+
+
+def word_coefficients(d: Domain, word: Sequence[Factor], z: Any) -> tuple[Any, Any]:
+    """Return b and c where the product of the word's functions of t is 1 + b t + c t^2 and t^3 = -z t.
+
+    exp(a t) dexp(s t) is found at once, as (exp((a + s) t) - exp(a t))/(s t); other factors are multiplied.
+    """
+    zero = d.rational(0)
+    rates = [f.scale * f.power for f in word if f.function == "exp"]
+    differences = [f for f in word if f.function == "dexp" and f.power == 1]
+    rest = [f for f in word if f.function != "exp" and f not in differences]
+    total, shift = (zero, zero), sum(rates, Fraction(0))
+    if differences:
+        first, *more = differences
+        ends = [(shift + first.scale, 1 / first.scale), (shift, -1 / first.scale)]
+        total = _exponentials(d, [(k, r) for k, r in ends if k], 1, z)
+        rest = [*more, *rest]
+    elif shift:
+        total = _exponentials(d, [(shift, Fraction(1))], 0, z)
+    for factor in rest:
+        b, c = _inverted(d, *_single(d, factor, z), z) if factor.power < 0 else _single(d, factor, z)
+        e, f = total
+        total = (e + b - z * (e * c + f * b), f + c + e * b - z * (f * c))
+    return total
+
+
+def _exponentials(d: Domain, terms: Sequence[tuple[Fraction, Fraction]], j: int, z: Any) -> tuple[Any, Any]:
+    """Return b and c of sum r exp(k t)/t^j over terms (k, r)."""
+    sums = []
+    for power in (1 + j, 2 + j):
+        weights: dict[Fraction, Fraction] = {}
+        for k, r in terms:
+            weights[k * k] = weights.get(k * k, Fraction(0)) + r * k**power
+        value = d.rational(0)
+        for square, weight in weights.items():
+            if weight:
+                argument = z if square == 1 else d.rational(square.numerator, square.denominator) * z
+                value = value + d.rational(weight.numerator, weight.denominator) * d.call(
+                    f"stumpff{power}", argument
+                )
+        sums.append(value)
+    return sums[0], sums[1]
+
+
+def _single(d: Domain, factor: Factor, z: Any) -> tuple[Any, Any]:
+    """Return b and c of dexp or of dexpinv cut off, without the power of the factor."""
+    s = factor.scale
+    if factor.function == "dexp":
+        return _exponentials(d, [(s, 1 / s)], 1, z)
+    found = [d.rational(0), d.rational(0)]
+    for k in range(factor.order, 0, -1):
+        weight = bernoulli_over_factorial(k) * s**k
+        place = (k + 1) % 2
+        found[place] = d.rational(weight.numerator, weight.denominator) - z * found[place]
+    return found[0], found[1]
+
+
+def _inverted(d: Domain, b: Any, c: Any, z: Any) -> tuple[Any, Any]:
+    """Return b and c of the inverse: of 1 - c z + i b sqrt(z) on the plane that x is orthogonal to."""
+    p = d.rational(1) - c * z
+    scale = d.rational(1) / (p * p + b * b * z)
+    return -(b * scale), (b * b - p * c) * scale
 
 
 class SO3(LieGroup):
@@ -63,6 +130,10 @@ class SO3(LieGroup):
         """Return g mu."""
         return matvec(g, mu)
 
+    def Adinv(self, d: Domain, g: Scalars, x: Scalars) -> Scalars:
+        """Return g^T x."""
+        return self.Adt(d, g, x)
+
     def dexpt(self, d: Domain, x: Scalars, mu: Scalars) -> Scalars:
         """Return dexp_{-x} mu = mu - c_2 x cross mu + c_3 x cross (x cross mu)."""
         z = dot(x, x)
@@ -71,10 +142,36 @@ class SO3(LieGroup):
         w = cross(x, v)
         return tuple(m - c2 * p + c3 * q for m, p, q in zip(mu, v, w, strict=True))
 
+    def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Scalars, v: Scalars) -> Scalars:
+        """Return the product of functions of ad_x, or of ad*_x = -ad_x, applied to v.
+
+        As ad_x^3 = -z ad_x with z = x.x, each is 1 + b ad_x + c ad_x^2; so are products and inverses.
+        """
+        b, c = word_coefficients(d, word, dot(x, x))
+        first = cross(x, v)
+        second = cross(x, first)
+        return tuple(
+            p - b * q + c * r if dual else p + b * q + c * r for p, q, r in zip(v, first, second, strict=True)
+        )
+
     def velocity(self, d: Domain, x: Scalars, g: Scalars) -> Scalars:
         """Return hat(x) g: x cross every column."""
         columns = [cross(x, g[j::3]) for j in range(3)]
         return tuple(columns[j][i] for i in range(3) for j in range(3))
+
+    def spin(self, d: Domain, g: Scalars, x: Scalars) -> Scalars:
+        """Return g hat(x), the derivative of g exp(eps x) at eps = 0: every row cross x."""
+        return tuple(a for i in (0, 3, 6) for a in cross(g[i : i + 3], x))
+
+    def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
+        """Return g^T g = 1 as replacements of the products of two entries of the first row."""
+        one, minus = Number.rational(1), Number.rational(-1)
+        found: list[Relation] = []
+        for j in range(3):
+            for k in range(j, 3):
+                rest = [(minus, (q[3 * i + j], q[3 * i + k])) for i in (1, 2)]
+                found.append(((q[j], q[k]), [*([(one, ())] if j == k else []), *rest]))
+        return tuple(found)
 
     def rotate(self, d: Domain, x: Scalars, y: Scalars) -> Scalars:
         """Return exp(x) y = y + c_1 x cross y + c_2 x cross (x cross y) without forming exp(x)."""

@@ -6,17 +6,30 @@ from collections.abc import Mapping
 from typing import Any, Protocol
 
 from codegen.ir.domain import Domain, NotConverged
-from codegen.ir.program import FLOWS, FLOWS_FOR, Assign, Coefficient, Kind, Program, Solve, Var
+from codegen.ir.program import (
+    FLOWS,
+    FLOWS_FOR,
+    Assign,
+    Coefficient,
+    Factor,
+    Kind,
+    Program,
+    Solve,
+    Var,
+)
 
 
 class Setting(Protocol):
     """What a program needs to know of its scene: group, action, field or Hamiltonian, over any domain."""
 
     def apply(self, domain: Domain, name: str, order: int | None, args: tuple[Any, ...]) -> tuple[Any, ...]:
-        """Return the results of a group or scene operation (any but lin, zero, advance and flows)."""
+        """Return the results of a group or scene operation (any but lin, zero, advance, series and flows)."""
 
     def flow(self, domain: Domain, part: str, tau: Any, args: tuple[Any, ...]) -> tuple[Any, ...]:
         """Return the state after the exact flow of a part for the time tau."""
+
+    def series(self, domain: Domain, word: tuple[Factor, ...], dual: bool, x: Any, v: Any) -> tuple[Any, ...]:
+        """Return the product of a word's functions of ad_x, of ad*_x where ``dual``, applied to v."""
 
     def dimension(self) -> int:
         """Return the dimension of the Lie algebra."""
@@ -39,6 +52,8 @@ def apply(setting: Setting, domain: Domain, assign: Assign, args: tuple[Any, ...
         return (args[0] + coefficient(domain, operation.coefficients[0]),)
     if operation.name == "lin":
         return (_combine(domain, operation.coefficients, args),)
+    if operation.word:
+        return (setting.series(domain, operation.word, operation.name == "seriest", *args),)
     if operation.name in FLOWS:
         return setting.flow(domain, operation.part, coefficient(domain, operation.coefficients[0]), args)
     if operation.name in FLOWS_FOR:

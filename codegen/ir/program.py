@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
+from fractions import Fraction
 from itertools import zip_longest
 
 from codegen.ir.number import Number
@@ -70,6 +71,7 @@ SIGNATURES: dict[str, tuple[tuple[Kind, ...], tuple[Kind, ...]]] = {
     "act": ((G, P), (P,)),
     "actexp": ((A, P), (P,)),  # exp(x).y without forming exp(x)
     "Ad": ((G, A), (A,)),
+    "Adinv": ((G, A), (A,)),  # Ad_{g^-1} x
     "Adt": ((G, D), (D,)),  # Ad*_g mu, the plain dual of Ad_g
     "Adtinv": ((G, D), (D,)),  # Ad*_{g^-1} mu
     "ad": ((A, A), (A,)),  # [x, y]
@@ -87,6 +89,15 @@ SIGNATURES: dict[str, tuple[tuple[Kind, ...], tuple[Kind, ...]]] = {
     "differential": ((P,), (D,)),  # R*_y dH: its pairing with e is d/deps H(exp(eps e).y) at eps = 0
     "secant": ((D, A, R, R), (D,)),  # the covector nearest to g whose pairing with x is H1 - H0
     "bivector": ((P, D), (A,)),  # omega_y(alpha, .), f(y) where alpha is the differential of H
+    # in the body frame (codegen.body): W and N of (q, P) with P = Ad*_q mu, and P of W
+    "velocity": ((G, D), (A,)),
+    "velocityt": ((G, D, R), (A,)),
+    "force": ((G, D), (D,)),
+    "forcet": ((G, D, R), (D,)),
+    "legendre": ((A,), (D,)),
+    # the product of a word's functions of ad_x, and of ad*_x
+    "series": ((A, A), (A,)),
+    "seriest": ((A, D), (D,)),
     "flow": ((G, D), (G, D)),  # the exact flow of a part, for a time coefficient
     "flowt": ((G, D, R), (G, D)),  # the same of a part that depends on t, which stands still
     "flowfor": ((G, D, R), (G, D)),  # the flow for a time that is a value
@@ -103,8 +114,27 @@ FLOWS = frozenset({"flow", "flowt"})
 FLOWS_FOR = frozenset({"flowfor", "flowtfor"})
 """Operations with a ``part`` whose last argument says how long it flows."""
 
-LINEAR_LAST = frozenset({"Ad", "Adt", "Adtinv", "ad", "adt", "dexpinv", "dexpinvt", "P", "dexpt", "bivector"})
+LINEAR_LAST = frozenset(
+    {"Ad", "Adinv", "Adt", "Adtinv", "ad", "adt", "dexpinv", "dexpinvt", "P", "dexpt", "bivector"}
+    | {"series", "seriest"}
+)
 """Operations that are linear in their last argument."""
+
+
+@dataclass(frozen=True, order=True)
+class Factor:
+    """phi(scale t)^power, where phi is exp, dexp = (e^t - 1)/t, or dexpinv cut off after t^order."""
+
+    function: str
+    scale: Fraction
+    order: int = 0
+    power: int = 1
+
+    def text(self) -> str:
+        """Spell it: ``exp(-t)``, ``1/dexpinv2(t)``."""
+        scale = {"1": "", "-1": "-"}.get(str(self.scale), str(self.scale))
+        order = str(self.order) if self.function == "dexpinv" else ""
+        return f"{'1/' if self.power < 0 else ''}{self.function}{order}({scale}t)"
 
 
 @dataclass(frozen=True)
@@ -112,16 +142,19 @@ class Operation:
     """What is done: a name of :data:`SIGNATURES`, ``lin`` (with coefficients) or ``zero``.
 
     ``coefficients`` belongs to ``lin`` (one an argument), ``advance`` and :data:`FLOWS` (one), ``order`` to
-    :data:`CUT_OFF`, ``part`` to flows: which exact flow of the scene.
+    :data:`CUT_OFF`, ``part`` to flows: which exact flow of the scene, ``word`` to ``series`` and ``seriest``.
     """
 
     name: str
     coefficients: tuple[Coefficient, ...] = ()
     order: int | None = None
     part: str = ""
+    word: tuple[Factor, ...] = ()
 
     def text(self) -> str:
         """Spell it with its parameters."""
+        if self.word:
+            return f"{self.name}[{' '.join(factor.text() for factor in self.word)}]"
         if self.part:
             return f"{self.name}[{self.part}]"
         return self.name if self.order is None else f"{self.name}({self.order})"
@@ -151,7 +184,8 @@ class Solve:
     """Find unknowns = images, where the body computes the images from the unknowns.
 
     Values of the body may be used after the block; they are those at the solution. ``starts`` are
-    values of the same kinds, known before the block.
+    values of the same kinds, known before the block. ``residuals``, where there are any, are values that
+    vanish together exactly where unknowns and images agree: one an unknown, of the same size.
     """
 
     label: str
@@ -159,6 +193,7 @@ class Solve:
     starts: tuple[Var, ...]
     body: tuple[Assign, ...]
     images: tuple[Var, ...]
+    residuals: tuple[Var, ...] = ()
 
 
 Statement = Assign | Solve

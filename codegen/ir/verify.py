@@ -49,6 +49,8 @@ def verify(program: Program) -> Program:
                 check(assign)
             for image in statement.images:
                 use(image, f"the images of {statement.label}")
+            for residual in statement.residuals:
+                use(residual, f"the residuals of {statement.label}")
     inputs = {v.name: v.kind for v in program.inputs}
     for name, var in program.outputs:
         use(var, f"output {name}")
@@ -61,6 +63,8 @@ def _shape(name: str, block: Solve) -> None:
     kinds = [tuple(v.kind for v in vs) for vs in (block.unknowns, block.starts, block.images)]
     if not block.unknowns or kinds[0] != kinds[1] or kinds[0] != kinds[2]:
         raise IllFormed(f"{name}: unknowns, starts and images of {block.label} differ in kind")
+    if block.residuals and len(block.residuals) != len(block.unknowns):
+        raise IllFormed(f"{name}: {block.label} has not a residual for each unknown")
 
 
 def _types(name: str, assign: Assign) -> None:
@@ -76,6 +80,7 @@ def _types(name: str, assign: Assign) -> None:
         good = good and len(operation.coefficients) == (operation.name in {"advance", *FLOWS})
         good = good and bool(operation.part) == (operation.name in FLOWS | FLOWS_FOR)
         good = good and (operation.order is not None) == (operation.name in CUT_OFF)
+        good = good and bool(operation.word) == (operation.name in {"series", "seriest"})
     else:
         good = False
     if not good:

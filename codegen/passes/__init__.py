@@ -11,7 +11,23 @@ from dataclasses import dataclass
 
 from codegen.ir.program import Program
 from codegen.ir.verify import IllFormed, verify
-from codegen.passes import abelian, blocks, dead, factor, flows, fuse, merge, sharing, zeros
+from codegen.passes import (
+    abelian,
+    blocks,
+    common,
+    dead,
+    factor,
+    flows,
+    frame,
+    functions,
+    fuse,
+    legendre,
+    merge,
+    opposites,
+    sharing,
+    tearing,
+    zeros,
+)
 from codegen.passes.meaning import Reference
 from codegen.scene import Setting
 
@@ -33,10 +49,14 @@ class PassReport:
         return {n: k for n, k in change.items() if k}
 
 
-def optimise(program: Program, scene: Setting) -> tuple[Program, tuple[PassReport, ...]]:
+def optimise(
+    program: Program, scene: Setting, *, framed: bool = False
+) -> tuple[Program, tuple[PassReport, ...]]:
     """Return the program after all passes, and a report of each that changed something.
 
-    ``scene`` is the setting that the program was lowered in. A pass that breaks the program raises
+    ``scene`` is the setting that the program was lowered in. With ``framed`` the program is then put into the
+    body frame and its equations made smaller, where the scene allows that; counting operations shows whether
+    it is worth while. A pass that breaks the program raises
     :class:`codegen.ir.verify.IllFormed`: a fault of this compiler.
     """
     steps: list[tuple[str, Callable[[Program], Program]]] = [
@@ -50,12 +70,34 @@ def optimise(program: Program, scene: Setting) -> tuple[Program, tuple[PassRepor
         ("blocks", blocks.run),
         ("dead code", dead.run),
         ("factors", factor.run),
+        ("common sums", common.run),
         ("cancellation", zeros.run),
         ("sharing", sharing.run),
         ("fusion", fuse.run),
         ("dead code", dead.run),
         ("blocks", blocks.run),  # what factoring made independent of a block's unknowns leaves it
     ]
+    if framed:
+        steps += [
+            ("body frame", lambda p: frame.run(p, scene)),
+            ("cancellation", zeros.run),
+            ("sharing", sharing.run),
+            ("Legendre transform", lambda p: legendre.run(p, scene)),
+            ("opposites", opposites.run),
+            ("tearing", tearing.run),
+            ("opposites", opposites.run),
+            ("dead code", dead.run),
+            ("sharing", sharing.run),
+            ("factors", factor.run),
+            ("common sums", common.run),
+            ("functions", lambda p: functions.run(p, scene)),
+            ("residuals", lambda p: legendre.residuals(p, scene)),
+            ("opposites", opposites.run),
+            ("functions", lambda p: functions.run(p, scene)),
+            ("sharing", sharing.run),
+            ("factors", factor.run),
+            ("dead code", dead.run),
+        ]
     reports: list[PassReport] = []
     meaning = Reference(program, scene)
     for name, step in steps:

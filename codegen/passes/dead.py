@@ -31,6 +31,7 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     Where none of them depends on an unknown there is nothing to solve, and they stand alone.
     """
     image = dict(zip(block.unknowns, block.images, strict=True))
+    residual = dict(zip(block.unknowns, block.residuals, strict=False))
     maker = {target: assign for assign in block.body for target in assign.targets}
     wanted = [v for v in (*block.unknowns, *maker) if v in live]
     needed: set[Var] = set()
@@ -42,13 +43,15 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
         live.add(var)
         if var in image:
             wanted.append(image[var])
+            wanted.extend([residual[var]] if var in residual else [])
         elif var in maker:
             wanted.extend(maker[var].args)
     pairs = list(zip(block.unknowns, block.starts, block.images, strict=True))
     pairs = [p for p in pairs if p[0] in needed]
+    kept = tuple(residual[u] for u in block.unknowns if u in needed and u in residual)
     body = tuple(a for a in block.body if needed.intersection(a.targets))
     if not pairs:
         return body
     unknowns, starts, images = zip(*pairs, strict=True)
     live.update(starts)
-    return (replace(block, unknowns=unknowns, starts=starts, images=images, body=body),)
+    return (replace(block, unknowns=unknowns, starts=starts, images=images, body=body, residuals=kept),)

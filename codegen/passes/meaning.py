@@ -29,6 +29,10 @@ Result = tuple[float, dict[str, Any], dict[str, Any]]
 SWEEPS = 24
 """The most sweeps over a block: a step that needs more is too large to compare roundings."""
 
+TRIES, APART = 3, 16
+"""How many steps a program may be compared in, and by what factor they differ: equations put otherwise need
+smaller steps to settle where they are iterated, and one step in which they do is enough."""
+
 AGREE = 2.0**-36
 """Relative difference of results that mean the same: far above rounding and the tolerance of a block."""
 
@@ -43,8 +47,8 @@ class Reference:
     def __init__(self, program: Program, scene: Setting) -> None:
         self.scene = scene
         self.kinds = {v.name: v.kind for v in program.inputs}
-        found = (self._first(program, state) for state in _states(scene))
-        self.results = [result for result in found if result is not None]
+        found = (self._some(program, state) for state in _states(scene))
+        self.results = [results for results in found if results]
         if not self.results:
             raise SceneError(
                 "no step can be computed from the initial state, nor from one nearby",
@@ -53,31 +57,48 @@ class Reference:
                 hint="look for roots of negative numbers, zero denominators and numbers above 1e308",
             )
 
-    def _first(self, program: Program, state: dict[str, Any]) -> Result | None:
+    def _some(self, program: Program, state: dict[str, Any]) -> list[Result]:
+        """Return what happens in the largest step and in two smaller ones, for programs that settle later."""
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
+        results: list[Result] = []
         if not math.isfinite(speed):
-            return None
+            return results
         excess = math.frexp(speed * STEPS[0] / REACH)[1]  # a power of two above it
         for moderate in STEPS:
             step = math.ldexp(moderate, -max(excess, 0))
+            if results and step > results[-1][0] / APART:
+                continue
             try:
-                return step, inputs, interpret(program, self.scene, FloatDomain(step), inputs, limit=SWEEPS)
+                after = interpret(program, self.scene, FloatDomain(step), inputs, limit=SWEEPS)
             except FAILURES:
                 continue
-        return None
+            results.append((step, inputs, after))
+            if len(results) == TRIES:
+                break
+        return results
 
     def differs(self, program: Program) -> str:
         """Return an account of what a program does differently, or ''."""
-        for step, inputs, before in self.results:
-            try:
-                after = interpret(program, self.scene, FloatDomain(step), inputs, limit=2 * SWEEPS)
-            except FAILURES as error:
-                return f"interpretation failed: {error}"
-            account = self._gap(before, after)
+        for results in self.results:
+            account = self._in_some_step(program, results)
             if account:
                 return account
         return ""
+
+    def _in_some_step(self, program: Program, results: list[Result]) -> str:
+        """Compare in the first step that the program makes."""
+        failure = ""
+        for step, inputs, before in results:
+            try:
+                after = interpret(program, self.scene, FloatDomain(step), inputs, limit=2 * SWEEPS)
+            except NotConverged as error:
+                failure = f"interpretation failed: {error}"
+            except FAILURES as error:
+                return f"interpretation failed: {error}"
+            else:
+                return self._gap(before, after)
+        return failure
 
     def _gap(self, before: dict[str, Any], after: dict[str, Any]) -> str:
         for name, kind in self.kinds.items():

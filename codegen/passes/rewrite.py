@@ -57,7 +57,9 @@ class Rewriter:
         for assign in statement.body:
             self._visit(assign)
         images = tuple(self.now(v) for v in statement.images)
-        return [replace(statement, starts=starts, body=tuple(self._out), images=images)]
+        residuals = tuple(self.now(v) for v in statement.residuals)
+        body = tuple(self._out)
+        return [replace(statement, starts=starts, body=body, images=images, residuals=residuals)]
 
 
 def rewrite(program: Program, rule: Callable[[Rewriter, Assign], tuple[Var, ...]]) -> Program:
@@ -76,7 +78,7 @@ def defined(program: Program) -> Iterable[Var]:
 
 
 def uses(program: Program) -> dict[Var, int]:
-    """Return how often each variable is read: by assignments, starts, images and outputs."""
+    """Return how often each variable is read: by assignments, starts, images, residuals and outputs."""
     count: dict[Var, int] = {}
 
     def add(variables: Iterable[Var]) -> None:
@@ -89,5 +91,6 @@ def uses(program: Program) -> dict[Var, int]:
         if isinstance(statement, Solve):
             add(statement.starts)
             add(statement.images)
+            add(statement.residuals)
     add(var for _, var in program.outputs)
     return count

@@ -1,0 +1,156 @@
+"""Jacobians of expressions to first order in h, for simplified Newton iterations.
+
+Every expression is carried as v_0 + v_1 h with its derivatives by the unknowns, truncated alike, so that what
+only higher powers of h contribute is never formed: of an exponential of h x there remains 1 + h x, of a force
+that enters with a factor h its value at h = 0. An iteration with this Jacobian gains two powers of h a sweep.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import factorial
+
+from codegen.ir.expr import Expr, Space, walk
+from codegen.ir.number import Number
+
+STEP = "h"
+
+Pair = tuple[Expr, Expr]
+"""Coefficients of 1 and of h."""
+
+
+class NotLinearised(ArithmeticError):
+    """A function whose expansion in h is not known: one with a pole or a branch point at h = 0."""
+
+
+@dataclass(frozen=True)
+class _Dual:
+    """A value and its derivatives by unknowns, where they are not zero."""
+
+    value: Pair
+    slopes: dict[int, Pair]
+
+
+def first_order_jacobian(roots: Sequence[Expr], unknowns: Sequence[str]) -> list[list[Expr]]:
+    """Return the derivatives of roots by the unknowns up to h^1, a row a root.
+
+    :class:`NotLinearised` where a root has no expansion at h = 0 that the rules here find.
+
+    >>> from codegen.ir.expr import Space
+    >>> s = Space(); x, h = s.sym("x"), s.sym("h")
+    >>> first_order_jacobian([x * x * h + h * h * x + x], ["x"])
+    [[((2 * (h * x)) + 1)]]
+    """
+    if not roots:
+        return []
+    space = roots[0].space
+    place = {name: k for k, name in enumerate(unknowns)}
+    found: dict[int, _Dual] = {}
+    for node in walk(roots):
+        found[node.id] = _visit(node, [found[a.id] for a in node.args], place, space)
+    h, none = space.sym(STEP), (space.zero, space.zero)
+    rows = []
+    for root in roots:
+        slopes = [found[root.id].slopes.get(k, none) for k in range(len(unknowns))]
+        rows.append([h * high + low for low, high in slopes])
+    return rows
+
+
+def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -> _Dual:
+    zero, one = space.zero, space.one
+    match node.op:
+        case "const":
+            return _Dual((node, zero), {})
+        case "sym":
+            if node.payload == STEP:
+                return _Dual((zero, one), {})
+            slopes = {place[node.payload]: (one, zero)} if node.payload in place else {}
+            return _Dual((node, zero), slopes)
+        case "add":
+            return _combined(space, [(one, args[0]), (one, args[1])])
+        case "sub":
+            return _combined(space, [(one, args[0]), (-one, args[1])])
+        case "neg":
+            return _combined(space, [(-one, args[0])])
+        case "mul":
+            return _product(space, args[0], args[1])
+        case "div":
+            return _product(space, args[0], _inverse(space, args[1]))
+        case "pow":
+            result = args[0]
+            for _ in range(node.payload - 1):
+                result = _product(space, result, args[0])
+            return result
+        case _:
+            return _called(space, node.payload, args[0])
+
+
+def _times(a: Pair, b: Pair) -> Pair:
+    return a[0] * b[0], a[0] * b[1] + a[1] * b[0]
+
+
+def _plus(a: Pair, b: Pair) -> Pair:
+    return a[0] + b[0], a[1] + b[1]
+
+
+def _combined(space: Space, terms: list[tuple[Expr, _Dual]]) -> _Dual:
+    value, slopes = (space.zero, space.zero), dict[int, Pair]()
+    for c, x in terms:
+        value = _plus(value, (c * x.value[0], c * x.value[1]))
+        for k, slope in x.slopes.items():
+            scaled = (c * slope[0], c * slope[1])
+            slopes[k] = _plus(slopes[k], scaled) if k in slopes else scaled
+    return _Dual(value, _trimmed(slopes))
+
+
+def _product(space: Space, a: _Dual, b: _Dual) -> _Dual:
+    slopes: dict[int, Pair] = {}
+    for x, y in ((a, b), (b, a)):
+        for k, slope in x.slopes.items():
+            term = _times(slope, y.value)
+            slopes[k] = _plus(slopes[k], term) if k in slopes else term
+    return _Dual(_times(a.value, b.value), _trimmed(slopes))
+
+
+def _inverse(space: Space, a: _Dual) -> _Dual:
+    if a.value[0].is_zero:
+        raise NotLinearised("a divisor vanishes at h = 0")
+    low = space.one / a.value[0]
+    value = (low, -(a.value[1] * (low * low)))
+    square = _times(value, value)
+    slopes = {k: _times((-slope[0], -slope[1]), square) for k, slope in a.slopes.items()}
+    return _Dual(value, _trimmed(slopes))
+
+
+def _called(space: Space, function: str, a: _Dual) -> _Dual:
+    """Return a function of v_0 + v_1 h with its derivatives."""
+    low, high = a.value
+    if function.startswith("stumpff"):
+        k = int(function[7:])
+        if not low.is_zero:
+            raise NotLinearised("a rotation angle does not vanish at h = 0")
+        at, first, second = (space.const(Number.rational((-1) ** j, factorial(k + 2 * j))) for j in range(3))
+        second = second + second
+    elif function == "sqrt":
+        if low.is_zero:
+            raise NotLinearised("a root at its branch point")
+        at = space.call("sqrt", low)
+        first = space.const(Number.rational(1, 2)) * (space.one / at)
+        second = -(first * (space.const(Number.rational(1, 2)) / low))
+    elif function == "exp":
+        at = first = second = space.call("exp", low)
+    elif function == "log":
+        at, first = space.call("log", low), space.one / low
+        second = -(first * first)
+    else:
+        other = {"sin": "cos", "cos": "sin"}[function]
+        at, turned = space.call(function, low), space.call(other, low)
+        first, second = (turned, -at) if function == "sin" else (-turned, -at)
+    slope = (first, second * high)
+    slopes = {k: _times(x, slope) for k, x in a.slopes.items()}
+    return _Dual((at, first * high), _trimmed(slopes))
+
+
+def _trimmed(slopes: dict[int, Pair]) -> dict[int, Pair]:
+    return {k: x for k, x in slopes.items() if not (x[0].is_zero and x[1].is_zero)}

@@ -1,0 +1,185 @@
+"""Normal forms: expressions as polynomials in their symbols and irrational parts, reduced by relations.
+
+Formulas that agree only where coordinates satisfy a group's laws differ as expressions. Expanding what is
+polynomial in them, with the arguments of roots and divisors brought to normal form first, and replacing the
+leading product of each law, brings many of them together: |g y|^2 becomes |y|^2 where g^T g = 1. The result
+equals the given expression wherever the laws hold; it is not canonical, and need not be shorter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from codegen.ir.expr import Expr, Space, walk
+from codegen.ir.number import Number
+
+Monomial = tuple[tuple[int, int], ...]
+"""Pairs (node, exponent), sorted; nodes by their number in the space."""
+
+Polynomial = dict[Monomial, Number]
+
+Relation = tuple[tuple[str, str], Sequence[tuple[Number, tuple[str, ...]]]]
+"""A product of two symbols, and the terms (factor, symbols) that equal it."""
+
+ONE = Number.rational(1)
+MOST_TERMS = 400
+"""A polynomial with more terms than this is not expanded further."""
+
+
+class TooLong(ArithmeticError):
+    """An expression whose expansion has too many terms."""
+
+
+class NormalForms:
+    """Brings expressions of one space to normal form.
+
+    ``relations`` map a product of two symbols to what equals it; replacing must come to an end.
+    """
+
+    def __init__(self, space: Space, relations: Sequence[Relation] = ()) -> None:
+        self.space = space
+        self.atoms: dict[int, Expr] = {}
+        self.rules: dict[tuple[int, int], Polynomial] = {}
+        for (a, b), terms in relations:
+            i, j = sorted((self._atom(space.sym(a)), self._atom(space.sym(b))))
+            right: Polynomial = {}
+            for factor, symbols in terms:
+                monomial: Polynomial = {(): factor}
+                for s in symbols:
+                    monomial = self._times(monomial, self._variable(space.sym(s)))
+                right = _plus(right, monomial)
+            self.rules[i, j] = right
+
+    def __call__(self, root: Expr) -> Expr:
+        """Return an expression equal to root where the relations hold; root itself where it is too long."""
+        try:
+            return self.expression(self.polynomial(root))
+        except TooLong:
+            return root
+
+    def polynomial(self, root: Expr) -> Polynomial:
+        """Return root as a reduced polynomial; :class:`TooLong` where it has too many terms."""
+        found: dict[int, Polynomial] = {}
+        for node in walk([root]):
+            args = [found[a.id] for a in node.args]
+            value: Polynomial
+            match node.op:
+                case "const":
+                    value = {(): node.payload} if not node.payload.is_zero else {}
+                case "sym":
+                    value = self._variable(node)
+                case "add":
+                    value = _plus(args[0], args[1])
+                case "sub":
+                    value = _plus(args[0], _scaled(args[1], -ONE))
+                case "neg":
+                    value = _scaled(args[0], -ONE)
+                case "mul":
+                    value = self._reduced(self._times(args[0], args[1]))
+                case "pow":
+                    value = args[0]
+                    for _ in range(node.payload - 1):
+                        value = self._reduced(self._times(value, args[0]))
+                case "div":
+                    divisor = self.space.one / self.expression(args[1])
+                    value = self._times(args[0], self._variable(divisor))
+                case _:
+                    inner = [self.expression(a) for a in args]
+                    value = self._variable(self.space.call(node.payload, *inner))
+            found[node.id] = value
+        return found[root.id]
+
+    def expression(self, polynomial: Mapping[Monomial, Number]) -> Expr:
+        """Return a polynomial as an expression, the most frequent factor taken out first."""
+        terms = dict(polynomial)
+        count: dict[int, int] = {}
+        for monomial in terms:
+            for atom, _ in monomial:
+                count[atom] = count.get(atom, 0) + 1
+        best = max(sorted(count), key=lambda a: count[a], default=-1)
+        if best < 0 or count[best] < 2:
+            return self._sum(terms)
+        inside: Polynomial = {}
+        outside: Polynomial = {}
+        for monomial, c in terms.items():
+            powers = dict(monomial)
+            if best not in powers:
+                outside[monomial] = c
+                continue
+            powers[best] -= 1
+            inside[tuple(sorted((a, n) for a, n in powers.items() if n))] = c
+        product = self.atoms[best] * self.expression(inside)
+        return self.expression(outside) + product if outside else product
+
+    def _sum(self, terms: Mapping[Monomial, Number]) -> Expr:
+        total = self.space.zero
+        for monomial, c in sorted(terms.items()):
+            product = self.space.const(c)
+            for atom, n in monomial:
+                product = product * self.space.pow(self.atoms[atom], n)
+            total = total + product
+        return total
+
+    def _atom(self, node: Expr) -> int:
+        self.atoms[node.id] = node
+        return node.id
+
+    def _variable(self, node: Expr) -> Polynomial:
+        if node.op == "const":
+            return {(): node.payload}
+        return {((self._atom(node), 1),): ONE}
+
+    def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
+        if len(a) * len(b) > MOST_TERMS**2:
+            raise TooLong
+        total: Polynomial = {}
+        for m, x in a.items():
+            for n, y in b.items():
+                powers = dict(m)
+                for atom, k in n:
+                    powers[atom] = powers.get(atom, 0) + k
+                total = _add(total, tuple(sorted(powers.items())), x * y)
+        if len(total) > MOST_TERMS:
+            raise TooLong
+        return total
+
+    def _reduced(self, polynomial: Polynomial) -> Polynomial:
+        """Return a polynomial without the left side of any relation."""
+        done: Polynomial = {}
+        waiting = dict(polynomial)
+        while waiting:
+            monomial, c = waiting.popitem()
+            powers = dict(monomial)
+            for (i, j), right in self.rules.items():
+                if powers.get(i, 0) >= 1 + (i == j) and powers.get(j, 0) >= 1:
+                    powers[i] -= 1
+                    powers[j] -= 1
+                    rest = {tuple(sorted((a, n) for a, n in powers.items() if n)): c}
+                    waiting = _plus(waiting, self._times(rest, right))
+                    break
+            else:
+                done = _add(done, monomial, c)
+            if len(done) + len(waiting) > MOST_TERMS:
+                raise TooLong
+        return done
+
+
+def _add(polynomial: Polynomial, monomial: Monomial, c: Number) -> Polynomial:
+    old = polynomial.get(monomial)
+    value = c if old is None else old + c
+    if value.is_zero:
+        polynomial.pop(monomial, None)
+    else:
+        polynomial[monomial] = value
+    return polynomial
+
+
+def _plus(a: Polynomial, b: Polynomial) -> Polynomial:
+    total = dict(a)
+    for monomial, c in b.items():
+        total = _add(total, monomial, c)
+    return total
+
+
+def _scaled(a: Polynomial, c: Number) -> Polynomial:
+    return {monomial: c * x for monomial, x in a.items()}

@@ -1,0 +1,92 @@
+"""Linear maps applied to sums that several values share: L(x1), L(x2), ... in fixed proportions become one L.
+
+Exact. Where sums contain values of one map L only in a few fixed proportions, each such combination is formed
+once and L applied to it: sum_k c a_k L(x_k) = c L(sum_k a_k x_k). This is for terms that
+:mod:`codegen.passes.factor` leaves, because more than one sum uses them; it repeats until nothing changes.
+"""
+
+from __future__ import annotations
+
+from codegen.ir.program import LINEAR_LAST, Assign, Coefficient, Operation, Program, Solve, Var
+from codegen.passes import dead
+from codegen.passes.rewrite import Rewriter, rewrite
+
+Key = tuple[Operation, tuple[Var, ...]]
+"""A linear map: the operation and its first arguments."""
+
+Share = tuple[tuple[Var, Coefficient], ...]
+"""A combination of a map's values, the first of the lowest power of h with factor one."""
+
+
+def run(program: Program) -> Program:
+    """Return the program with linear maps of common sums computed once."""
+    while True:
+        wanted = _worthwhile(program)
+        if not wanted:
+            return program
+        made: dict[Share, Var] = {}
+
+        def rule(
+            rewriter: Rewriter, assign: Assign, wanted: set[Share] = wanted, made: dict[Share, Var] = made
+        ) -> tuple[Var, ...]:
+            return _rule(rewriter, assign, wanted, made)
+
+        program = dead.run(rewrite(program, rule))
+
+
+def _rule(rewriter: Rewriter, assign: Assign, wanted: set[Share], made: dict[Share, Var]) -> tuple[Var, ...]:
+    if assign.operation.name != "lin":
+        return rewriter.emit(assign)
+    pairs = list(zip(assign.operation.coefficients, assign.args, strict=True))
+    for share, factor in _shares(assign, rewriter.definitions).items():
+        if share not in wanted:
+            continue
+        members = dict(share)
+        if share not in made:
+            first = rewriter.definitions[share[0][0]]
+            inner = [(c, rewriter.definitions[v].args[-1]) for v, c in share]
+            total = rewriter.builder.fresh(f"s_{first.targets[0].name}", share[0][0].kind)
+            operation = Operation("lin", tuple(c for c, _ in inner))
+            rewriter.emit(Assign((total,), operation, tuple(v for _, v in inner)))
+            target = rewriter.builder.fresh(first.targets[0].name, share[0][0].kind)
+            made[share] = rewriter.emit(Assign((target,), first.operation, (*first.args[:-1], total)))[0]
+        pairs = [(c, v) for c, v in pairs if v not in members] + [(factor, made[share])]
+    operation = Operation("lin", tuple(c for c, _ in pairs))
+    return rewriter.emit(Assign(assign.targets, operation, tuple(v for _, v in pairs)))
+
+
+def _worthwhile(program: Program) -> set[Share]:
+    """Return the combinations of maps that have fewer combinations than values."""
+    found: set[Share] = set()
+    for statement in program.body:
+        body = statement.body if isinstance(statement, Solve) else ()
+        definitions = {target: a for a in body for target in a.targets}
+        shares: dict[Key, dict[Share, None]] = {}
+        for assign in body:
+            if assign.operation.name == "lin":
+                for share in _shares(assign, definitions):
+                    first = definitions[share[0][0]]
+                    shares.setdefault((first.operation, first.args[:-1]), {})[share] = None
+        for combinations in shares.values():
+            values = {v for share in combinations for v, _ in share}
+            if len(combinations) < len(values):
+                found |= {share for share in combinations if len(share) > 1}
+    return found
+
+
+def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
+    """Return the combination of each map's values in a sum, and the factor that it has there."""
+    groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
+    for c, arg in zip(assign.operation.coefficients, assign.args, strict=True):
+        made = definitions.get(arg)
+        if made is not None and made.operation.name in LINEAR_LAST:
+            groups.setdefault((made.operation, made.args[:-1]), []).append((arg, c))
+    found: dict[Share, Coefficient] = {}
+    for terms in groups.values():
+        if len({v for v, _ in terms}) < len(terms):
+            continue
+        _, unit = min(terms, key=lambda term: (term[1].power, term[0].name))
+        ordered = sorted(terms, key=lambda term: (term[1].power, term[0].name))
+        share = tuple((v, Coefficient(c.value / unit.value, c.power - unit.power)) for v, c in ordered)
+        found[share] = unit
+    return found

@@ -1,0 +1,195 @@
+"""The Legendre transform: momenta and forces of a stage from its velocity alone, and smaller equations.
+
+Exact. Where an unknown v equals W(Q, P) up to invertible linear maps, P = W^{-1}(Q, v) at the solution: every
+other use of W and P, and of what lies between them and v or a momentum M, is computed from v. Then a force
+is no longer tied to a momentum that is still unknown, and tearing removes it; what is left to solve is, for
+each v, that the momentum computed from v is the one computed from the equations, which :func:`residuals` adds
+to the block. The velocity itself is read from the unknown after the block.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from codegen.ir.number import Number
+from codegen.ir.program import (
+    ONE,
+    Assign,
+    Builder,
+    Coefficient,
+    Factor,
+    Kind,
+    Operation,
+    Program,
+    Solve,
+    Statement,
+    Var,
+)
+from codegen.passes.functions import ONE as UNIT
+from codegen.passes.functions import ratio
+from codegen.passes.opposites import OPPOSITE
+from codegen.passes.rewrite import defined
+from codegen.passes.tearing import ordered
+from codegen.scene import Setting
+
+FUNCTIONS = frozenset({"dexpinv", "dexpinvt", "series", "seriest"})
+"""Functions of ad that have an inverse near the identity."""
+
+MINUS = Coefficient(Number.rational(-1))
+
+
+@dataclass(frozen=True)
+class Path:
+    """How an unknown follows from a velocity W(Q, P): maps from W to the unknown, and from a base to P.
+
+    Both lists are in order of application; each map takes the value before it as its last argument.
+    """
+
+    unknown: Var
+    outward: tuple[Assign, ...]
+    velocity: Assign
+    inward: tuple[Assign, ...]
+
+    @property
+    def base(self) -> Var:
+        """The momentum that P is computed from."""
+        return self.inward[0].args[-1] if self.inward else self.velocity.args[1]
+
+
+def run(program: Program, scene: Setting) -> Program:
+    """Return the program with momenta and forces computed from velocities."""
+    if scene.body is None or scene.body.inverse is None:
+        return program
+    do = Builder({v.name for v in defined(program)})
+    body: list[Statement] = []
+    names: dict[Var, Var] = {}
+    for statement in program.body:
+        if isinstance(statement, Assign):
+            body.append(replace(statement, args=tuple(names.get(a, a) for a in statement.args)))
+            continue
+        block = replace(statement, starts=tuple(names.get(a, a) for a in statement.starts))
+        paths = [p for p in (path(block, u) for u in block.unknowns) if p is not None]
+        for found in paths:
+            block = _turned(block, found, do)
+        image = dict(zip(block.unknowns, block.images, strict=True))
+        names |= {image[p.unknown]: p.unknown for p in paths}
+        body.append(block)
+    outputs = tuple((name, names.get(var, var)) for name, var in program.outputs)
+    return replace(program, body=tuple(body), outputs=outputs)
+
+
+def residuals(program: Program, scene: Setting) -> Program:
+    """Return the program with residuals in the blocks all of whose unknowns follow from velocities."""
+    if scene.body is None or scene.body.inverse is None:
+        return program
+    do = Builder({v.name for v in defined(program)})
+    body: list[Statement] = []
+    for statement in program.body:
+        if isinstance(statement, Solve):
+            paths = [path(statement, u) for u in statement.unknowns]
+            if all(p is not None for p in paths):
+                found = [_residual(statement, p, do) for p in paths if p is not None]
+                statement = replace(statement, body=(*statement.body, *do.take()), residuals=tuple(found))
+        body.append(statement)
+    return replace(program, body=tuple(body))
+
+
+def path(block: Solve, unknown: Var) -> Path | None:
+    """Return how an unknown of a block follows from a velocity, None where it does not."""
+    maker = {target: assign for assign in block.body for target in assign.targets}
+    image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
+    outward, velocity = _chain(maker, image)
+    if velocity is None or not velocity.operation.name.startswith("velocity"):
+        return None
+    inward, _ = _chain(maker, velocity.args[1])
+    return Path(unknown, outward, velocity, inward)
+
+
+def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assign | None]:
+    """Return the invertible linear maps that end in var, the first first, and what made their start."""
+    maps: list[Assign] = []
+    while True:
+        made = maker.get(var)
+        if made is None or not _invertible(made):
+            return tuple(reversed(maps)), made
+        maps.append(made)
+        var = made.args[-1]
+
+
+def _invertible(assign: Assign) -> bool:
+    operation = assign.operation
+    single = operation.name == "lin" and len(assign.args) == 1 and operation.coefficients[0].power == 0
+    return (
+        single or operation.name in OPPOSITE or operation.name in ("dexpinv", "dexpinvt", "series", "seriest")
+    )
+
+
+def _undone(do: Builder, assign: Assign, value: Var) -> Var:
+    """Append what gives the argument of an invertible map from its value."""
+    operation, kind = assign.operation, value.kind
+    if operation.name == "lin":
+        c = operation.coefficients[0]
+        return do.lin("s", kind, [(Coefficient(Number.rational(1) / c.value), value)])
+    if operation.name in OPPOSITE:
+        return do.do(OPPOSITE[operation.name], "a", assign.args[0], value)
+    word = operation.word or (Factor("dexpinv", UNIT, operation.order or 0),)
+    opposite = tuple(replace(f, power=-f.power) for f in word)
+    target = do.fresh("a", kind)
+    name = "seriest" if kind is Kind.DUAL else "series"
+    do.body.append(Assign((target,), Operation(name, word=opposite), (assign.args[0], value)))
+    return target
+
+
+def _values(do: Builder, found: Path) -> tuple[dict[Var, Var], Var]:
+    """Append everything on a path computed from its unknown: what stands for each value, and for the base."""
+    stands: dict[Var, Var] = {}
+    value = found.unknown
+    stands[(found.outward[-1] if found.outward else found.velocity).targets[0]] = value
+    for assign in reversed(found.outward):
+        value = _undone(do, assign, value)
+        stands[assign.args[-1]] = value
+    value = do.do("legendre", "p", value)
+    stands[found.velocity.args[1]] = value
+    for assign in reversed(found.inward):
+        value = _undone(do, assign, value)
+        stands[assign.args[-1]] = value
+    return stands, value
+
+
+def _residual(block: Solve, found: Path, do: Builder) -> Var:
+    """Append what the momentum from the unknown exceeds the other by, in the frame where that costs less."""
+    stands, base = _values(do, found)
+    pair = (
+        (stands[found.velocity.args[1]], found.velocity.args[1])
+        if _function_of_one(block, found)
+        else (base, found.base)
+    )
+    return do.lin("residual", Kind.DUAL, [(ONE, pair[0]), (MINUS, pair[1])])
+
+
+def _function_of_one(block: Solve, found: Path) -> bool:
+    """Whether P is Ad*_{exp x} of a sum of functions of multiples of ad*_x."""
+    maker = {target: assign for assign in block.body for target in assign.targets}
+    if len(found.inward) != 1 or found.inward[0].operation.name != "Adt":
+        return False
+    element, total = (maker.get(v) for v in found.inward[0].args)
+    if element is None or total is None or (element.operation.name, total.operation.name) != ("exp", "lin"):
+        return False
+    terms = [maker.get(v) for v in total.args]
+    x = element.args[0]
+    return all(t is not None and t.operation.word and ratio(maker, x, t.args[0]) is not None for t in terms)
+
+
+def _turned(block: Solve, found: Path, do: Builder) -> Solve:
+    """Return the block with the values on a path taken from its unknown wherever else they are used."""
+    stands, _ = _values(do, found)
+    fresh = do.take()
+    if found.inward and found.base not in block.unknowns:
+        del stands[found.base]  # a sum of many terms, which no other operation needs from the velocity
+    own = {a.targets[0] for a in (*found.outward, found.velocity, *found.inward)}
+    body = [
+        a if a.targets[0] in own else replace(a, args=tuple(stands.get(x, x) for x in a.args))
+        for a in block.body
+    ]
+    sorted_body = ordered((*body, *fresh))
+    return block if sorted_body is None else replace(block, body=sorted_body)

@@ -1,0 +1,74 @@
+"""Tearing: unknowns that the others determine within one sweep are computed, not solved for.
+
+Exact. Where a block's body stays free of cycles when an unknown is replaced by its image, it is replaced. An
+equation has to hold at the solution only, so that the solutions are the same; what is left is a smaller
+block. Momenta and forces are tried first, so that velocities stay.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from codegen.ir.program import Assign, Kind, Program, Solve, Statement, Var
+
+
+def run(program: Program) -> Program:
+    """Return the program with as few unknowns as single replacements leave."""
+    body: list[Statement] = []
+    names: dict[Var, Var] = {}
+
+    def now(variables: tuple[Var, ...]) -> tuple[Var, ...]:
+        return tuple(names.get(v, v) for v in variables)
+
+    for statement in program.body:
+        if isinstance(statement, Assign):
+            body.append(replace(statement, args=now(statement.args)))
+            continue
+        inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
+        block = replace(statement, starts=now(statement.starts), body=inner, images=now(statement.images))
+        for unknown in sorted(block.unknowns, key=lambda u: u.kind is Kind.ALG):
+            smaller = _without(block, unknown)
+            if smaller is not None:
+                names[unknown] = dict(zip(block.unknowns, block.images, strict=True))[unknown]
+                block = smaller
+        body.append(block)
+    outputs = tuple((name, names.get(var, var)) for name, var in program.outputs)
+    return replace(program, body=tuple(body), outputs=outputs)
+
+
+def _without(block: Solve, unknown: Var) -> Solve | None:
+    """Return the block with an unknown replaced by its image, None where that closes a cycle."""
+    image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
+    if len(block.unknowns) == 1 or image in block.unknowns:
+        return None
+
+    def now(variables: tuple[Var, ...]) -> tuple[Var, ...]:
+        return tuple(image if v == unknown else v for v in variables)
+
+    body = ordered(tuple(replace(a, args=now(a.args)) for a in block.body))
+    if body is None:
+        return None
+    kept = [
+        (u, s, i) for u, s, i in zip(block.unknowns, block.starts, block.images, strict=True) if u != unknown
+    ]
+    unknowns, starts, images = zip(*kept, strict=True)
+    return replace(block, unknowns=unknowns, starts=starts, body=body, images=now(images))
+
+
+def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
+    """Return assignments with definitions before uses, else in the order given; None for a cycle."""
+    maker = {target: k for k, assign in enumerate(body) for target in assign.targets}
+    result: list[Assign] = []
+    state: dict[int, bool] = {}
+
+    def place(k: int) -> bool:
+        if k in state:
+            return state[k]
+        state[k] = False
+        if not all(place(maker[a]) for a in body[k].args if a in maker):
+            return False
+        state[k] = True
+        result.append(body[k])
+        return True
+
+    return tuple(result) if all(place(k) for k in range(len(body))) else None
