@@ -11,17 +11,19 @@ kept: too many would refuse a proof; that none is missing holds up to chance, ab
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
+from flint import fmpz
 
 from orderconds.conditions import OrderCondition
 from orderconds.families import Family, in_ring
 from orderconds.ring.protocol import Element
 from orderconds.ring.rank import pivot_columns
-from orderconds.ring.residues import PRIMES, Residue, Residues
+from orderconds.ring.residues import Residue, Residues
 from orderconds.series.action_rank import products
+from orderconds.tableau.indeterminates import radicals
 from orderconds.tableau.unknowns import Spelled
 
 BLOCK = 256
@@ -47,8 +49,22 @@ def independent_conditions(
     ['o(o o)']
     """
     candidates = [list(_decisive(family, n)) for n in range(1, order + 1)]
-    found = [_independent(family, spelled, candidates, prime, read) for prime in PRIMES]
+    found: list[tuple[OrderCondition, ...]] = []
+    for prime in _primes():
+        try:
+            found.append(_independent(family, spelled, candidates, prime, read))
+        except _NoRoot:
+            continue
+        if len(found) == 2:
+            break
     return max(found, key=len)
+
+
+def _primes() -> Iterator[int]:
+    """Yield primes below 2^31 that are 3 modulo 4, where a square root is a power."""
+    for n in range(2**31 - 1, 2, -4):
+        if fmpz(n).is_prime():
+            yield n
 
 
 def _independent(
@@ -85,9 +101,10 @@ def _sampled(
 ) -> list[Residue]:
     """Return the values at so many random members and, last, at the flow."""
     generator = np.random.default_rng(prime)
+    alone = len(radicals(spelled)) == 1
     blocks = []
     for start in range(0, count, BLOCK):
-        ring = _Members(prime, min(BLOCK, count - start), generator)
+        ring = _Members(prime, min(BLOCK, count - start), generator, alone)
         known = {u.constant: ring.random(generator) for u in spelled.decimals()}
         method: Any = spelled.method(ring, known)[0]
         values = family.evaluate(method if read is None else read(method, ring), ring, conditions)
@@ -99,20 +116,33 @@ def _sampled(
 
 
 class _Members(Residues):
-    """Residues in which every radical is one more random number."""
+    """Residues in which radicals are random numbers, but the square root of a rational, if it is the only one.
 
-    def __init__(self, prime: int, samples: int, generator: np.random.Generator) -> None:
+    One square root of a rational number is a root modulo the prime, whichever of the two: what holds there for
+    all members holds over the field that it generates.
+    """
+
+    def __init__(self, prime: int, samples: int, generator: np.random.Generator, alone: bool) -> None:
         super().__init__(prime, samples)
-        self._generator = generator
+        self._generator, self._alone = generator, alone
         self._roots: dict[tuple[tuple[int, ...], int], Residue] = {}
 
     def root(self, x: Element, index: int) -> Residue:
-        """Return a random number, the same for the same radical."""
+        """Return a random number, the same for the same radical, or the one square root there is."""
+        if self._alone and index == 2 and (x.values == x.values[0]).all():
+            root = pow(int(x.values[0]), (self.prime + 1) // 4, self.prime)
+            if root * root % self.prime == int(x.values[0]):
+                return self.rational(root)
+            raise _NoRoot
         return self._roots.setdefault((self.key(x), index), self.random(self._generator))
 
     def named_root(self, minpoly: Any, near: Any, unit: Any, name: str) -> Residue:
         """Return a random number, the same for the same name."""
         return self._roots.setdefault(((), hash_of(name)), self.random(self._generator))
+
+
+class _NoRoot(Exception):
+    """A number has no square root modulo a prime: another prime is needed."""
 
 
 def hash_of(name: str) -> int:

@@ -128,6 +128,13 @@ class Residue:
     def __rtruediv__(self, other: Any) -> Residue:
         return self.reciprocal().__mul__(other)
 
+    def __pow__(self, n: int) -> Residue:
+        base, n = (self, n) if n >= 0 else (self.reciprocal(), -n)
+        result = self.ring.one
+        for _ in range(n):
+            result = result * base
+        return result
+
     def __eq__(self, other: object) -> bool:
         return (
             isinstance(other, Residue) and other.ring == self.ring and not (self.values - other.values).any()

@@ -11,13 +11,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-ADD, MULTIPLY, DIVIDE, CONSTANT, INPUT = range(5)
-"""Operations: x + y, x y, x / y of two places; a rational number; an input by number."""
+ADD, MULTIPLY, DIVIDE, ROOT, CONSTANT, INPUT = range(6)
+"""Operations: x + y, x y, x / y of two places, the n-th root of one; a rational number; an input by number."""
 
 
 @dataclass(frozen=True)
 class Operation:
-    """One step of a program; ``left`` and ``right`` are places before it, ``value`` a constant or input."""
+    """One step of a program; ``left`` and ``right`` are places before it, ``value`` a constant, an input or
+    the index of a root."""
 
     kind: int
     left: int = 0
@@ -32,7 +33,7 @@ class Traces:
     >>> x, y = R.inputs
     >>> z = (x + y) * (x + y) - 0 * x
     >>> [operation.kind for operation in R.operations]
-    [4, 4, 0, 1]
+    [5, 5, 0, 1]
     >>> R.is_zero(z), R.is_zero(R.zero)
     (False, True)
     """
@@ -78,6 +79,11 @@ class Traces:
         if kind != DIVIDE and left > right:
             left, right = right, left
         return self._record(Operation(kind, left, right))
+
+    def root(self, x: Trace, index: int) -> Trace:
+        """Record the real root."""
+        place = x.placed()
+        return self._record(Operation(ROOT, place, place, Fraction(index)))
 
     def constant(self, value: Fraction) -> int:
         """Return the place of a recorded constant."""
@@ -169,6 +175,8 @@ def evaluate(operations: Sequence[Operation], inputs: Sequence[Any], ring: Any) 
             found.append(found[operation.left] + found[operation.right])
         elif operation.kind == MULTIPLY:
             found.append(found[operation.left] * found[operation.right])
+        elif operation.kind == ROOT:
+            found.append(ring.root(found[operation.left], int(operation.value)))
         else:
             found.append(found[operation.left] / found[operation.right])
     return found

@@ -105,3 +105,58 @@ def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
             if sum(other[alone] == entry[alone] for other in unknown) == 1:
                 return (*entry, by_row)
     raise InputError("a circle of entries", where=WHERE, expected="a tree")
+
+
+def symmetric_transport(
+    own: Sequence[Sequence[str]], leave: Sequence[int], update: Sequence[Sequence[str]], middle: Sequence[str]
+) -> dict[str, str]:
+    """Return the entries of x, the sums of the stages' own exponents, that the abscissae determine.
+
+    Of a symmetric method (:mod:`orderconds.solve.paths`) ``own`` are the rows x_i of stages 1, 2, ... before
+    the middle, which leave ``update`` after ``leave[i]`` exponentials, and ``middle`` is the row of a middle
+    stage, if there is one. With j' = s + 1 - j, columns j ask for sum_i b_i (x_ij - x_ij') = C_j: they are
+    solved for the last row of ``own``, rows for one entry each.
+
+    >>> found = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
+    >>> found["x12"], found["x11"]
+    ('1/2*(m1 - (y1) - (C1/b1))', 'x12 + C1/b1')
+    """
+    s, half = len(update[0]), len(own)
+    totals = [f"y{J + 1}" for J in range(len(update))]
+    cells = {}
+    for j in range(half):
+        share = [f"b{j + 1}*(1 - m{j + 1})"]
+        for i, k in enumerate(leave):
+            for J, line in enumerate(update):
+                times = (J < k) + (J < len(update) - k)
+                if times and line[j] != "0":
+                    share.append(f"{'2*' if times == 2 else ''}b{i + 1}*{line[j]}")
+        if middle:
+            number = half + 1
+            for J, line in enumerate(update[: len(update) // 2]):
+                share.append(f"b{number}*{line[j]}")
+            if len(update) % 2:
+                share.append(f"1/2*b{number}*{update[len(update) // 2][j]}")
+            if middle[j] != "0":
+                share.append(f"b{number}*{middle[j]}")
+        cells[f"C{j + 1}"] = " - ".join(share)
+    rest = [
+        f"m{i + 1} - ({' + '.join(totals[:k]) or '0'})" for i, k in enumerate(leave)
+    ]
+    for i, line in enumerate(own[:-1]):
+        cells[line[-1]] = " - ".join([rest[i], *line[:-1]])
+    last, weight = own[-1], f"b{half}"
+    differences = []
+    for j in range(half):
+        others = [f"b{i + 1}*({line[j]} - {line[s - 1 - j]})" for i, line in enumerate(own[:-1])]
+        total = " - ".join([f"C{j + 1}", *others])
+        differences.append(f"({total})/{weight}" if others else f"{total}/{weight}")
+    for j in range(1, half):
+        cells[last[j]] = f"{last[s - 1 - j]} + {differences[j]}"
+    known = [f"({x})" for x in differences]
+    known += [f"2*{last[s - 1 - j]}" for j in range(1, half)]
+    if s % 2:
+        known.append(last[half])
+    cells[last[s - 1]] = f"1/2*({' - '.join([rest[-1], *known])})"
+    cells[last[0]] = f"{last[s - 1]} + {differences[0]}"
+    return cells

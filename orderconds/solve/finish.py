@@ -233,8 +233,14 @@ def _exact(problem: Problem, text: str, source: str) -> Found | None:
 def _proved(
     problem: Problem, ansatz: Ansatz, exact: dict[str, str], sharp: dict[str, arb], source: str
 ) -> Found:
+    digits: dict[str, str] = {}
     with precision(BITS):
-        digits = {name: _signed(x) for name, x in sharp.items()}
+        for name, x in sharp.items():
+            # Equal spellings would be one unknown.
+            places = DIGITS
+            while (spelled := _signed(x, places)).lstrip("-") in {y.lstrip("-") for y in digits.values()}:
+                places += 1
+            digits[name] = spelled
     proof = [
         "",
         "[proof]",
@@ -246,9 +252,9 @@ def _proved(
     return _claimed(problem, Tableau.loads(text), exact=False)
 
 
-def _signed(x: arb) -> str:
-    """Spell a number as a decimal of :data:`DIGITS` places that is an unknown of the file's equations."""
-    return ("-" if x < 0 else "") + decimal_places(abs(x), DIGITS) + "~"
+def _signed(x: arb, places: int) -> str:
+    """Spell a number as a decimal of so many places that is an unknown of the file's equations."""
+    return ("-" if x < 0 else "") + decimal_places(abs(x), places) + "~"
 
 
 def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Found:

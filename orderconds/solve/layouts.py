@@ -7,7 +7,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from orderconds.errors import InputError
-from orderconds.solve.abscissae import WHERE, commutator_free_times, crouch_grossman_times, transport
+from orderconds.solve.abscissae import (
+    WHERE,
+    commutator_free_times,
+    crouch_grossman_times,
+    symmetric_transport,
+    transport,
+)
 from orderconds.solve.ansatz import Ansatz
 from orderconds.solve.linear import Constraint, Elimination, equal, equality, named, spell, sum_to_one, zero
 from orderconds.solve.wishes import Wishes, refuse
@@ -128,14 +134,21 @@ def _commutator_free(family: str, wishes: Wishes, structure: str, name: str) -> 
     from orderconds.solve.paths import full_paths, symmetric_paths
 
     refuse(family, wishes, ("rkn", "fsal"))
-    make = symmetric_paths if structure == "symmetric" else full_paths
+    make = symmetric_paths if structure.startswith("symmetric") else full_paths
     stages, update, names, constraints = make(wishes)
     extra: dict[str, str] = {}
-    if structure == "abscissae":
+    if structure.endswith("abscissae"):
         constraints.append(sum_to_one([x for line in update for x in line]))
+    totals = _gauss(wishes.stages) if structure.endswith("gauss") else {}
+    if totals:
+        constraints += _totals(stages, update, totals)
+        names = [*totals, *names]
     found = _eliminated(names, wishes, constraints)
+    extra |= {name: text for name, text in totals.items() if name in found.free}
     if structure == "abscissae":
         extra = _abscissae(stages, update, found)
+    elif structure.endswith("abscissae"):
+        extra = _symmetric_abscissae(stages, update, found)
     cells = _Cells(found, extra)
     free = tuple(x for x in found.free if x not in extra)
     free = (*free, *(x for x in extra if extra[x] == x))
@@ -167,6 +180,66 @@ def _abscissae(
     for i, path in enumerate(stages):
         for j, last in enumerate(path[-1]):
             extra[last] = " - ".join([A[i][j], *(line[j] for line in path[:-1])])
+    return extra
+
+
+def _gauss(s: int) -> dict[str, str]:
+    """Return the Gauss tableau, spelled: the sums of the exponents of each stage, and the weights."""
+    from orderconds.tableau.collocation import construct
+
+    tableau = construct("gauss", s)
+    every, text = range(s), tableau.ring.text
+    weights = {f"w{j + 1}": text(tableau.method.b[j]) for j in every}
+    return weights | {f"g{i + 1}{j + 1}": text(tableau.method.A[i][j]) for i in every for j in every}
+
+
+def _totals(
+    stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], totals: Mapping[str, str]
+) -> list[Constraint]:
+    """Return the constraints that exponents sum to the Gauss tableau."""
+    why, every = "Gauss's tableau", range(len(stages))
+    found = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]
+    found += [
+        equal(why, (-1, f"g{i + 1}{j + 1}"), *((1, line[j]) for line in path))
+        for i, path in enumerate(stages)
+        for j in every
+    ]
+    return found
+
+
+def _symmetric_abscissae(
+    stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], found: Elimination
+) -> dict[str, str]:
+    """Return sums x_ij of the stages' own exponents with the right abscissae, and the last exponents."""
+    s, half = len(stages), len(stages) // 2
+    if half == 0:
+        raise InputError("one stage", where=WHERE, expected="at least two")
+    cells = _Cells(found)
+    b = [named("b", i) for i in range(1, s + 1)]
+    written = [[cells.written(x) for x in line] for line in update]
+    x = [[named("x", i, j) for j in range(1, s + 1)] for i in range(1, half + 1)]
+    leave = [sum(line in update for line in path) for path in stages[:half]]
+    own = [path[k:] for path, k in zip(stages[:half], leave, strict=True)]
+    for name in (name for path in own for line in path for name in line):
+        if name in found.solved:
+            raise InputError(
+                f"{name} = {spell(found.cell(name))}", where=WHERE, expected="no fixed coefficients of stages"
+            )
+    middle: list[str] = []
+    extra = commutator_free_times(written, b)
+    if s % 2:
+        path = stages[half]
+        rows = path[len(update) // 2 + len(update) % 2 :]
+        middle = [f"z{j}" for j in range(1, s + 1)]
+        extra |= {
+            f"z{j + 1}": " + ".join(cells.written(line[j]) for line in rows).replace("+ -", "- ")
+            for j in range(half)
+        }
+    extra |= {name: name for line in x for name in line}
+    extra |= symmetric_transport(x, leave, written, middle)
+    for i, path in enumerate(own):
+        for j, last in enumerate(path[-1]):
+            extra[last] = " - ".join([x[i][j], *(line[j] for line in path[:-1])])
     return extra
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from orderconds.ring.traces import ADD, CONSTANT, DIVIDE, INPUT, MULTIPLY, Operation, Trace
+from orderconds.ring.traces import ADD, CONSTANT, DIVIDE, INPUT, MULTIPLY, ROOT, Operation, Trace
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.int64]
@@ -28,6 +28,8 @@ class _Level:
     stop: int
     left: Places
     right: Places
+    index: Places
+    """Which root."""
 
 
 class Tape:
@@ -73,8 +75,12 @@ class Tape:
         found = self._start(points)
         with np.errstate(all="ignore"):  # a start may run away; its residuals then say so
             for level in self._levels:
-                operation = _UFUNC[level.kind]
-                operation(found[level.left], found[level.right], out=found[level.start : level.stop])
+                out = found[level.start : level.stop]
+                if level.kind == ROOT:
+                    x = found[level.left]
+                    np.copyto(out, np.copysign(np.abs(x) ** (1 / level.index[:, None]), x))
+                else:
+                    _UFUNC[level.kind](found[level.left], found[level.right], out=out)
         return found
 
     def values(self, points: Floats) -> Floats:
@@ -96,6 +102,9 @@ class Tape:
                 elif level.kind == MULTIPLY:
                     np.multiply(slopes[x], found[y][..., None], out=out)
                     out += slopes[y] * found[x][..., None]
+                elif level.kind == ROOT:
+                    ratio = found[level.start : level.stop] / (level.index[:, None] * found[x])
+                    np.multiply(slopes[x], ratio[..., None], out=out)
                 else:
                     np.multiply(slopes[y], -found[level.start : level.stop][..., None], out=out)
                     out += slopes[x]
@@ -118,12 +127,12 @@ def _order(operations: Sequence[Operation], wanted: Sequence[int], width: int) -
         if place not in needed:
             needed.add(place)
             operation = operations[place]
-            if operation.kind <= DIVIDE:
+            if operation.kind <= ROOT:
                 waiting += (operation.left, operation.right)
     level: dict[int, int] = {}
     for place in sorted(needed):
         operation = operations[place]
-        deeper = operation.kind <= DIVIDE
+        deeper = operation.kind <= ROOT
         level[place] = 1 + max(level[operation.left], level[operation.right]) if deeper else 0
     return sorted(needed, key=lambda place: (level[place], operations[place].kind, place))
 
@@ -133,15 +142,16 @@ def _levels(operations: Sequence[Operation], rows: Sequence[int]) -> list[_Level
     depth: list[int] = []
     for p in rows:
         o = operations[p]
-        depth.append(1 + max(depth[place[o.left]], depth[place[o.right]]) if o.kind <= DIVIDE else 0)
+        depth.append(1 + max(depth[place[o.left]], depth[place[o.right]]) if o.kind <= ROOT else 0)
     found, start = list[_Level](), 0
     while start < len(rows):
         kind, stop = operations[rows[start]].kind, start + 1
         while stop < len(rows) and operations[rows[stop]].kind == kind and depth[stop] == depth[start]:
             stop += 1
-        if kind <= DIVIDE:
+        if kind <= ROOT:
             left = np.array([place[operations[p].left] for p in rows[start:stop]], dtype=np.int64)
             right = np.array([place[operations[p].right] for p in rows[start:stop]], dtype=np.int64)
-            found.append(_Level(kind, start, stop, left, right))
+            index = np.array([int(operations[p].value) for p in rows[start:stop]], dtype=np.int64)
+            found.append(_Level(kind, start, stop, left, right, index))
         start = stop
     return found

@@ -20,9 +20,7 @@ class Indeterminates(Polynomials):
 
     def __init__(self, spelled: Spelled) -> None:
         decimals = spelled.decimals()
-        definitions = (*spelled.numbers.values(), *spelled.expressions.values())
-        radicals = sum(1 for x in definitions for _ in _radicals(x))
-        super().__init__([f"x{i}" for i in range(len(decimals) + radicals)])
+        super().__init__([f"x{i}" for i in range(len(decimals) + len(radicals(spelled)))])
         self._known = {u.constant: x for u, x in zip(decimals, self.generators, strict=False)}
         self._free = iter(self.generators[len(decimals) :])
         self._roots: dict[tuple[str, int], Element] = {}
@@ -52,6 +50,19 @@ class Indeterminates(Polynomials):
         RungeKutta(A=((x0,),), b=(2*x0,))
         """
         return self._spelled.method(self, self._known)[0]
+
+
+def radicals(spelled: Spelled) -> tuple[Power, ...]:
+    """Return the different radicals that stand in a file.
+
+    >>> from orderconds.tableau import Tableau
+    >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["sqrt(3)"]\\nnumbers = { a = "0.5~*sqrt(3)" }\\n'
+    >>> proof = Tableau.loads(text + '[proof]\\nconditions = "rk"\\norder = 1').proof
+    >>> len(radicals(proof.spelled))
+    1
+    """
+    definitions = (*spelled.numbers.values(), *spelled.expressions.values())
+    return tuple(dict.fromkeys(radical for x in definitions for radical in _radicals(x)))
 
 
 def _radicals(x: Definition) -> Iterator[Power]:
