@@ -285,25 +285,37 @@ def _orders(
     required: int | None,
 ) -> tuple[FamilyOrder, ...]:
     """Return the order in each family, from theorems where evaluating it goes beyond the family's limit."""
-    beside = _beside(tableau, wanted)
+    beside = _beside(tableau, wanted, required or 0)
     found: list[FamilyOrder] = []
     for family, claimed in (*beside, *wanted):
         known = _settled(tableau, family, found, facts)
         if known is None:
-            known = _certified(family_order(tableau, family, claimed, required), family, facts)
+            bound = _bound(family, found)
+            known = _certified(family_order(tableau, family, claimed, required, bound), family, facts)
         else:
             known = replace(known, claimed=claimed, required=required)
         found.append(known)
     return tuple(found[len(beside) :])
 
 
-def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]]) -> list[tuple[Family, int | None]]:
+def _beside(
+    tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int
+) -> list[tuple[Family, int | None]]:
     """Return families, beside those wanted, from whose orders a claim beyond a family's limit may follow."""
-    if all((claimed or 0) < _limit(family) for family, claimed in wanted):
+    if all(max(claimed or 0, required) < _limit(family) for family, claimed in wanted):
         return []
     labels = {family.label() for family, _ in wanted}
     names = [name for name in BOUNDS if name in served(tableau) and name not in labels]
     return [(families.get(name), tableau.claims.order(name)) for name in names]
+
+
+def _bound(family: Family, found: Sequence[FamilyOrder]) -> FamilyOrder | None:
+    """Return, of the families whose conditions are among those of ``family``, the one of least order."""
+    from orderconds.proof.implications import consequences
+
+    among = consequences([(family.label(), 1)])
+    bounds = [f for f in found if f.family in among and f.decided and f.failing]
+    return min(bounds, key=lambda f: f.order, default=None)
 
 
 def _limit(family: Family) -> int:
@@ -346,9 +358,16 @@ def _certified(found: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> F
 
 
 def family_order(
-    tableau: Tableau, family: Family, claimed: int | None = None, required: int | None = None
+    tableau: Tableau,
+    family: Family,
+    claimed: int | None = None,
+    required: int | None = None,
+    bound: FamilyOrder | None = None,
 ) -> FamilyOrder:
     """Find the order of ``tableau`` in ``family``: evaluate orders 1, 2, ... until a condition fails.
+
+    An order at the family's limit is not exceeded where ``bound``, the order in a family whose conditions
+    are among its own, says so.
 
     >>> from orderconds.tableau import find
     >>> kutta3 = Tableau.load(find("kutta3"))
@@ -359,11 +378,16 @@ def family_order(
     method = _method(tableau, family)
     if hasattr(family, "require"):
         family.require(method, tableau.ring)
-    return _search(family, method, tableau.ring, claimed, required)
+    return _search(family, method, tableau.ring, claimed, required, bound)
 
 
 def _search(
-    family: Family, method: Any, ring: Ring, claimed: int | None = None, required: int | None = None
+    family: Family,
+    method: Any,
+    ring: Ring,
+    claimed: int | None = None,
+    required: int | None = None,
+    bound: FamilyOrder | None = None,
 ) -> FamilyOrder:
     limit = max(_limit(family), (claimed or 0) + 1, (required or 0) + 1)
     certificate = "exact"
@@ -390,6 +414,8 @@ def _search(
             return FamilyOrder(family.label(), n - 1, certificate, decided, failing, norm, claimed, required)
         if "supported" in verdicts:
             certificate = "decimal"
+        if bound is not None and n == bound.order >= _limit(family):
+            return FamilyOrder(family.label(), n, certificate, True, bound.failing, None, claimed, required)
     return FamilyOrder(family.label(), limit, certificate, True, (), None, claimed, required, limit)
 
 

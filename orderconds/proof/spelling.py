@@ -6,7 +6,8 @@ the family's conditions fewer are independent there. Those are found as for a wh
 sub-family and at the exact flow, is one combination of those of its order that are kept and of products of
 kept ones of lower order. Where the kept ones hold, it then holds. Computed modulo two primes, the larger set
 kept: too many would refuse a proof; that none is missing holds up to chance, about the number of columns over
-2^31. Radicals are random numbers too, which makes the sub-family larger and the statement stronger.
+2^31. Where a file has several radicals they are random numbers too, which makes the sub-family larger and the
+statement stronger.
 """
 
 from __future__ import annotations
@@ -116,10 +117,10 @@ def _sampled(
 
 
 class _Members(Residues):
-    """Residues in which radicals are random numbers, but the square root of a rational, if it is the only one.
+    """Residues in which radicals are random numbers, except the square root of a rational that stands alone.
 
-    One square root of a rational number is a root modulo the prime, whichever of the two: what holds there for
-    all members holds over the field that it generates.
+    That is a root modulo the prime, whichever of the two: what holds there for all members holds over the
+    field that it generates.
     """
 
     def __init__(self, prime: int, samples: int, generator: np.random.Generator, alone: bool) -> None:

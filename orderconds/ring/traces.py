@@ -12,7 +12,7 @@ from fractions import Fraction
 from typing import Any
 
 ADD, MULTIPLY, DIVIDE, ROOT, CONSTANT, INPUT = range(6)
-"""Operations: x + y, x y, x / y of two places, the n-th root of one; a rational number; an input by number."""
+"""Operations: x + y, x y, x / y of two places, the n-th root of one, a rational number, an input."""
 
 
 @dataclass(frozen=True)

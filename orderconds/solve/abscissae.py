@@ -128,21 +128,19 @@ def symmetric_transport(
         share = [f"b{j + 1}*(1 - m{j + 1})"]
         for i, k in enumerate(leave):
             for J, line in enumerate(update):
-                times = (J < k) + (J < len(update) - k)
+                times = (k > J) + (len(update) - k > J)
                 if times and line[j] != "0":
                     share.append(f"{'2*' if times == 2 else ''}b{i + 1}*{line[j]}")
         if middle:
             number = half + 1
-            for J, line in enumerate(update[: len(update) // 2]):
+            for line in update[: len(update) // 2]:
                 share.append(f"b{number}*{line[j]}")
             if len(update) % 2:
                 share.append(f"1/2*b{number}*{update[len(update) // 2][j]}")
             if middle[j] != "0":
                 share.append(f"b{number}*{middle[j]}")
         cells[f"C{j + 1}"] = " - ".join(share)
-    rest = [
-        f"m{i + 1} - ({' + '.join(totals[:k]) or '0'})" for i, k in enumerate(leave)
-    ]
+    rest = [f"m{i + 1} - ({' + '.join(totals[:k]) or '0'})" for i, k in enumerate(leave)]
     for i, line in enumerate(own[:-1]):
         cells[line[-1]] = " - ".join([rest[i], *line[:-1]])
     last, weight = own[-1], f"b{half}"

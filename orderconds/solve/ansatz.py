@@ -115,7 +115,7 @@ def structures(family: str, wishes: Wishes) -> tuple[str, ...]:
     """
     name = families.get(family).name
     if name == "vcf" and wishes.symmetric:
-        return ("symmetric abscissae", "symmetric")
+        return ("symmetric gauss", "symmetric abscissae", "symmetric")
     if name in ("vcg", "vcf") and not wishes.explicit:
         return ("abscissae", "full")
     return ("symmetric",) if name == "cf" and wishes.symmetric else ("full",)

@@ -21,7 +21,7 @@ from orderconds.ring.roots import isolating, real_roots
 MAX_DEGREE = 6
 """Degree of the fields that are recognised."""
 
-MAX_TEXT = 120
+MAX_TEXT = 160
 """A closed form longer than this is none."""
 
 
@@ -33,10 +33,13 @@ class Spelling:
     root: tuple[str, ...] = ()
 
 
-def spellings(numbers: Mapping[str, arb], bits: int) -> dict[str, Spelling] | None:
+def spellings(
+    numbers: Mapping[str, arb], bits: int, radicals: Mapping[str, arb] | None = None
+) -> dict[str, Spelling] | None:
     """Return all of the numbers as elements of one field of degree at most :data:`MAX_DEGREE`, or None.
 
-    ``bits`` is the precision to which the numbers are known.
+    ``bits`` is the precision to which the numbers are known. Square roots that are expected, by their
+    spelling, may extend the field of the number of least degree.
 
     >>> with precision(400):
     ...     root = arb(3).sqrt()
@@ -51,6 +54,10 @@ def spellings(numbers: Mapping[str, arb], bits: int) -> dict[str, Spelling] | No
             if found is None:
                 return None
             polynomials[name] = found
+        if radicals:
+            found = _extended(numbers, polynomials, radicals, bits)
+            if found is not None:
+                return found
         degree = max((p.degree() for p in polynomials.values()), default=1)
         if degree == 1:
             return {name: Spelling(str(_root_of_linear(p))) for name, p in polynomials.items()}
@@ -59,13 +66,43 @@ def spellings(numbers: Mapping[str, arb], bits: int) -> dict[str, Spelling] | No
             base, called, root = _square_root(polynomials[first])
         else:
             base, called, root = _named(numbers[first], polynomials[first])
-        result = {}
-        for name, x in numbers.items():
-            spelled = combination(x, base, degree, bits)
-            if spelled is None or len(text := _spelled(spelled, called)) > MAX_TEXT:
-                return None
-            result[name] = Spelling(text, root)
-        return result
+        powers = {_power(called, k): base**k for k in range(degree)}
+        return _all_spelled(numbers, powers, root, bits)
+
+
+def _extended(
+    numbers: Mapping[str, arb], polynomials: Mapping[str, fmpz_poly], radicals: Mapping[str, arb], bits: int
+) -> dict[str, Spelling] | None:
+    """Return the numbers in the field of one of them, the simplest, and of the given square roots."""
+    roots = {"": arb(1), **radicals}
+    inside = [name for name, x in numbers.items() if combination(x, list(roots.values()), bits) is None]
+    if not inside:
+        return _all_spelled(numbers, roots, (), bits)
+    first = min(inside, key=lambda name: polynomials[name].degree())
+    degree = polynomials[first].degree()
+    base, called, root = _named(numbers[first], polynomials[first])
+    basis = {
+        "*".join(filter(None, (radical, _power(called, k)))): y * base**k
+        for radical, y in roots.items()
+        for k in range(degree)
+    }
+    return _all_spelled(numbers, basis, root, bits) if len(basis) <= 2 * MAX_DEGREE else None
+
+
+def _all_spelled(
+    numbers: Mapping[str, arb], basis: Mapping[str, arb], root: tuple[str, ...], bits: int
+) -> dict[str, Spelling] | None:
+    result = {}
+    for name, x in numbers.items():
+        coefficients = combination(x, list(basis.values()), bits)
+        if coefficients is None or len(text := _spelled(coefficients, list(basis))) > MAX_TEXT:
+            return None
+        result[name] = Spelling(text, root)
+    return result
+
+
+def _power(base: str, k: int) -> str:
+    return "" if k == 0 else base if k == 1 else f"{base}^{k}"
 
 
 def minimal_polynomial(x: arb, bits: int) -> fmpz_poly | None:
@@ -84,14 +121,14 @@ def minimal_polynomial(x: arb, bits: int) -> fmpz_poly | None:
     return None
 
 
-def combination(x: arb, base: arb, degree: int, bits: int) -> list[Fraction] | None:
-    """Return rationals c_k with x = sum_k c_k base^k, k < degree, or None.
+def combination(x: arb, basis: Sequence[arb], bits: int) -> list[Fraction] | None:
+    """Return rationals c_k with x = sum_k c_k basis_k, or None.
 
     >>> with precision(300):
-    ...     [str(c) for c in combination((1 - arb(5).sqrt()) / 2, arb(5).sqrt(), 2, 300)]
+    ...     [str(c) for c in combination((1 - arb(5).sqrt()) / 2, [arb(1), arb(5).sqrt()], 300)]
     ['1/2', '-1/2']
     """
-    relation = _relation([x, *(base**k for k in range(degree))], bits)
+    relation = _relation([x, *basis], bits)
     if relation is None or not relation[0]:
         return None
     return [Fraction(-int(c), int(relation[0])) for c in relation[1:]]
@@ -139,12 +176,11 @@ def _named(x: arb, p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
     return x, "r", ("[numbers.r]", f"minpoly = [{coefficients}]", f'near = "{near}"')
 
 
-def _spelled(coefficients: Sequence[Fraction], base: str) -> str:
+def _spelled(coefficients: Sequence[Fraction], factors: Sequence[str]) -> str:
     text = ""
-    for power, c in enumerate(coefficients):
+    for factor, c in zip(factors, coefficients, strict=True):
         if not c:
             continue
-        factor = "" if power == 0 else base if power == 1 else f"{base}^{power}"
         size = str(abs(c)) if not factor else factor if abs(c) == 1 else f"{abs(c)}*{factor}"
         text += ((" - " if c < 0 else " + ") if text else ("-" if c < 0 else "")) + size
     return text or "0"

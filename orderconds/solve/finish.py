@@ -31,6 +31,8 @@ from orderconds.solve.problem import Problem
 from orderconds.solve.search import CHEAP, POLISHED
 from orderconds.solve.tape import Floats
 from orderconds.tableau import Tableau, dumps
+from orderconds.tableau.grammar import Constant
+from orderconds.tableau.indeterminates import radicals
 from orderconds.tableau.properties import properties
 from orderconds.tableau.record import Claims, OrderClaim
 from orderconds.tableau.toml_text import toml_text
@@ -86,7 +88,7 @@ def finish(
     ansatz = renamed(problem.ansatz, name)
     spelled: dict[str, Spelling] | None = None
     if not minimised or not pinned:
-        spelled = spellings({problem.ansatz.free[j]: sharp[j] for j in solved}, BITS)
+        spelled = spellings({problem.ansatz.free[j]: sharp[j] for j in solved}, BITS, _square_roots(problem))
     exact = {problem.ansatz.free[j]: str(x) for j, x in pinned.items()}
     if spelled is not None:
         found = _exact(problem, ansatz.text({**exact, **_texts(spelled)}, foot=_roots(spelled)), source)
@@ -212,6 +214,18 @@ def _newton(
     return values
 
 
+def _square_roots(problem: Problem) -> dict[str, arb]:
+    """Return the square roots of rationals that the ansatz is spelled with."""
+    roots = {}
+    with precision(BITS):
+        for radical in radicals(problem.ansatz.spelled()):
+            inside = radical.base
+            if isinstance(inside, Constant) and abs(radical.exponent) == Fraction(1, 2):
+                p, q = inside.value.as_integer_ratio()
+                roots[f"sqrt({inside.value})"] = (arb(p) / q).sqrt()
+    return roots
+
+
 def _texts(spelled: dict[str, Spelling]) -> dict[str, str]:
     return {name: x.text for name, x in spelled.items()}
 
@@ -283,7 +297,10 @@ def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Found:
     wanted = ("explicit", "diagonally_implicit", "symmetric", "fsal", "symplectic")
     held = {key: True for key, value in properties(tableau).items() if value is True and key in wanted}
     claimed = replace(tableau, claims=Claims(tuple(claims), held))
-    written = toml_text(written_out(claimed)) if exact else dumps(claimed)
+    written = dumps(claimed)
+    if exact:
+        # With names where that is shorter, as it is for numbers with long spellings.
+        written = min(toml_text(written_out(claimed)), written, key=len)
     error = principal_error(claimed, problem.ansatz.family, problem.order + 1)
     return Found(Tableau.loads(written), written, certificate, error)
 

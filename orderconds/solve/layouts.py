@@ -188,9 +188,9 @@ def _gauss(s: int) -> dict[str, str]:
     from orderconds.tableau.collocation import construct
 
     tableau = construct("gauss", s)
-    every, text = range(s), tableau.ring.text
-    weights = {f"w{j + 1}": text(tableau.method.b[j]) for j in every}
-    return weights | {f"g{i + 1}{j + 1}": text(tableau.method.A[i][j]) for i in every for j in every}
+    method, every, text = tableau.abelian(), range(s), tableau.ring.text
+    weights = {f"w{j + 1}": text(method.b[j]) for j in every}
+    return weights | {f"g{i + 1}{j + 1}": text(method.A[i][j]) for i in every for j in every}
 
 
 def _totals(

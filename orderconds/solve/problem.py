@@ -50,8 +50,13 @@ class Problem:
 
     @cached_property
     def conditions(self) -> tuple[OrderCondition, ...]:
-        """Return the conditions up to the order that are independent for the ansatz."""
-        return independent_conditions(self.family, self.ansatz.spelled(), self.order)
+        """Return the conditions up to the order that are independent for the ansatz.
+
+        The order of a symmetric method is even (HLW II.3.2), so that those of an even order follow.
+        """
+        symmetric = self.structure.startswith("symmetric")
+        highest = self.order - 1 if symmetric and self.order % 2 == 0 else self.order
+        return independent_conditions(self.family, self.ansatz.spelled(), highest)
 
     @cached_property
     def tape(self) -> Tape:

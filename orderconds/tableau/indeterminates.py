@@ -56,7 +56,7 @@ def radicals(spelled: Spelled) -> tuple[Power, ...]:
     """Return the different radicals that stand in a file.
 
     >>> from orderconds.tableau import Tableau
-    >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["sqrt(3)"]\\nnumbers = { a = "0.5~*sqrt(3)" }\\n'
+    >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["sqrt(3)"]\\nnumbers.a = "0.5~*sqrt(3)"\\n'
     >>> proof = Tableau.loads(text + '[proof]\\nconditions = "rk"\\norder = 1').proof
     >>> len(radicals(proof.spelled))
     1

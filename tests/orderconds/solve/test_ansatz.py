@@ -14,6 +14,7 @@ from orderconds.ring.laurent import LaurentPolynomials
 from orderconds.solve.ansatz import ansatz
 from orderconds.solve.linear import Elimination, equality
 from orderconds.solve.wishes import Wishes
+from orderconds.tableau import Tableau, find
 from orderconds.tableau.properties import explicit, fsal, symmetric
 
 
@@ -127,3 +128,27 @@ def test_elimination_keeps_every_constraint() -> None:
     x, y, z = map(cell, names)
     assert R.is_zero(x + y + z - 1)
     assert R.is_zero(x - z * 2 - R.rational(1, 2))
+
+
+@pytest.mark.parametrize(("s", "m", "inner"), [(2, 2, 2), (3, 3, 3), (4, 4, 3), (5, 4, 3)])
+def test_symmetric_methods_can_have_the_right_abscissae_as_well(s: int, m: int, inner: int) -> None:
+    wishes = Wishes(s, symmetric=True, exponentials=m, inner=inner)
+    method = member("vcf", wishes, "symmetric abscissae")
+    total, update = method.as_runge_kutta(QQ), method.update.exponentials
+    y = [sum(row) for row in update]
+    for i in range(s):
+        later = sum(row[i] * (y[J] / 2 + sum(y[J + 1 :], fmpq(0))) for J, row in enumerate(update))
+        assert total.c[i] == 1 - later / total.b[i]
+    assert [sum(row) for row in conjugate(total.A, total.b)] == list(total.c)
+
+
+def test_exponents_may_sum_to_the_gauss_tableau() -> None:
+    gauss = Tableau.load(find("gauss2"))
+    found = ansatz("vcf", Wishes(2, symmetric=True), "symmetric gauss")
+    tableau = Tableau.loads(found.text(dict.fromkeys(found.free, "1/7")))
+    total, known = tableau.abelian(), gauss.method
+    text = tableau.ring.text
+    assert [text(x) for x in total.b] == [gauss.ring.text(x) for x in known.b]
+    assert [[text(x) for x in row] for row in total.A] == [
+        [gauss.ring.text(x) for x in row] for row in known.A
+    ]

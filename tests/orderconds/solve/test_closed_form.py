@@ -29,6 +29,16 @@ def test_numbers_of_one_field_are_spelled_by_one_root() -> None:
     assert ring.is_zero(b - 1 - a * a * ring.rational(9, 5) + ring.rational(7, 3))
 
 
+def test_expected_square_roots_shorten_what_is_spelled() -> None:
+    with precision(BITS):
+        q, r = arb(2).root(3), arb(15).sqrt()
+        found = spellings({"x": 1 + q, "y": r * q * q / 7 - q, "z": r / 2}, BITS, {"sqrt(15)": r})
+    assert found is not None
+    assert found["z"].text == "1/2*sqrt(15)"
+    assert found["x"].text == "r"
+    assert "1/7*sqrt(15)*r^2" in found["y"].text
+
+
 def test_a_number_of_another_field_is_not_forced_into_one() -> None:
     with precision(BITS):
         assert spellings({"x": arb(2).sqrt(), "y": arb(3).sqrt()}, BITS) is None
