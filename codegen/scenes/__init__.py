@@ -92,6 +92,7 @@ def about(name: str) -> str:
 
     ``name`` is one that :func:`load` takes; a file without a docstring gives ''.
     """
+    name = name.removesuffix(EXTENDED)
     spec = find_spec(f"codegen.scenes.{name}") if name in GALLERY else None
     path = Path(spec.origin) if spec is not None and spec.origin else Path(name)
     return ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""

@@ -20,6 +20,7 @@ from codegen.lab.reference import reference
 from codegen.lab.runner import Emitted
 from codegen.load import load
 from codegen.scene import HamiltonianScene
+from codegen.scenes import about
 from codegen.scenes import load as scene
 from orderconds.errors import UnknownName
 
@@ -135,6 +136,10 @@ def test_a_part_without_time_takes_u():
 def test_what_has_no_u_is_refused(name, why):
     with pytest.raises(SceneError, match=why):
         scene(name)
+
+
+def test_an_extended_scene_is_described_as_the_scene_is():
+    assert about("linear_oscillator+u") == about("linear_oscillator") != ""
 
 
 def test_an_unknown_scene_is_named_without_the_request():
