@@ -82,6 +82,13 @@ def _environment() -> Environment:
     return environment
 
 
+def agreement(spread: float | None) -> str:
+    """Say how far the executors are apart."""
+    if spread is None:
+        return "no run"
+    return scientific(spread) if spread else "bit for bit"
+
+
 def _section(study: Study) -> dict[str, Any]:
     scene = study.scene
     first, last = scene.span
@@ -109,7 +116,7 @@ def _row(found: MethodStudy) -> dict[str, Any]:
         "c": _observed(found.compiled.observed),
         "python": _observed(found.python.observed),
         "verdict": found.verdict,
-        "spread": scientific(found.spread) if found.spread else "bit for bit",
+        "spread": agreement(found.spread),
         "ns": f"{found.times[-1].ns_per_step:.0f}" if found.times else "–",
     }
 

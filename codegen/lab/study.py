@@ -13,7 +13,7 @@ from codegen.lab.converge import Convergence, converge
 from codegen.lab.ladder import FIRST
 from codegen.lab.reference import Reference
 from codegen.lab.remembered import remembered
-from codegen.lab.runner import Emitted, Interpreted
+from codegen.lab.runner import Emitted, Interpreted, Runner
 from codegen.lab.timing import Timing, timings
 from codegen.lower import families_for
 from codegen.method import Method, parse
@@ -24,7 +24,7 @@ HAMILTONIAN_METHODS = ("vcg:midpoint", "vcg:triple_jump", "cf:cf4", "vcg:triple_
 """What is shown where nobody chose: one method an order, of several families."""
 
 COMPARED = 4 * FIRST
-"""Steps of the run in which the executors are compared."""
+"""Steps of the run in which the executors are compared; more where that many are too few to be run."""
 
 MOST_TIMED = 2560
 """Steps of the longest run that is timed."""
@@ -37,7 +37,7 @@ class MethodStudy:
     """One method: its order, its ladders in emitted C and Python, times of the C, and the emission.
 
     ``spread`` is the largest difference of any coordinate between emitted C, emitted Python and the
-    interpreter after :data:`COMPARED` steps.
+    interpreter after :data:`COMPARED` steps, or as many as the ladder needs; None where nothing ran.
     """
 
     method: Method
@@ -45,7 +45,7 @@ class MethodStudy:
     compiled: Convergence
     python: Convergence
     times: tuple[Timing, ...]
-    spread: float
+    spread: float | None
     emission: Emission
 
     @property
@@ -100,8 +100,16 @@ def _study(scene: Setting, method: Method, exact: Reference, tell: Tell) -> Meth
     tell(f"{name}: convergence")
     ladder = converge(c, order, exact, to_rounding=True)
     observed = converge(python, order, exact)
-    ends = [runner.final(COMPARED) for runner in (c, python, Interpreted(compiled))]
-    spread = max(abs(x - y) for other in ends[1:] for x, y in zip(ends[0], other, strict=True))
-    tell(f"{name}: times")
     steps = [r.steps for r in ladder.ladder.clean if r.steps <= MOST_TIMED]
+    spread = _spread((c, python, Interpreted(compiled)), steps)
+    tell(f"{name}: times")
     return MethodStudy(method, order, ladder, observed, timings(c.final, steps), spread, c.emission)
+
+
+def _spread(runners: Sequence[Runner], steps: Sequence[int]) -> float | None:
+    """Return how far the runners' ends are apart after the first of ``steps`` from COMPARED on."""
+    chosen = next((n for n in steps if n >= COMPARED), None)
+    if chosen is None:
+        return None
+    first, *others = (runner.final(chosen) for runner in runners)
+    return max(float(abs(x - y)) for other in others for x, y in zip(first, other, strict=True))
