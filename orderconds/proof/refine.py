@@ -74,12 +74,16 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
 def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
     """Return the unknowns that elimination with complete pivoting solves for, in rising order.
 
+    Each row is taken in units of its largest entry.
+
     Raises :class:`~orderconds.proof.krawczyk.NotProved` where the rows are dependent to working precision.
 
     >>> determined([[arb(0), arb(2), arb(1)]])
     [1]
     """
     rows = [[x.mid() for x in row] for row in jacobian]
+    units = [max(row, key=lambda x: float(abs(x))) for row in rows]
+    rows = [[x / unit if unit else x for x in row] for row, unit in zip(rows, units, strict=True)]
     chosen: list[int] = []
     while rows:
         entries = (

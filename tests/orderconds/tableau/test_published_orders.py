@@ -45,7 +45,7 @@ PUBLISHED = {
         2: "magnus2",
         4: "magnus4 fer4 cf_magnus4",
         6: "magnus6 fer6 cf_magnus6",
-        8: "magnus8",
+        8: "magnus8 cf_magnus8 cf_magnus8_11",
     },
     "cayley": {2: "cayley2", 4: "cayley4", 6: "cayley6"},
     "sprk_separable": {
