@@ -19,7 +19,8 @@ class Cotangent(LieGroup):
     def __init__(self, base: Any) -> None:
         self.base = base
         self.name = f"T*({base.name})" if " x " in base.name else f"T*{base.name}"
-        self.layout = f": {base.name}{base.layout}; the right-trivialised momentum"
+        ordered = base.layout if base.layout.startswith(":") else f": {base.name}{base.layout}"
+        self.layout = f"{ordered}; the right-trivialised momentum"
         self.dim, self.size = 2 * base.dim, base.size + base.dim
         self.abelian = base.abelian
 

@@ -1,0 +1,32 @@
+/* Duffing's equation, SL(2) acting linearly (thesis section 2.2): one step by cf:cf4: functions and status codes. duffing_sl2_cf4.c tells how to use them. */
+#ifndef DUFFING_SL2_CF4_H
+#define DUFFING_SL2_CF4_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+    DUFFING_SL2_CF4_OK = 0, /* the step was made */
+    DUFFING_SL2_CF4_NOT_FINITE = 2, /* the new state would hold an infinity or a NaN */
+    DUFFING_SL2_CF4_BAD_STEP = 3 /* h is infinite or a NaN */
+};
+
+/* Make one step of size h. When the status is not DUFFING_SL2_CF4_OK, the state is as it was. */
+int duffing_sl2_cf4_step(double state[2], double h);
+
+/*
+ * Make steps of size h until all are made or one fails; the state is then the last good one and
+ * *completed how many were made. A trajectory receives the initial state and every stride-th one after
+ * it: steps/stride + 1 rows of 2. trajectory and completed may be NULL.
+ */
+int duffing_sl2_cf4_run(double state[2], double h, size_t steps, double *trajectory,
+    size_t stride, size_t *completed);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

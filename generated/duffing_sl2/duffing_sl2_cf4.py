@@ -1,0 +1,204 @@
+"""Duffing's equation, SL(2) acting linearly (thesis section 2.2): one step by cf:cf4
+
+method:     family cf, tableau cf4
+source:     Celledoni, Marthinsen and Owren 2003; H. Marthinsen, thesis, Section
+            2.2.1
+order:      4, certificate: exact (every order condition up to it is zero in exact
+            arithmetic)
+scene:      Duffing's equation, SL(2) acting linearly (thesis section 2.2), group
+            SL(2)
+state:      [0..1] y: point that SL(2) acts on by linear maps
+left out:   1 field (sharing)
+            5 act (fusion)
+            5 exp (dead code)
+            the time: the scene does not depend on it
+            equation solving: every stage is explicit here
+operations: 23 add, 48 mul, 5 signed_stumpff0, 5 signed_stumpff1 a step
+made by:    orderconds emit duffing_sl2 --method cf4 --target python -o .
+version:    orderconds 0.1.0
+
+Use:
+
+    import duffing_sl2_cf4
+
+    state = [0.75, 0.75]
+    print(duffing_sl2_cf4.run(state, 0.02, 100))
+"""
+
+from math import cos, cosh, isfinite, sin, sinh, sqrt
+
+OK = 0
+NOT_FINITE = 2
+BAD_STEP = 3
+
+
+class StepFailed(ArithmeticError):
+    """A step that could not be made.
+
+    status: NOT_FINITE or BAD_STEP; step: how many steps were made before it;
+    state: the last good state, as a tuple.
+    """
+
+    def __init__(self, status, reason):
+        super().__init__(reason)
+        self.status, self.reason, self.step, self.state = status, reason, 0, ()
+
+    def __str__(self):
+        return f"step {self.step + 1}: {self.reason}"
+
+
+def _stumpff_series_1(z):
+    """Return c_1(z) = sum (-z)^j/(2j+1)! for small z."""
+    w = z * z
+    w2 = w * w
+    if z <= 0.0625:
+        return (
+            (1.0 + z * -0.16666666666666666)
+            + w * (0.008333333333333333 + z * -0.0001984126984126984)
+            + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08)
+        )
+    even = -2.505210838544172e-08 + w * -7.647163731819816e-13
+    even = -0.16666666666666666 + w * -0.0001984126984126984 + w2 * even
+    odd = 1.6059043836821613e-10 + w * 2.8114572543455206e-15
+    odd = 0.008333333333333333 + w * 2.7557319223985893e-06 + w2 * odd
+    return 1.0 + z * (even + z * odd)
+
+
+def _stumpff_series_0(z):
+    """Return c_0(z) = sum (-z)^j/(2j+0)! for small z."""
+    w = z * z
+    w2 = w * w
+    if z <= 0.0625:
+        return (
+            (1.0 + z * -0.5)
+            + w * (0.041666666666666664 + z * -0.001388888888888889)
+            + w2 * (2.48015873015873e-05 + z * -2.755731922398589e-07)
+            + w * w2 * (2.08767569878681e-09)
+        )
+    even = -1.5619206968586225e-16
+    even = -2.755731922398589e-07 + w * -1.1470745597729725e-11 + w2 * even
+    even = -0.5 + w * -0.001388888888888889 + w2 * even
+    odd = 2.08767569878681e-09 + w * 4.779477332387385e-14
+    odd = 0.041666666666666664 + w * 2.48015873015873e-05 + w2 * odd
+    return 1.0 + z * (even + z * odd)
+
+
+def _stumpff_1(z):
+    """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s."""
+    if z <= 1.0:
+        return _stumpff_series_1(z)
+    s = sqrt(z)
+    return sin(s) / s
+
+
+def _stumpff_0(z):
+    """Return, for z >= 0 and s = sqrt(z): c_0 = cos(s)."""
+    if z <= 1.0:
+        return _stumpff_series_0(z)
+    s = sqrt(z)
+    return cos(s)
+
+
+def signed_stumpff1(z):
+    """Return c_1 for z of either sign: sin(s)/s, s = sqrt(z), or sinh(r)/r, r = sqrt(-z)."""
+    if z >= 0.0:
+        return _stumpff_1(z)
+    r = sqrt(-z)
+    return sinh(r) / r
+
+
+def signed_stumpff0(z):
+    """Return c_0 for z of either sign: cos(s), s = sqrt(z), or cosh(r), r = sqrt(-z)."""
+    if z >= 0.0:
+        return _stumpff_0(z)
+    r = sqrt(-z)
+    return cosh(r)
+
+
+def _advance(state, h):
+    """Return the state after one step as a tuple."""
+    z0, z1 = state
+    w1 = 0.25 * h
+    w2 = 0.3333333333333333 * h
+    w3 = -0.08333333333333333 * h
+    x_0 = w1 + w2 + w3
+    k0_1 = -1.0 - z0 * z0
+    x2_0 = 0.5 * h
+    x2_1 = k0_1 * x2_0
+    w4 = -x2_0 * x2_1
+    w5 = signed_stumpff0(w4)
+    w6 = signed_stumpff1(w4)
+    Y2_0 = z0 * w5 + x2_0 * w6 * z1
+    f2_1 = -1.0 - Y2_0 * Y2_0
+    w7 = -x2_0 * f2_1 * x2_0
+    p_1 = z0 * signed_stumpff0(w7) + x2_0 * signed_stumpff1(w7) * z1
+    f3_1 = -1.0 - p_1 * p_1
+    w8 = 0.16666666666666666 * h * (f2_1 + f3_1)
+    w9 = -0.5 * h
+    x4_0 = h + w9
+    w10 = -x4_0 * (k0_1 * w9 + h * f3_1)
+    Y4_0 = (
+        Y2_0 * signed_stumpff0(w10)
+        + (x2_1 * w6 * z0 + z1 * w5) * (x4_0 * signed_stumpff1(w10))
+    )
+    f4_1 = -1.0 - Y4_0 * Y4_0
+    x_1 = w8 + w1 * k0_1 + w3 * f4_1
+    w11 = -x_0 * x_1
+    w12 = signed_stumpff0(w11)
+    w13 = signed_stumpff1(w11)
+    Y_0 = z0 * w12 + x_0 * w13 * z1
+    x_2_0 = w2 + w3 + w1
+    x_2_1 = w8 + w3 * k0_1 + w1 * f4_1
+    w14 = -x_2_0 * x_2_1
+    w15 = signed_stumpff0(w14)
+    Y_1 = x_1 * w13 * z0 + z1 * w12
+    w16 = signed_stumpff1(w14)
+    new_z0 = Y_0 * w15 + x_2_0 * w16 * Y_1
+    new_z1 = x_2_1 * w16 * Y_0 + w15 * Y_1
+    return new_z0, new_z1
+
+
+def _checked(state, h):
+    """Return the state after one step, which is finite."""
+    try:
+        new = _advance(state, h)
+    except StepFailed:
+        raise
+    except (ArithmeticError, ValueError) as error:
+        raise StepFailed(NOT_FINITE, f"the new state is not finite ({error})") from None
+    if not all(map(isfinite, new)):
+        raise StepFailed(NOT_FINITE, "the new state is not finite")
+    return new
+
+
+def step(state, h):
+    """Return the state after one step of size h as a list; state itself is left alone.
+
+    A step that cannot be made raises StepFailed.
+    """
+    return run(state, h, 1)
+
+
+def run(state, h, steps, *, stride=0):
+    """Return the state after that many steps of size h, as a list.
+
+    With a positive stride, return rows instead: the initial state and every stride-th one
+    after it. A step that cannot be made raises StepFailed, which holds the last good state.
+    """
+    state = tuple(map(float, state))
+    h = float(h)
+    if len(state) != 2:
+        raise ValueError(f"expected 2 numbers in state, found {len(state)}")
+    rows = [list(state)]
+    made = 0
+    try:
+        if steps > 0 and not isfinite(h):
+            raise StepFailed(BAD_STEP, f"the step size h = {h} is not finite")
+        for made in range(steps):
+            state = _checked(state, h)
+            if stride > 0 and (made + 1) % stride == 0:
+                rows.append(list(state))
+    except StepFailed as failure:
+        failure.step, failure.state = made, state
+        raise
+    return rows if stride > 0 else list(state)

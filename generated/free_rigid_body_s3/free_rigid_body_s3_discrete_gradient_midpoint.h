@@ -1,0 +1,43 @@
+/* Free rigid body with attitude, S^3 (thesis section 2.6): one step by discrete_gradient:midpoint: functions and status codes. free_rigid_body_s3_discrete_gradient_midpoint.c tells how to use them. */
+#ifndef FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_H
+#define FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+    FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK = 0, /* the step was made */
+    FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_CONVERGED = 1, /* an implicit block did not settle */
+    FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE = 2, /* the new state would hold an infinity or a NaN */
+    FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_BAD_STEP = 3 /* h is infinite or a NaN */
+};
+
+/* Fixed-point sweeps, added up over all steps since the caller set everything to zero. */
+typedef struct {
+    size_t sweeps[1]; /* by block: the equations of xi */
+    size_t most; /* the most that one block took in one step */
+    size_t failed; /* 1 + the block that failed, 0 if none has */
+} free_rigid_body_s3_discrete_gradient_midpoint_statistics;
+
+/* Make one step of size h. When the status is not FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK, the state is as it was. */
+int free_rigid_body_s3_discrete_gradient_midpoint_step(double state[4], double h,
+    free_rigid_body_s3_discrete_gradient_midpoint_statistics *statistics);
+
+/*
+ * Make steps of size h until all are made or one fails; the state is then the last good one and
+ * *completed how many were made. A trajectory receives the initial state and every stride-th one after
+ * it: steps/stride + 1 rows of 4. statistics, trajectory and completed may be NULL.
+ */
+int free_rigid_body_s3_discrete_gradient_midpoint_run(double state[4], double h,
+    size_t steps, double *trajectory, size_t stride,
+    free_rigid_body_s3_discrete_gradient_midpoint_statistics *statistics,
+    size_t *completed);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,42 @@
+/* Heavy top as printed, T*SO(3) (thesis section 2.5): one step by slgi:midpoint: functions and status codes. heavy_top_slgi_midpoint.c tells how to use them. */
+#ifndef HEAVY_TOP_SLGI_MIDPOINT_H
+#define HEAVY_TOP_SLGI_MIDPOINT_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+    HEAVY_TOP_SLGI_MIDPOINT_OK = 0, /* the step was made */
+    HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED = 1, /* an implicit block did not settle */
+    HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE = 2, /* the new state would hold an infinity or a NaN */
+    HEAVY_TOP_SLGI_MIDPOINT_BAD_STEP = 3 /* h is infinite or a NaN */
+};
+
+/* Fixed-point sweeps, added up over all steps since the caller set everything to zero. */
+typedef struct {
+    size_t sweeps[1]; /* by block: the equations of xi1, n1 */
+    size_t most; /* the most that one block took in one step */
+    size_t failed; /* 1 + the block that failed, 0 if none has */
+} heavy_top_slgi_midpoint_statistics;
+
+/* Make one step of size h. When the status is not HEAVY_TOP_SLGI_MIDPOINT_OK, the state is as it was. */
+int heavy_top_slgi_midpoint_step(double state[12], double h,
+    heavy_top_slgi_midpoint_statistics *statistics);
+
+/*
+ * Make steps of size h until all are made or one fails; the state is then the last good one and
+ * *completed how many were made. A trajectory receives the initial state and every stride-th one after
+ * it: steps/stride + 1 rows of 12. statistics, trajectory and completed may be NULL.
+ */
+int heavy_top_slgi_midpoint_run(double state[12], double h, size_t steps,
+    double *trajectory, size_t stride, heavy_top_slgi_midpoint_statistics *statistics,
+    size_t *completed);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
