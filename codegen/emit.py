@@ -65,13 +65,17 @@ class Compiled:
 
 
 def compile_method(
-    scene: Setting | str, method: Method | str, parameters: Sequence[str] = (), inputs: Sequence[str] = ()
+    scene: Setting | str,
+    method: Method | str,
+    parameters: Sequence[str] = (),
+    inputs: Sequence[str] = (),
+    frame: str = "space",
 ) -> Compiled:
     """Return a method on a scene (or their names) lowered, optimised and made a kernel.
 
     ``parameters`` stay run-time arguments, or are folded at the value given (``alpha=1/2``); all others are
-    folded at the scene's values; ``inputs`` are signals to be taken at run time. SceneError,
-    MethodError, UnknownName or TableauError for what cannot be read or does not fit.
+    folded at the scene's values; ``inputs`` are signals to be taken at run time, ``frame`` that of
+    momenta (:meth:`codegen.scene.Setting.with_frame`). SceneError, MethodError, UnknownName or TableauError for what cannot be read or does not fit.
     """
     if isinstance(scene, str):
         scene = scenes.load(scene)
@@ -79,6 +83,7 @@ def compile_method(
         scene = scene.with_runtime(tuple(parameters))
     if inputs:
         scene = scene.with_inputs(tuple(inputs))
+    scene = scene.with_frame(frame)
     if isinstance(method, str):
         method = parse(method, families_for(scene))
     view = setting(scene, method)
@@ -109,19 +114,21 @@ def emit(
     parameters: Sequence[str] = (),
     precision: str = DOUBLE.name,
     inputs: Sequence[str] = (),
+    frame: str = "space",
 ) -> Emission:
     """Return the integrator of a method on a scene as a module of a target.
 
     ``scene`` is a name of the gallery, the path of a Python file, or a setting; ``method`` is spelled
     ``FAMILY:TABLEAU`` or ``TABLEAU``; ``prefix`` starts every external name, by default scene and method;
-    ``precision`` is ``double`` or ``single``; ``inputs`` are signals of the scene that are taken at run time.
+    ``precision`` is ``double`` or ``single``; ``inputs`` are signals of the scene that are taken at run time,
+    ``frame`` is that of momenta, ``space`` or ``body``.
     Errors as :func:`compile_method`, UnknownName for a target, InputError for a prefix that C cannot take.
     """
     printer_of(target)
     known_precision(precision)
     named = {"scene": bare(scene) if isinstance(scene, str) else scene.name}
     named["method"] = bare(method) if isinstance(method, str) else method.label
-    made = compile_method(scene, method, parameters, inputs)
+    made = compile_method(scene, method, parameters, inputs, frame)
     return emit_compiled(made, target, prefix, named, precision=precision)
 
 
@@ -141,10 +148,14 @@ def emit_compiled(
     """
     scene, method = compiled.scene, compiled.method
     named = named or {"scene": scene.name, "method": method.label}
+    body = scene.body is not None
     single = known_precision(precision) is not DOUBLE
-    chosen = prefix_of(prefix) if prefix else default_prefix(scene, method) + "single_" * single
+    chosen = (
+        prefix_of(prefix) if prefix else default_prefix(scene, method) + "body_" * body + "single_" * single
+    )
     order = order or certified_order(method, scene)
     options = [f"--prefix {chosen}"] if prefix else []
+    options += ["--frame body"] if body else []
     options += [f"--precision {precision}"] if single else []
     options += [f"--parameter {p}" for p in scene.runtime]
     options += [f"--parameter {p}={value}" for p, value in scene.fixed if p not in scene.runtime]
@@ -162,7 +173,7 @@ def emit_compiled(
             *((("flows", flows_of(compiled.view)),) if compiled.view.flows else ()),
             *((("precision", SINGLE_IS),) if single else ()),
         ),
-        initial=tuple(float(x) for x in scene.initial(FloatDomain(0.0))),
+        initial=start_of(scene),
         h=float((last - first) / STEPS),
         steps=STEPS,
         defaults={p: float(scene.parameters[p]) for p in scene.runtime},
@@ -212,6 +223,16 @@ def emit_kernel(
         "version": recipe.version,
     }
     return Emission(files, manifest)
+
+
+def start_of(scene: Setting) -> tuple[float, ...]:
+    """Return the initial state as emitted code takes it."""
+    domain = FloatDomain(0.0)
+    state = tuple(float(x) for x in scene.initial(domain))
+    if scene.body is None:
+        return state
+    q, mu = state[: scene.body.size], state[scene.body.size :]
+    return (*q, *scene.body.Adt(domain, q, mu))
 
 
 def left_out(compiled: Compiled) -> tuple[str, ...]:

@@ -28,6 +28,7 @@ from codegen.ir.expr import Expr, Space, evaluate, walk
 from codegen.ir.from_sympy import read
 from codegen.ir.number import Number
 from codegen.ir.program import CUT_OFF, Factor, Kind
+from orderconds.errors import UnknownName
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 RESERVED = {
@@ -39,6 +40,8 @@ RESERVED = {
 GROUP_OPERATIONS = frozenset({"identity", "exp", "mul", "Ad", "Adinv", "Adt", "Adtinv", "ad", "adt", "dexpt"})
 BODY = frozenset({"velocity", "velocityt", "force", "forcet", "legendre"})
 TIME = "t"
+FRAMES = ("space", "body")
+"""Where momenta of emitted code are taken: right- or left-trivialised."""
 
 
 def param(name: str, default: Any) -> Any:
@@ -96,8 +99,8 @@ class Setting:
     state's symbols, the parameters and ``t``; ``parts`` are named summands of the Hamiltonian, and ``flows``
     the exact flows that a splitting composes. ``open_roots`` are the roots with
     the symbols of ``signals`` where ``roots`` have their formulas, and ``inputs`` those signals that emitted
-    code takes at run time; ``forced`` says that n is not a derivative of the Hamiltonian alone. Values are
-    flat tuples of scalars of a domain.
+    code takes at run time; ``forced`` says that n is not a derivative of the Hamiltonian alone; ``body`` is the
+    group where emitted code takes and returns momenta of the body. Values are flat tuples of scalars of a domain.
     """
 
     name: str
@@ -117,6 +120,7 @@ class Setting:
     open_roots: tuple[Expr, ...] = ()
     inputs: tuple[str, ...] = ()
     forced: bool = False
+    body: Any = None
     parts: Mapping[str, Expr] = field(default_factory=dict)
     flows: Mapping[str, Flow] = field(default_factory=dict)
 
@@ -177,6 +181,21 @@ class Setting:
                 known = ", ".join(self.signals) or "none: the scene has no signal"
                 raise SceneError(f"unknown signal {name!r}", where=self.name, expected=f"one of: {known}")
         return replace(self, inputs=tuple(dict.fromkeys(names)))
+
+    def with_frame(self, frame: str) -> Setting:
+        """Return this scene with momenta of emitted code in that frame: ``space`` or ``body``.
+
+        The momentum in the body is Ad*_q mu, left-trivialised; programs compute with mu in either case.
+        """
+        if frame not in FRAMES:
+            raise UnknownName(f"unknown frame {frame}", expected=" or ".join(FRAMES))
+        if frame == "body" and (not self.paired or self.group.abelian):
+            raise SceneError(
+                f"{self.name} has no momentum in a body",
+                expected="a Hamiltonian scene on a group that is not abelian",
+                hint="leave --frame out",
+            )
+        return replace(self, body=self.group if frame == "body" else None)
 
     def as_field(self) -> Setting:
         """Return a Hamiltonian scene as the field f = (xi, n) on the group T*G acting on itself."""

@@ -26,6 +26,7 @@ from orderconds.commands.place import FOLDER
     help="A parameter to keep a run-time argument, or NAME=VALUE to fold.",
 )
 @click.option("--input", "inputs", multiple=True, help="A signal of the scene to take at run time.")
+@click.option("--frame", default="space", help="Momenta of the space (the default) or of the body.")
 @click.option("--precision", default="double", help="double (the default) or single.")
 @click.option("--explain", is_flag=True, help="Print the program after each pass, and what was left out.")
 @click.option("--json", "as_json", is_flag=True, help="One record a module on stdout, nothing else.")
@@ -37,6 +38,7 @@ def command(
     prefix: str,
     parameters: tuple[str, ...],
     inputs: tuple[str, ...],
+    frame: str,
     precision: str,
     explain: bool,
     as_json: bool,
@@ -54,7 +56,7 @@ def command(
     for name in targets:
         known_target(name)
     known_precision(precision)
-    compiled = compile_method(scene, method, parameters, inputs)
+    compiled = compile_method(scene, method, parameters, inputs, frame)
     named = {"scene": bare(scene), "method": bare(method)}
     records: list[dict[str, Any]] = []
     if explain and not as_json:

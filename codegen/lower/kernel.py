@@ -71,18 +71,26 @@ def to_kernel(program: Program, scene: Setting) -> Kernel:
             env[target] = value
             remember(target)
 
-    blocks_by_name = {block.name: block for block in scene.state}
+    given = tuple(space.sym(s) for s in scene.symbols)
+    if scene.body is not None:
+        given = _framed(scene, given, lambda q, mu: scene.body.Adtinv(domain, q, mu))
+    starts: dict[str, tuple[Expr, ...]] = {}
+    for block in scene.state:
+        starts[block.name], given = given[: len(block.symbols)], given[len(block.symbols) :]
     for var in program.inputs:
-        block = blocks_by_name.get(var.name)
-        env[var] = tuple(space.sym(s) for s in block.symbols) if block else space.sym(var.name)
+        env[var] = starts[var.name] if var.name in starts else space.sym(var.name)
     for statement in program.body:
         if isinstance(statement, Assign):
             run(statement)
         else:
             blocks.append(_enter(statement, env, domain, name, run))
     outputs = tuple(x for n, var in program.outputs for x in flatten(var.kind, env[var]))
+    if scene.body is not None:
+        outputs = _framed(scene, outputs, lambda q, mu: scene.body.Adt(domain, q, mu))
     schedule = _Schedule(blocks, outputs, hints, name)
     state = tuple(Field(b.name, b.symbols, _meaning(b.kind, scene)) for b in scene.state)
+    if scene.body is not None:
+        state = _body_fields(scene)
     durations = [v.name for v in program.inputs if v.name in (LEAD, ELAPSED)]
     scalars = (TIME, "h", *scene.runtime, *durations)
     body = schedule.run()
@@ -99,6 +107,27 @@ def _sampled(kernel: Kernel, scene: Setting, domain: ExprDomain) -> Kernel:
     ]
     samples = tuple(sample for sample in found if read.intersection(sample.symbols))
     return replace(kernel, inputs=scene.inputs if samples else (), samples=samples)
+
+
+def _framed(
+    scene: Setting, state: tuple[Expr, ...], change: Callable[[Any, Any], tuple[Expr, ...]]
+) -> tuple[Expr, ...]:
+    """Return the coordinates of a state (q, mu) with the momentum changed to that of another frame."""
+    q = state[: scene.body.size]
+    return q + tuple(change(q, state[scene.body.size :]))
+
+
+def _body_fields(scene: Setting) -> tuple[Field, Field]:
+    """Return the fields of a state whose momentum is that of the body."""
+    group, symbols = scene.body, scene.symbols
+    return (
+        Field("q", symbols[: group.size], f"element of {group.name}{group.layout}"),
+        Field(
+            "mu",
+            symbols[group.size :],
+            f"left-trivialised momentum, that of the body, in the dual algebra of {group.name}",
+        ),
+    )
 
 
 def _meaning(kind: Kind, scene: Setting) -> str:
