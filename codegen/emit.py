@@ -75,7 +75,8 @@ def compile_method(
 
     ``parameters`` stay run-time arguments, or are folded at the value given (``alpha=1/2``); all others are
     folded at the scene's values; ``inputs`` are signals to be taken at run time, ``frame`` that of
-    momenta (:meth:`codegen.scene.Setting.with_frame`). SceneError, MethodError, UnknownName or TableauError for what cannot be read or does not fit.
+    momenta (:meth:`codegen.scene.Setting.with_frame`). SceneError, MethodError, UnknownName or TableauError
+    for what cannot be read or does not fit.
     """
     if isinstance(scene, str):
         scene = scenes.load(scene)

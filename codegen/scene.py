@@ -99,8 +99,9 @@ class Setting:
     state's symbols, the parameters and ``t``; ``parts`` are named summands of the Hamiltonian, and ``flows``
     the exact flows that a splitting composes. ``open_roots`` are the roots with
     the symbols of ``signals`` where ``roots`` have their formulas, and ``inputs`` those signals that emitted
-    code takes at run time; ``forced`` says that n is not a derivative of the Hamiltonian alone; ``body`` is the
-    group where emitted code takes and returns momenta of the body. Values are flat tuples of scalars of a domain.
+    code takes at run time; ``forced`` says that n is not a derivative of the Hamiltonian alone; ``body`` is
+    the group where emitted code takes and returns momenta of the body. Values are flat tuples of scalars of
+    a domain.
     """
 
     name: str
