@@ -149,7 +149,7 @@ def emit_compiled(
     """
     scene, method = compiled.scene, compiled.method
     named = named or {"scene": scene.name, "method": method.label}
-    body = scene.body is not None
+    body = scene.body_group is not None
     single = known_precision(precision) is not DOUBLE
     chosen = (
         prefix_of(prefix) if prefix else default_prefix(scene, method) + "body_" * body + "single_" * single
@@ -230,10 +230,10 @@ def start_of(scene: Setting) -> tuple[float, ...]:
     """Return the initial state as emitted code takes it."""
     domain = FloatDomain(0.0)
     state = tuple(float(x) for x in scene.initial(domain))
-    if scene.body is None:
+    if scene.body_group is None:
         return state
-    q, mu = state[: scene.body.size], state[scene.body.size :]
-    return (*q, *scene.body.Adt(domain, q, mu))
+    q, mu = state[: scene.body_group.size], state[scene.body_group.size :]
+    return (*q, *scene.body_group.Adt(domain, q, mu))
 
 
 def left_out(compiled: Compiled) -> tuple[str, ...]:

@@ -97,11 +97,10 @@ class Setting:
 
     ``roots`` are the components of f (field scenes) or of xi and n (Hamiltonian scenes) as expressions in the
     state's symbols, the parameters and ``t``; ``parts`` are named summands of the Hamiltonian, and ``flows``
-    the exact flows that a splitting composes. ``open_roots`` are the roots with
-    the symbols of ``signals`` where ``roots`` have their formulas, and ``inputs`` those signals that emitted
-    code takes at run time; ``forced`` says that n is not a derivative of the Hamiltonian alone; ``body`` is
-    the group where emitted code takes and returns momenta of the body. Values are flat tuples of scalars of
-    a domain.
+    the exact flows that a splitting composes. ``open_roots`` are the roots with the symbols of ``signals``
+    where ``roots`` have their formulas, and ``inputs`` those signals that emitted code takes at run time;
+    ``forced`` says that n is not a derivative of the Hamiltonian alone; ``body_group`` is the group where
+    emitted code takes and returns momenta of the body. Values are flat tuples of scalars of a domain.
     """
 
     name: str
@@ -121,7 +120,7 @@ class Setting:
     open_roots: tuple[Expr, ...] = ()
     inputs: tuple[str, ...] = ()
     forced: bool = False
-    body: Any = None
+    body_group: Any = None
     parts: Mapping[str, Expr] = field(default_factory=dict)
     flows: Mapping[str, Flow] = field(default_factory=dict)
 
@@ -196,7 +195,7 @@ class Setting:
                 expected="a Hamiltonian scene on a group that is not abelian",
                 hint="leave --frame out",
             )
-        return replace(self, body=self.group if frame == "body" else None)
+        return replace(self, body_group=self.group if frame == "body" else None)
 
     def as_field(self) -> Setting:
         """Return a Hamiltonian scene as the field f = (xi, n) on the group T*G acting on itself."""
@@ -273,9 +272,11 @@ class Setting:
 
     @cached_property
     def body(self) -> BodyFrame | None:
-        """The field in the body frame; None without a Hamiltonian, or on a group that does not offer it."""
-        if not self.paired or self.hamiltonian is None or not hasattr(self.group, "relations"):
+        """The field in the body frame; None where no Hamiltonian gives it all, or the group has none."""
+        closed = not self.inputs and self.hamiltonian is not None
+        if not self.paired or not closed or not hasattr(self.group, "relations"):
             return None
+        assert self.hamiltonian is not None
         q, mu = (block.symbols for block in self.state)
         return body_frame(self.group, q, mu, self.hamiltonian, self.group.relations(q))
 

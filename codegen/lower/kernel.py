@@ -72,8 +72,8 @@ def to_kernel(program: Program, scene: Setting) -> Kernel:
             remember(target)
 
     given = tuple(space.sym(s) for s in scene.symbols)
-    if scene.body is not None:
-        given = _framed(scene, given, lambda q, mu: scene.body.Adtinv(domain, q, mu))
+    if scene.body_group is not None:
+        given = _framed(scene, given, lambda q, mu: scene.body_group.Adtinv(domain, q, mu))
     starts: dict[str, tuple[Expr, ...]] = {}
     for block in scene.state:
         starts[block.name], given = given[: len(block.symbols)], given[len(block.symbols) :]
@@ -85,11 +85,11 @@ def to_kernel(program: Program, scene: Setting) -> Kernel:
         else:
             blocks.append(_enter(statement, env, domain, name, run))
     outputs = tuple(x for n, var in program.outputs for x in flatten(var.kind, env[var]))
-    if scene.body is not None:
-        outputs = _framed(scene, outputs, lambda q, mu: scene.body.Adt(domain, q, mu))
+    if scene.body_group is not None:
+        outputs = _framed(scene, outputs, lambda q, mu: scene.body_group.Adt(domain, q, mu))
     schedule = _Schedule(blocks, outputs, hints, name)
     state = tuple(Field(b.name, b.symbols, _meaning(b.kind, scene)) for b in scene.state)
-    if scene.body is not None:
+    if scene.body_group is not None:
         state = _body_fields(scene)
     durations = [v.name for v in program.inputs if v.name in (LEAD, ELAPSED)]
     scalars = (TIME, "h", *scene.runtime, *durations)
@@ -113,13 +113,13 @@ def _framed(
     scene: Setting, state: tuple[Expr, ...], change: Callable[[Any, Any], tuple[Expr, ...]]
 ) -> tuple[Expr, ...]:
     """Return the coordinates of a state (q, mu) with the momentum changed to that of another frame."""
-    q = state[: scene.body.size]
-    return q + tuple(change(q, state[scene.body.size :]))
+    q = state[: scene.body_group.size]
+    return q + tuple(change(q, state[scene.body_group.size :]))
 
 
 def _body_fields(scene: Setting) -> tuple[Field, Field]:
     """Return the fields of a state whose momentum is that of the body."""
-    group, symbols = scene.body, scene.symbols
+    group, symbols = scene.body_group, scene.symbols
     return (
         Field("q", symbols[: group.size], f"element of {group.name}{group.layout}"),
         Field(
