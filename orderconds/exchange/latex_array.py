@@ -76,7 +76,7 @@ def read(content: bytes, where: str) -> dict[str, Any]:
         return data_of({**found, **_butcher(butcher[1], where)}, where)
     for name, body in _MATRIX.findall(text):
         rows = _rows(body, where)
-        found[name] = rows[0] if name in ROWS else rows
+        found[name] = rows[0] if name in ROWS and rows else rows
     if not found.keys() - set(TEXTS):
         raise TableauError(
             "no tableau", where=where, expected=r"\begin{array}{c|cc} ... or A = \begin{pmatrix} ..."

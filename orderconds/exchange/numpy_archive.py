@@ -6,7 +6,9 @@ An archive without spellings is read by its floats, as decimals of all their dig
 from __future__ import annotations
 
 import io
+import struct
 import zipfile
+import zlib
 from functools import lru_cache
 from typing import Any
 
@@ -15,6 +17,22 @@ from orderconds.exchange.arrays import TEXTS, Arrays, arrays, coefficient, data_
 from orderconds.tableau.file import from_data
 
 EXACT = "_exact"
+LARGEST = 20_000_000
+"""No more bytes are unpacked."""
+UNREADABLE = (
+    EOFError,
+    KeyError,
+    MemoryError,
+    NotImplementedError,
+    OSError,
+    RuntimeError,
+    SyntaxError,
+    ValueError,
+    struct.error,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+"""What zip files and array headers raise that are damaged, encrypted or of another version."""
 INTEGERS = ("count", "start")
 
 
@@ -66,7 +84,12 @@ def nearest(spelled: str, roots: str = "{}") -> float:
     tableau = from_data(data)
     (weight,) = tableau.abelian().b
     ring: Any = tableau.ring
-    return float(ring.nearest_float(weight))
+    try:
+        return float(ring.nearest_float(weight))
+    except OverflowError:
+        raise TableauError(
+            f"{spelled[:40]!r}, beyond the range of doubles", expected="format json, which holds everything"
+        ) from None
 
 
 def read(content: bytes, where: str) -> dict[str, Any]:
@@ -79,8 +102,9 @@ def read(content: bytes, where: str) -> dict[str, Any]:
 
     try:
         with np.load(io.BytesIO(content), allow_pickle=False) as archive:
+            _refuse_bombs(archive.zip, where)
             members = {name: archive[name] for name in archive.files}
-    except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile) as problem:
+    except UNREADABLE as problem:
         raise TableauError(str(problem) or "no archive", where=where, expected="an .npz archive") from None
     found: Arrays = {}
     for name, value in members.items():
@@ -106,6 +130,14 @@ def read(content: bytes, where: str) -> dict[str, Any]:
                 hint="drop one",
             )
     return data_of(found, where)
+
+
+def _refuse_bombs(archive: zipfile.ZipFile, where: str) -> None:
+    size = sum(member.file_size for member in archive.infolist())
+    if size > LARGEST:
+        raise TableauError(
+            f"arrays of {size} bytes", where=where, expected=f"a tableau, of at most {LARGEST} bytes"
+        )
 
 
 def _spelled(value: Any) -> Any:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import random
 import tomllib
 from contextlib import suppress
 from dataclasses import replace
+from datetime import timedelta
 from pathlib import Path
 
 import numpy as np
@@ -186,6 +188,11 @@ class TestForeignFiles:
         data = read_data((tmp_path / "x.npz").read_bytes(), "numpy", "x.npz", name="euler")
         assert from_data(data).method == Tableau.load(find("euler")).method
 
+    def test_an_archive_that_swells_is_refused_unread(self, tmp_path: Path) -> None:
+        np.savez_compressed(tmp_path / "x.npz", A=np.zeros((2000, 2000)), b=np.ones(1))
+        with pytest.raises(InputError, match="arrays of 32000"):
+            read_data((tmp_path / "x.npz").read_bytes(), "numpy", "x.npz")
+
     def test_floats_that_are_not_what_is_spelled_beside_them_are_refused(self, tmp_path: Path) -> None:
         np.savez(tmp_path / "x.npz", A=np.zeros((1, 1)), b=np.ones(1), b_exact=np.array(["1/2"]))
         with pytest.raises(InputError, match="b that is not b_exact"):
@@ -232,6 +239,57 @@ def test_malformed_content_is_refused(of: str, content: bytes) -> None:
 def test_any_bytes_are_read_or_refused(of: str, content: bytes) -> None:
     with suppress(InputError):
         from_data(read_data(content, of, "file"))
+
+
+EXPORTED = [
+    (of, export(convert(Tableau.load(find(name))), of))
+    for name in ("cf43", "gauss2", "radau2a2", "carpenter_kennedy4", "suzuki4", "stormer_verlet")
+    for of in FORMATS
+]
+BAD = [
+    b"9^9^9^9",
+    b"1/0",
+    b"((((",
+    b"nan",
+    b"~",
+    rb"\frac{1}{0}",
+    b"{",
+    b"}",
+    b'"',
+    b"*/",
+    b"1e400",
+    b"\x00",
+    b"9" * 3000,
+]
+
+
+@settings(suppress_health_check=[HealthCheck.too_slow], max_examples=300, deadline=timedelta(seconds=20))
+@given(st.sampled_from(EXPORTED), st.randoms(use_true_random=False), st.sampled_from(BAD))
+def test_a_good_file_with_a_piece_changed_is_read_or_refused(
+    file: tuple[str, bytes], numbers: random.Random, bad: bytes
+) -> None:
+    of, content = file
+    i, j = sorted(numbers.randrange(len(content) + 1) for _ in range(2))
+    near = content[min(i + numbers.randrange(8), len(content)) :]
+    changed = numbers.choice(
+        (content[:i] + content[j:], content[:i] + content[i:j] * 2 + content[j:], content[:i] + bad + near)
+    )
+    with suppress(InputError):
+        data = convert(from_data(read_data(changed, of, "file", "name")))
+        for to in FORMATS:
+            with suppress(InputError):
+                export(data, to)
+
+
+@pytest.mark.parametrize("content", [b"A,0\nb,1" + b"0" * 400, b"A,0\nb,1/1" + b"0" * 400])
+def test_a_number_beyond_doubles_has_no_place_among_them(content: bytes) -> None:
+    data = convert(from_data(read_data(content, "csv", "x.csv")))
+    for to in FORMATS:
+        if b"/" in content or to not in ("numpy", "c"):
+            assert from_data(read_data(export(data, to), to, "back")).method == from_data(data).method
+        else:
+            with pytest.raises(InputError, match="beyond the range of doubles"):
+                export(data, to)
 
 
 class TestCommand:
