@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import click
 
 from orderconds.commands import screen
-from orderconds.commands.place import FILE
-from orderconds.errors import TableauError
+from orderconds.commands.place import FILE, put
 
 
 @click.command(name="construct", short_help="Make a Gauss, Radau or Lobatto method from its definition.")
@@ -28,11 +26,7 @@ def command(kind: str, stages: int, output: str | None, as_json: bool) -> int:
     name = f"{KINDS[kind].called}, {stages} {'stage' if stages == 1 else 'stages'}"
     text = dumps(replace(tableau, source=f"{name}: orderconds construct {kind} --stages {stages}"))
     if output is not None:
-        try:
-            Path(output).write_text(text, encoding="utf-8")
-        except OSError as problem:
-            reason = (problem.strerror or "unwritable").lower()
-            raise TableauError(reason, where=output, expected="a file that can be written") from None
+        put(output, text.encode())
     if as_json:
         record = {"name": tableau.name, "kind": kind, "stages": stages, "order": KINDS[kind].order(stages)}
         screen.print_json({**record, "tableau": text})

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import click
 
-from orderconds.commands.place import FILE
+from orderconds.commands.place import FILE, put
 from orderconds.errors import TableauError
 from orderconds.exchange import FORMATS, export, format_of, left_out, read_data
 from orderconds.tableau import find
@@ -43,11 +43,7 @@ def command(source: str, of: str | None, to: str | None, name: str | None, outpu
         sys.stdout.buffer.write(converted)
         sys.stdout.buffer.flush()
         return 0
-    try:
-        Path(output).write_bytes(converted)
-    except OSError as problem:
-        reason = (problem.strerror or "unwritable").lower()
-        raise TableauError(reason, where=output, expected="a file that can be written") from None
+    put(output, converted)
     return 0
 
 

@@ -1,8 +1,14 @@
-"""The places that commands write to: an empty name is a mistake, not the present folder."""
+"""The places that commands write to: an empty name is a mistake, and files are whole or as they were."""
 
 from __future__ import annotations
 
+import os
+import tempfile
+from pathlib import Path
+
 import click
+
+from orderconds.errors import InputError
 
 
 class Place(click.ParamType[str]):
@@ -24,3 +30,33 @@ class Place(click.ParamType[str]):
 
 FOLDER = Place("folder", "for the present one type .")
 FILE = Place("file", "leave the option out for stdout")
+
+
+def put(path: str, content: bytes) -> None:
+    """Write a file under another name and rename it; devices and pipes are written to as they are.
+
+    Raises :class:`~orderconds.errors.InputError` where that cannot be done.
+    """
+    target = Path(path).resolve()  # a link stays a link
+    try:
+        if target.exists() and not target.is_file():
+            target.write_bytes(content)
+            return
+        handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name[:40]}.")
+        try:
+            with os.fdopen(handle, "wb") as stream:
+                stream.write(content)
+            os.chmod(temporary, target.stat().st_mode & 0o7777 if target.exists() else 0o666 & ~_umask())
+            os.replace(temporary, target)
+        except BaseException:
+            Path(temporary).unlink(missing_ok=True)
+            raise
+    except OSError as problem:
+        reason = (problem.strerror or "unwritable").lower()
+        raise InputError(reason, where=path, expected="a file that can be written") from None
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

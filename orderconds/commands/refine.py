@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import click
 
 from orderconds.commands import screen
-from orderconds.commands.place import FILE
-from orderconds.errors import TableauError
+from orderconds.commands.place import FILE, put
 
 
 @click.command(
@@ -41,11 +38,7 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
         click.echo(f"orderconds: {file}: no proof: {problem}", err=True)
         return 1
     if output is not None:
-        try:
-            Path(output).write_text(found.text, encoding="utf-8")
-        except OSError as problem:
-            reason = (problem.strerror or "unwritable").lower()
-            raise TableauError(reason, where=output, expected="a file that can be written") from None
+        put(output, found.text.encode())
     if as_json:
         screen.print_json({"decimals": found.decimals, "proof": proof.as_json()})
     elif output is None:

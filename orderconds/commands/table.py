@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from orderconds.commands import screen
+from orderconds.commands.place import put
 from orderconds.errors import InputError
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ def command(write: str | None, against: str | None) -> int:
             raise InputError("no place for the table", where=path, expected=f"{BEGIN} and {END}")
         new = text[:start] + table + text[end + len(END) :]
         if path == write:
-            Path(path).write_text(new, encoding="utf-8")
+            put(path, new.encode())
         elif new != text:
             click.echo(f"{path}: another table; type: orderconds table --write {path}", err=True)
             return 1

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from orderconds.commands import screen
+from orderconds.commands.place import put
 
 if TYPE_CHECKING:
     from orderconds.explain.kinds import Kind
@@ -98,12 +99,10 @@ def _listed(kind: Kind, order: int, draw: bool, explain: bool, plain: bool) -> I
 
 
 def _write_svg(kind: Kind, order: int, path: str, explain: bool) -> None:
-    from pathlib import Path
-
     from orderconds.explain.svg import sheet
 
     entries = [
         (kind.diagram(member), [kind.text(member), *([kind.names(member)] if explain else [])])
         for member in kind.members(order)
     ]
-    Path(path).write_text(sheet(entries), encoding="utf-8")
+    put(path, sheet(entries).encode())

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import os
+from pathlib import Path
+
 import pytest
 from click.testing import CliRunner
 
 from orderconds.cli import program
+from orderconds.commands.place import put
+from orderconds.errors import InputError
 
 
 @pytest.mark.parametrize(
@@ -18,3 +23,25 @@ def test_an_empty_place_is_bad_usage(arguments: list[str], place: str) -> None:
     result = CliRunner().invoke(program, [*arguments, "-o", place])
     assert result.exit_code == 2
     assert "names no file" in result.output
+
+
+def test_a_file_is_replaced_whole_its_permissions_and_links_kept(tmp_path: Path) -> None:
+    target, link = tmp_path / "x.toml", tmp_path / "link.toml"
+    target.write_bytes(b"before")
+    target.chmod(0o640)
+    link.symlink_to(target)
+    put(str(link), b"after")
+    assert (target.read_bytes(), target.stat().st_mode & 0o777, link.is_symlink()) == (b"after", 0o640, True)
+    assert sorted(os.listdir(tmp_path)) == ["link.toml", "x.toml"]
+
+
+def test_what_cannot_be_written_leaves_nothing_behind(tmp_path: Path) -> None:
+    for path in (tmp_path, tmp_path / "none" / "x"):
+        with pytest.raises(InputError, match="a file that can be written"):
+            put(str(path), b"")
+    assert os.listdir(tmp_path) == []
+
+
+def test_a_device_is_written_to() -> None:
+    put(os.devnull, b"gone")
+    assert Path(os.devnull).is_char_device()
