@@ -11,9 +11,9 @@ from codegen.scene import HamiltonianScene, param
 
 G = SO3()
 g, mu = G.point("g"), G.dual("mu")
-a, beta = Rational(1, 10), param("beta", 1)
+a, beta, depth = Rational(1, 10), param("beta", 1), param("depth", Rational(3, 2))
 I = diag(1 + a**2, 1, a**2)  # noqa: E741 (the inertia tensor's name)
-e2, e3, z = Matrix([0, 1, 0]), Matrix([0, 0, 1]), Matrix([0, 0, -Rational(3, 2)])
+e2, e3, z = Matrix([0, 1, 0]), Matrix([0, 0, 1]), Matrix([0, 0, -depth])
 r = [sqrt(v.dot(v)) for v in (g * Matrix([0, s * a, -1]) - z for s in (1, -1))]
 T = sum(p**2 / (2 * i) for p, i in zip(g.T * mu, I.diagonal(), strict=True))
 V = -e3.dot(g * e3) + beta * (1 / r[0] - 1 / r[1])

@@ -1,8 +1,8 @@
 """Linear oscillator with a frequency that changes in time, on T*R^4: every family is classical there.
 
-H = ((1 + eps sin(alpha t)) q.q + p.p)/2 (Paper 3 of Bogfjellmo's thesis, Table 4.1). On R^n brackets vanish
-and exponentials are sums: RKMK, CG and CF methods are Runge-Kutta methods, variational ones are symplectic
-partitioned ones. Time enters through the stages alone, so a time that stands still there shows at once.
+H = ((omega^2 + eps sin(alpha t)) q.q + p.p)/2 with omega = 1 (Paper 3 of Bogfjellmo's thesis, Table 4.1).
+On R^n brackets vanish and exponentials are sums: RKMK, CG and CF methods are Runge-Kutta methods, variational
+ones are symplectic partitioned ones. Time enters through the stages alone, so a time that stands still there shows at once.
 """
 
 from sympy import Matrix, Rational, Symbol, sin
@@ -12,8 +12,8 @@ from codegen.scene import HamiltonianScene, param
 
 G = Rn(4)
 q, p = G.point("q"), G.dual("p")
-eps, alpha = param("eps", Rational(1, 10)), param("alpha", Rational(123, 1000))
-stiffness = 1 + eps * sin(alpha * Symbol("t"))
+eps, alpha, omega = param("eps", Rational(1, 10)), param("alpha", Rational(123, 1000)), param("omega", 1)
+stiffness = omega**2 + eps * sin(alpha * Symbol("t"))
 T, V = p.dot(p) / 2, stiffness * q.dot(q) / 2
 
 scene = HamiltonianScene(

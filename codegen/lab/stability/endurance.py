@@ -1,0 +1,88 @@
+"""Endurance: ten million steps, and a hundred thousand there and back, or a status and where it came."""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass
+from typing import Any
+
+from codegen.emit import Compiled
+from codegen.lab.distance import distance
+from codegen.lab.longrun import MANIFOLD, functions
+from codegen.lab.runner import Emitted
+from codegen.load import StepFailed
+
+MANY = 10_000_000
+BACK = 100_000
+SECONDS = 3.0
+"""CPU seconds that a run may take; where ten million steps take longer, fewer are made and counted."""
+
+TRIAL = 1000
+
+
+@dataclass(frozen=True)
+class Endurance:
+    """A run of ``steps`` steps: what it kept, or how it ended.
+
+    ``defect`` is the distance from the manifold at the end (None where it is all of space), ``returned`` the
+    distance from the start after the way back. A run held when it ended with a status, or finite and, on a
+    manifold, within rounding of it.
+    """
+
+    name: str
+    steps: int
+    defect: float | None
+    returned: float | None
+    failure: str = ""
+
+    @property
+    def held(self) -> bool:
+        """Whether the run kept the manifold as well as rounding permits, or said that it stopped."""
+        return bool(self.failure) or self.defect is None or self.defect <= 64 * self.steps * 2.0**-53
+
+    def as_json(self) -> dict[str, Any]:
+        """Return plain data."""
+        return {
+            "name": self.name,
+            "steps": self.steps,
+            "manifold_defect": self.defect,
+            "returned": self.returned,
+            "failure": self.failure,
+            "verdict": "holds" if self.held else "fails",
+        }
+
+
+def endure(compiled: Compiled, runner: Emitted) -> tuple[Endurance, ...]:
+    """Run a method for long at a hundredth of the scene's span a step, onwards and there and back."""
+    first, last = map(float, compiled.scene.span)
+    h = (last - first) / 100
+    start = time.process_time()
+    try:
+        runner.integrator.run(runner.initial, h, TRIAL, first)
+    except StepFailed as failure:
+        return (Endurance(f"{MANY} steps", failure.step, None, None, str(failure)),)
+    each = max((time.process_time() - start) / TRIAL, 1e-9)
+    many, back = (min(n, int(SECONDS / each)) for n in (MANY, BACK))
+    return (_onwards(compiled, runner, h, many, first), _return(compiled, runner, h, back, first))
+
+
+def _onwards(compiled: Compiled, runner: Emitted, h: float, steps: int, first: float) -> Endurance:
+    try:
+        end = runner.integrator.run(runner.initial, h, steps, first)
+    except StepFailed as failure:
+        return Endurance("onwards", failure.step, None, None, str(failure))
+    laws = functions(compiled.scene).get(MANIFOLD)
+    defect = max(map(abs, laws(end, first + steps * h))) if laws is not None else None
+    if not all(map(math.isfinite, end)):
+        defect = math.inf
+    return Endurance("onwards", steps, defect, None)
+
+
+def _return(compiled: Compiled, runner: Emitted, h: float, steps: int, first: float) -> Endurance:
+    try:
+        end = runner.integrator.run(runner.initial, h, steps, first)
+        back = runner.integrator.run(end, -h, steps, first + steps * h)
+    except StepFailed as failure:
+        return Endurance("there and back", failure.step, None, None, str(failure))
+    return Endurance("there and back", steps, None, distance(compiled.scene, back, runner.initial))

@@ -1,0 +1,198 @@
+"""Extreme input, one step: emitted C against the interpreter with 60 digits on the same doubles.
+
+A step is *accurate* when it differs from the exact step by no more than its input determines: rounding the
+input at the last bit moves the exact answer by so much, and every operation may round once. Where that leaves
+no digit (a rotation by 1e20 radians is known to no angle at all) the answer is accurate and says nothing; the
+table gives the digits that are determined. Anything else must be a status. A finite answer that is neither is
+*wrong*.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from codegen.emit import Compiled
+from codegen.ir.domain import FloatDomain, NotConverged, PreciseDomain
+from codegen.ir.interpret import flatten, interpret
+from codegen.ir.program import Kind
+from codegen.lab.runner import Emitted
+from codegen.load import StepFailed
+from codegen.lower import setting
+
+DIGITS = 60
+EPSILON = 2.0**-53
+TINY = 2.0**-1022
+"""The least normal double: what underflows to less is as good as zero."""
+
+ROUNDINGS = 256.0
+"""Roundings that a step may gather, in units of what one rounding of the input does."""
+
+PROBES = 4
+
+ACCURATE, WRONG = "accurate", "WRONG"
+
+ANGLES = (1e-300, 1e-8, math.pi - 1e-9, math.pi, 2 * math.pi, 100.0, 1e8, 1e300)
+STEPS = (1e-300, 1e-12, 1e-8, 1e-4)
+SCALES = (0.0, 5e-324, 1e-160, 1e-75, 1e75, 1e150, 1e308)
+
+
+@dataclass(frozen=True)
+class Case:
+    """One step: what is extreme about it, the state, the time and the step size."""
+
+    name: str
+    state: tuple[float, ...]
+    t: float
+    h: float
+
+
+@dataclass(frozen=True)
+class Answer:
+    """How a case was answered: ``accurate``, a status in words, or ``WRONG``.
+
+    ``error`` is the largest relative error of a block of the state, ``determined`` the digits that the input
+    determines, None where there was no answer to compare.
+    """
+
+    case: Case
+    verdict: str
+    error: float | None = None
+    determined: float | None = None
+
+    def as_json(self) -> dict[str, Any]:
+        """Return plain data."""
+        return {
+            "case": self.case.name,
+            "h": self.case.h if math.isfinite(self.case.h) else None,
+            "verdict": self.verdict,
+            "error": self.error,
+            "digits_determined": self.determined,
+        }
+
+
+def cases(compiled: Compiled) -> Iterator[Case]:
+    """Yield extreme cases of a method on a scene, around its initial state and a hundredth of its span."""
+    scene = compiled.scene
+    state = tuple(float(x) for x in scene.initial(FloatDomain(0.0)))
+    t, h = float(scene.span[0]), float((scene.span[1] - scene.span[0]) / 100)
+    usual = Case("usual step", state, t, h)
+    yield usual
+    yield replace(usual, name="h = 0", h=0.0)
+    yield replace(usual, name="backwards", h=-h)
+    for size in STEPS:
+        yield replace(usual, name=f"h = {size:g}", h=size)
+    speed = _speed(compiled, state, t)
+    for angle in ANGLES if 0.0 < speed < math.inf else ():
+        name = {math.pi: "pi", 2 * math.pi: "2 pi", math.pi - 1e-9: "pi - 1e-9"}.get(angle, f"{angle:g}")
+        yield replace(usual, name=f"angle {name}", h=angle / speed)
+    for scale in SCALES:
+        scaled = _scaled(compiled, state, scale)
+        if scaled is not None:
+            yield replace(usual, name=f"momentum times {scale:g}", state=scaled)
+    for bad in (math.nan, math.inf, -math.inf):
+        yield replace(usual, name=f"h = {bad}", h=bad)
+        for i in dict.fromkeys(_firsts(compiled)):
+            spoilt = tuple(bad if k == i else x for k, x in enumerate(state))
+            yield replace(usual, name=f"{scene.symbols[i]} = {bad}", state=spoilt)
+
+
+def _firsts(compiled: Compiled) -> list[int]:
+    """Return the place of the first coordinate of every block, and of the last coordinate of all."""
+    places, start = [], 0
+    for block in compiled.scene.state:
+        places.append(start)
+        start += len(block.symbols)
+    return [*places, start - 1]
+
+
+def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple[float, ...] | None:
+    """Return the state with what is a vector in it scaled; None where nothing is, or it overflows."""
+    from codegen.groups import Rotation
+
+    scene, result, start, any_scaled = compiled.scene, list(state), 0, False
+    for block in scene.state:
+        free = block.kind is Kind.DUAL or scene.group.abelian
+        free |= block.kind is Kind.POINT and isinstance(scene.action, Rotation)
+        for i in range(start, start + len(block.symbols)):
+            if free:
+                result[i] = 0.0 if scale == 0.0 else result[i] * scale
+                any_scaled = True
+        start += len(block.symbols)
+    return tuple(result) if any_scaled and all(map(math.isfinite, result)) else None
+
+
+def _speed(compiled: Compiled, state: Sequence[float], t: float) -> float:
+    """Return |f(y0)|, the angle that a unit of time turns through."""
+    view = compiled.scene.as_field()
+    domain = FloatDomain(0.0)
+    (value,) = view.apply(domain, "field", None, (tuple(state), t))
+    return math.hypot(*value[: compiled.scene.group.dim])
+
+
+def answer(compiled: Compiled, runner: Emitted, case: Case) -> Answer:
+    """Make one step by emitted code and judge it."""
+    try:
+        found = runner.integrator.run(list(case.state), case.h, 1, case.t)
+    except StepFailed as failure:
+        return Answer(case, f"status: {failure.reason}")
+    if not (math.isfinite(case.h) and all(map(math.isfinite, case.state))):
+        return Answer(case, f"{WRONG}: an answer to input that is not finite")
+    if not all(map(math.isfinite, found)):
+        return Answer(case, f"{WRONG}: an answer that is not finite")
+    try:
+        exact = precise_step(compiled, case.state, case.t, case.h)
+        probed = [precise_step(compiled, *probe) for probe in _probes(case)]
+    except (NotConverged, ArithmeticError, ValueError) as failure:
+        return Answer(case, f"{WRONG}: an answer where the interpreter has none ({failure})")
+    error, determined, accurate = 0.0, math.inf, True
+    for block in _blocks(compiled):
+        scale = max(abs(exact[i]) for i in block)
+        gap = max(abs(found[i] - exact[i]) for i in block)
+        moves = max((abs(m[i] - exact[i]) for m in probed for i in block), default=0)
+        allowed = ROUNDINGS * (moves + EPSILON * scale + TINY)
+        accurate &= bool(gap <= allowed)
+        if scale:
+            error = max(error, float(gap / scale))
+            determined = min(determined, -math.log10(max(float((moves + EPSILON * scale) / scale), 1e-17)))
+    return Answer(case, ACCURATE if accurate else WRONG, error, max(determined, 0.0))
+
+
+def _blocks(compiled: Compiled) -> list[range]:
+    result, start = [], 0
+    for block in compiled.scene.state:
+        result.append(range(start, start + len(block.symbols)))
+        start += len(block.symbols)
+    return result
+
+
+def _probes(case: Case) -> list[tuple[tuple[Any, ...], Any, Any]]:
+    """Return the input with every number rounded otherwise in the last bit, up or down at random."""
+    import mpmath
+
+    draw = random.Random(7)
+    context = mpmath.mp.clone()
+    context.dps = DIGITS
+
+    def rounded(x: float) -> Any:
+        return context.mpf(x) * (1 + draw.choice((-1, 1)) * context.mpf(EPSILON))
+
+    return [(tuple(rounded(x) for x in case.state), rounded(case.t), rounded(case.h)) for _ in range(PROBES)]
+
+
+def precise_step(compiled: Compiled, state: Sequence[Any], t: Any, h: Any) -> list[Any]:
+    """Return the state after one step of the program, in 60 digits."""
+    domain = PreciseDomain(h, DIGITS)
+    view = setting(compiled.scene, compiled.method)
+    numbers = tuple(domain.context.mpf(x) for x in state)
+    values: dict[str, Any] = {"t": domain.context.mpf(t)}
+    start = 0
+    for block in view.state:
+        values[block.name] = numbers[start : start + len(block.symbols)]
+        start += len(block.symbols)
+    program = compiled.program
+    found = interpret(program, view, domain, {v.name: values[v.name] for v in program.inputs})
+    return [x for block in view.state for x in flatten(block.kind, found[block.name])]

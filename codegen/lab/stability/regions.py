@@ -1,0 +1,86 @@
+"""Linear stability: intervals of the stability function on the axes, and pictures of its region.
+
+For y' = lambda y a Runge-Kutta method gives y1 = R(h lambda) y0. Exponential-based methods on a group solve
+the linear part exactly when it is frozen; what is then left of it is R of the same tableau for the part that
+varies, so the tableau's region bounds what a step may do there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from codegen.method import Method
+from orderconds.tableau.methods import RungeKutta
+from orderconds.tableau.stability import stability_function
+
+FARTHEST = 100.0
+SLACK = 1e-9
+
+
+@dataclass(frozen=True)
+class Region:
+    """R as a function of complex numbers, and how far |R| <= 1 reaches from zero along both axes.
+
+    ``real`` is the length of the interval on the negative real axis, ``imaginary`` on the imaginary axis;
+    infinity where it reaches beyond :data:`FARTHEST`.
+    """
+
+    label: str
+    value: Callable[[complex], complex]
+    real: float
+    imaginary: float
+
+    def as_json(self) -> dict[str, Any]:
+        """Return plain data; an unbounded interval is null."""
+        return {
+            "real": None if self.real == float("inf") else self.real,
+            "imaginary": None if self.imaginary == float("inf") else self.imaginary,
+        }
+
+
+def region(method: Method) -> Region | None:
+    """Return the linear stability of a method's tableau, None for those without A and b or an exact ring."""
+    tableau = method.tableau
+    coefficients = tableau.method
+    if not isinstance(coefficients, RungeKutta) or not hasattr(tableau.ring, "approximate"):
+        return None
+    try:
+        R = stability_function(coefficients, tableau.ring)
+        rows = [[float(tableau.ring.approximate(x, 20)) for x in p] for p in (R.numerator, R.denominator)]
+    except (TypeError, ValueError, ArithmeticError, NotImplementedError):
+        return None
+
+    def value(z: complex) -> complex:
+        top, bottom = (_horner(row, z) for row in rows)
+        return top / bottom if bottom else complex("inf")
+
+    return Region(method.label, value, reach(value, -1.0), reach(value, 1j))
+
+
+def _horner(row: list[float], z: complex) -> complex:
+    total = 0j
+    for c in reversed(row):
+        total = total * z + c
+    return total
+
+
+def reach(value: Callable[[complex], complex], direction: complex) -> float:
+    """Return how far from zero |R| <= 1 holds along a ray, infinity beyond :data:`FARTHEST`.
+
+    >>> round(reach(lambda z: 1 + z, -1.0), 6), reach(lambda z: 1 / (1 - z), -1.0)
+    (2.0, inf)
+    """
+    step, x = 1.0 / 128, 0.0
+    while x < FARTHEST:
+        if abs(value((x + step) * direction)) > 1.0 + SLACK:
+            break
+        x += step
+    else:
+        return float("inf")
+    low, high = x, x + step
+    for _ in range(40):
+        middle = (low + high) / 2
+        low, high = (middle, high) if abs(value(middle * direction)) <= 1.0 + SLACK else (low, middle)
+    return low if low > step else 0.0

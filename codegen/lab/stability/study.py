@@ -1,0 +1,114 @@
+"""The stability of methods on a scene: all tables, from the questions of this package."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from codegen.emit import Compiled, compile_method
+from codegen.errors import MethodError, SceneError
+from codegen.lab.reference import Reference
+from codegen.lab.remembered import remembered
+from codegen.lab.runner import Emitted
+from codegen.lab.stability.endurance import Endurance, endure
+from codegen.lab.stability.extremes import WRONG, Answer, answer, cases
+from codegen.lab.stability.harsh import VARIANTS, Harsh
+from codegen.lab.stability.limits import Limit, largest_step
+from codegen.lab.stability.regions import Region, region
+from codegen.lab.stability.stiff import Stiff, order_left
+from codegen.method import Method
+from codegen.scene import Setting
+
+Tell = Callable[[str], object]
+
+
+@dataclass(frozen=True)
+class Stability:
+    """What held and what failed of one method on one scene."""
+
+    scene: str
+    method: str
+    region: Region | None
+    limit: Limit
+    answers: tuple[Answer, ...]
+    stiff: tuple[Stiff, ...]
+    endurance: tuple[Endurance, ...]
+    notes: tuple[str, ...] = field(default=())
+
+    @property
+    def wrong(self) -> tuple[Answer, ...]:
+        """The answers that are neither accurate nor a status."""
+        return tuple(a for a in self.answers if a.verdict.startswith(WRONG))
+
+    @property
+    def held(self) -> bool:
+        """Whether every answer is accurate or a status, and long runs ended well or with a status."""
+        return not self.wrong and all(e.held for e in self.endurance)
+
+    def as_json(self) -> dict[str, Any]:
+        """Return plain data."""
+        return {
+            "scene": self.scene,
+            "method": self.method,
+            "verdict": "holds" if self.held else "fails",
+            "linear": None if self.region is None else self.region.as_json(),
+            "largest_step": self.limit.as_json(),
+            "cases": [a.as_json() for a in self.answers],
+            "stiff": [s.as_json() for s in self.stiff],
+            "endurance": [e.as_json() for e in self.endurance],
+            "notes": list(self.notes),
+        }
+
+
+def study(scene: Setting, methods: Sequence[Method], tell: Tell, *, long: bool = True) -> Iterator[Stability]:
+    """Yield the stability of each method on a scene; ``tell`` hears what is being done.
+
+    ``long`` asks for the runs of many steps as well.
+    """
+    tell(f"{scene.name}: reference solution")
+    exact = remembered(scene)
+    variants: list[tuple[Harsh, Reference]] = []
+    notes: list[str] = []
+    for make in VARIANTS.get(scene.name, ()):
+        harsh = make()
+        tell(f"{harsh.name}: reference solution")
+        try:
+            variants.append((harsh, remembered(harsh.scene)))
+        except SceneError as error:
+            notes.append(f"{harsh.name}: {error.found}")
+    for method in methods:
+        yield _study(scene, method, exact, variants, tuple(notes), tell, long)
+
+
+def _study(
+    scene: Setting,
+    method: Method,
+    exact: Reference,
+    variants: Sequence[tuple[Harsh, Reference]],
+    notes: tuple[str, ...],
+    tell: Tell,
+    long: bool,
+) -> Stability:
+    name = f"{scene.name}, {method.label}"
+    tell(f"{name}: emitting")
+    compiled: Compiled = compile_method(scene, method)
+    runner = Emitted(compiled, "c")
+    answers = []
+    for case in cases(compiled):
+        tell(f"{name}: {case.name}")
+        answers.append(answer(compiled, runner, case))
+    tell(f"{name}: largest step")
+    limit = largest_step(compiled, runner, exact)
+    stiff, said = [], list(notes)
+    for harsh, reference in variants:
+        tell(f"{name}: {harsh.name}")
+        try:
+            stiff.append(order_left(harsh, method, reference))
+        except MethodError as error:
+            said.append(f"{harsh.name}: {error.found}")
+    tell(f"{name}: long runs")
+    endurance = endure(compiled, runner) if long else ()
+    return Stability(
+        scene.name, method.label, region(method), limit, tuple(answers), tuple(stiff), endurance, tuple(said)
+    )
