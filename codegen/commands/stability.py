@@ -17,7 +17,7 @@ from orderconds.commands.variadic import Variadic
 @click.option("--quick", is_flag=True, help="Leave out the runs of ten million steps.")
 @click.option("--json", "as_json", is_flag=True, help="The measurements on stdout, nothing else.")
 def command(scene: str | None, methods: tuple[str, ...], everything: bool, quick: bool, as_json: bool) -> int:
-    """Compare single steps of emitted C with 60 digits on extreme input; find the largest step, the order left.
+    """Compare single steps of emitted C with 60 digits on extreme input; find the largest step and more.
 
     Each case reads accurate or a status of the emitted code. The exit status is 1 when an answer is neither.
     """

@@ -43,11 +43,14 @@ class Domain(Protocol):
 def stumpff(k: int, z: float) -> float:
     """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0..3 and z >= 0, for k = 0, 1 also z < 0.
 
-    The error is a few units in the last place of the oscillation's amplitude there.
+    The error is a few units in the last place of the oscillation's amplitude there. Beyond 2^52, where half
+    of an angle's digits are turns, it is not a number, as in emitted code.
 
     >>> stumpff(1, 0.0), stumpff(2, 0.0)
     (1.0, 0.5)
     """
+    if z > 2.0**52:
+        return math.nan
     if z < 0:
         root = math.sqrt(-z)
         return math.cosh(root) if k == 0 else math.sinh(root) / root

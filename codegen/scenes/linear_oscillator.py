@@ -2,7 +2,8 @@
 
 H = ((omega^2 + eps sin(alpha t)) q.q + p.p)/2 with omega = 1 (Paper 3 of Bogfjellmo's thesis, Table 4.1).
 On R^n brackets vanish and exponentials are sums: RKMK, CG and CF methods are Runge-Kutta methods, variational
-ones are symplectic partitioned ones. Time enters through the stages alone, so a time that stands still there shows at once.
+ones are symplectic partitioned ones. Time enters through the stages alone, so a time that stands still there
+shows at once.
 """
 
 from sympy import Matrix, Rational, Symbol, sin

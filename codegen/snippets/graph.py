@@ -51,7 +51,8 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
         if orders not in ((1,), (2,), (3,), (1, 3)):
             library.append("cos")
         calls = (*library, *(f"stumpff_series_{k}" for k in orders))
-        found.append(Snippet(name, "stumpff", calls, {"name": name, "orders": orders, "switch": switch}))
+        values = {"name": name, "orders": orders, "switch": switch, "limit": stumpff.limit(precision)}
+        found.append(Snippet(name, "stumpff", calls, values))
     return tuple(found)
 
 

@@ -4,7 +4,7 @@ c_k(z) = sum_j (-z)^j/(2j+k)!, so c_0 = cos sqrt z, c_1 = sin(sqrt z)/sqrt z, c_
 c_3 = (sqrt z - sin sqrt z)/z^(3/2). Up to a switch each is its Taylor polynomial, a shorter one where z is
 small, as it is in most steps; above it a closed form that cancels nowhere: c_2 = c_1(z/4)^2/2, and
 c_3 = (1 - c_1)/z only where c_1 < 1/2. A set of them shares one sine and cosine. Errors stay within two units
-in the last place, plus what half a unit in sqrt z causes.
+in the last place, plus what half a unit in sqrt z causes. Beyond :func:`limit` there is no answer.
 """
 
 from __future__ import annotations
@@ -21,8 +21,20 @@ SWITCH = (1, 1, 1, 4)
 SMALL = Fraction(1, 16)
 """Up to here a shorter polynomial serves: angles up to a quarter."""
 
+
 SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n))
 """Every non-empty set of orders that a kernel may ask of one argument."""
+
+
+def limit(precision: Precision = DOUBLE) -> float:
+    """Return the z beyond which c_k is not a number: an angle of 2^(bits/2), half of whose digits are turns.
+
+    A step that turns further says nothing; as it is, it says that its state is not finite.
+
+    >>> limit() == 2.0**52
+    True
+    """
+    return 2.0 ** (2 * (precision.bits // 2))
 
 
 def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> tuple[Fraction, ...]:

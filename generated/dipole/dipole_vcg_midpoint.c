@@ -20,10 +20,10 @@
  *             1 Adinv (opposites)
  *             1 legendre (sharing)
  *             1 lin, 2 seriest (factors)
- *             parameters, folded: beta = 1
+ *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 42 add, 61 mul, 1 stumpff_12 a step
- *             67 add, 114 mul, 2 div, 2 sqrt, 1 stumpff_12, 1 stumpff_23, 1 stumpff_3 a sweep of
+ *             69 add, 118 mul, 2 div, 2 sqrt, 1 stumpff_12, 1 stumpff_23, 1 stumpff_3 a sweep of
  *             the equations of xi1, n1
  * stack:      at most 1600 bytes, without what the mathematical library takes
  * made by:    orderconds emit dipole --method vcg:midpoint --target c -o .
@@ -115,7 +115,7 @@ static inline double stumpff_3(double z)
     if (z <= 4.0) {
         return stumpff_series_3(z);
     }
-    const double s = sqrt(z);
+    const double s = sqrt(z <= 4503599627370496.0 ? z : NAN);
     return (1.0 - sin(s) / s) / z;
 }
 
@@ -127,7 +127,7 @@ static inline void stumpff_23(double z, double *c2, double *c3)
         *c3 = stumpff_series_3(z);
         return;
     }
-    const double half = 0.5 * sqrt(z);
+    const double half = 0.5 * sqrt(z <= 4503599627370496.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
     const double ratio = sine / half;
@@ -143,7 +143,7 @@ static inline void stumpff_12(double z, double *c1, double *c2)
         *c2 = stumpff_series_2(z);
         return;
     }
-    const double half = 0.5 * sqrt(z);
+    const double half = 0.5 * sqrt(z <= 4503599627370496.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
     const double ratio = sine / half;
@@ -227,12 +227,12 @@ static inline int advance(double state[static 12], double h,
         const double gE1_1_5 = w13 - w12;
         const double gE1_1_8 = 1.0 - (w5 + w11);
         const double Q1_8 = g20 * gE1_1_2 + g21 * gE1_1_5 + g22 * gE1_1_8;
-        const double w16 = 3.26 - 3.0 * Q1_8;
-        const double w17 = 1.0 / sqrt(w16 - 0.3 * Q1_7);
+        const double w16 = 1.5 - 2.0 * Q1_8;
+        const double w17 = 1.0 / sqrt(1.01 + 1.5 * (w16 - 0.2 * Q1_7));
         const double w18 = w17 * w17 * (0.5 * w17);
-        const double w19 = 1.0 / sqrt(w16 + 0.3 * Q1_7);
+        const double w19 = 1.0 / sqrt(1.01 + 1.5 * (w16 + 0.2 * Q1_7));
         const double w20 = w19 * w19 * (0.5 * w19);
-        const double w21 = -1.0 - 3.0 * (w18 - w20);
+        const double w21 = -1.0 - 2.0 * (1.5 * w18 - 1.5 * w20);
         const double w22 = -0.3 * w18 - 0.3 * w20;
         const double Nr1_0 = Q1_7 * w21 - Q1_8 * w22 + 99.0 * xi1_1 * p_2;
         s_mu_0 = m_0 + h * Nr1_0;

@@ -20,10 +20,10 @@ left out:   3 Adtinv, 2 mul (zeros)
             1 Adinv (opposites)
             1 legendre (sharing)
             1 lin, 2 seriest (factors)
-            parameters, folded: beta = 1
+            parameters, folded: beta = 1, depth = 3/2
             the time: the scene does not depend on it
 operations: 42 add, 61 mul, 1 stumpff_12 a step
-            67 add, 114 mul, 2 div, 2 sqrt, 1 stumpff_12, 1 stumpff_23, 1 stumpff_3
+            69 add, 118 mul, 2 div, 2 sqrt, 1 stumpff_12, 1 stumpff_23, 1 stumpff_3
             a sweep of the equations of xi1, n1
 made by:    orderconds emit dipole --method vcg:midpoint --target python -o .
 version:    orderconds 0.1.0
@@ -145,7 +145,7 @@ def _stumpff_3(z):
     """Return, for z >= 0 and s = sqrt(z): c_3 = (s - sin(s))/s^3."""
     if z <= 4.0:
         return _stumpff_series_3(z)
-    s = sqrt(z)
+    s = sqrt(z if z <= 4503599627370496.0 else float("nan"))
     return (1.0 - sin(s) / s) / z
 
 
@@ -153,7 +153,7 @@ def _stumpff_23(z):
     """Return, for z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 1.0:
         return _stumpff_series_2(z), _stumpff_series_3(z)
-    half = 0.5 * sqrt(z)
+    half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
     ratio = sin(half) / half
     c3 = _stumpff_series_3(z) if z <= 4.0 else (1.0 - ratio * cos(half)) / z
     return 0.5 * (ratio * ratio), c3
@@ -163,7 +163,7 @@ def _stumpff_12(z):
     """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z)
-    half = 0.5 * sqrt(z)
+    half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
     ratio = sin(half) / half
     return ratio * cos(half), 0.5 * (ratio * ratio)
 
@@ -208,12 +208,12 @@ def _advance(state, h, statistics):
         gE1_1_5 = w13 - w12
         gE1_1_8 = 1.0 - (w5 + w11)
         Q1_8 = g20 * gE1_1_2 + g21 * gE1_1_5 + g22 * gE1_1_8
-        w16 = 3.26 - 3.0 * Q1_8
-        w17 = 1.0 / sqrt(w16 - 0.3 * Q1_7)
+        w16 = 1.5 - 2.0 * Q1_8
+        w17 = 1.0 / sqrt(1.01 + 1.5 * (w16 - 0.2 * Q1_7))
         w18 = w17 * w17 * (0.5 * w17)
-        w19 = 1.0 / sqrt(w16 + 0.3 * Q1_7)
+        w19 = 1.0 / sqrt(1.01 + 1.5 * (w16 + 0.2 * Q1_7))
         w20 = w19 * w19 * (0.5 * w19)
-        w21 = -1.0 - 3.0 * (w18 - w20)
+        w21 = -1.0 - 2.0 * (1.5 * w18 - 1.5 * w20)
         w22 = -0.3 * w18 - 0.3 * w20
         Nr1_0 = Q1_7 * w21 - Q1_8 * w22 + 99.0 * xi1_1 * p_2
         s_mu_0 = m_0 + h * Nr1_0

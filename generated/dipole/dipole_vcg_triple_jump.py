@@ -21,14 +21,14 @@ left out:   7 Adtinv, 3 exp, 7 mul (zeros)
             6 dexpt (functions)
             1 Adinv (opposites)
             2 Adinv, 3 legendre (sharing)
-            parameters, folded: beta = 1
+            parameters, folded: beta = 1, depth = 3/2
             the time: the scene does not depend on it
 operations: 117 add, 166 mul, 3 stumpff_12 a step
-            76 add, 124 mul, 2 div, 2 sqrt, 1 stumpff_12, 2 stumpff_23 a sweep of
+            78 add, 128 mul, 2 div, 2 sqrt, 1 stumpff_12, 2 stumpff_23 a sweep of
             the equations of xi1, n1
-            112 add, 178 mul, 2 div, 2 sqrt, 1 stumpff_12, 2 stumpff_23 a sweep of
+            114 add, 182 mul, 2 div, 2 sqrt, 1 stumpff_12, 2 stumpff_23 a sweep of
             the equations of xi2, n2
-            112 add, 178 mul, 2 div, 2 sqrt, 1 stumpff_12, 2 stumpff_23 a sweep of
+            114 add, 182 mul, 2 div, 2 sqrt, 1 stumpff_12, 2 stumpff_23 a sweep of
             the equations of xi3, n3
 made by:    orderconds emit dipole --method vcg:triple_jump --target python -o .
 version:    orderconds 0.1.0
@@ -152,7 +152,7 @@ def _stumpff_23(z):
     """Return, for z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 1.0:
         return _stumpff_series_2(z), _stumpff_series_3(z)
-    half = 0.5 * sqrt(z)
+    half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
     ratio = sin(half) / half
     c3 = _stumpff_series_3(z) if z <= 4.0 else (1.0 - ratio * cos(half)) / z
     return 0.5 * (ratio * ratio), c3
@@ -162,7 +162,7 @@ def _stumpff_12(z):
     """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z)
-    half = 0.5 * sqrt(z)
+    half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
     ratio = sin(half) / half
     return ratio * cos(half), 0.5 * (ratio * ratio)
 
@@ -211,12 +211,12 @@ def _advance(state, h, statistics):
         gE1_1_5 = w13 - w12
         gE1_1_8 = 1.0 - (w5 + w11)
         Q1_8 = g20 * gE1_1_2 + g21 * gE1_1_5 + g22 * gE1_1_8
-        w16 = 3.26 - 3.0 * Q1_8
-        w17 = 1.0 / sqrt(w16 - 0.3 * Q1_7)
+        w16 = 1.5 - 2.0 * Q1_8
+        w17 = 1.0 / sqrt(1.01 + 1.5 * (w16 - 0.2 * Q1_7))
         w18 = w17 * w17 * (0.5 * w17)
-        w19 = 1.0 / sqrt(w16 + 0.3 * Q1_7)
+        w19 = 1.0 / sqrt(1.01 + 1.5 * (w16 + 0.2 * Q1_7))
         w20 = w19 * w19 * (0.5 * w19)
-        w21 = -1.0 - 3.0 * (w18 - w20)
+        w21 = -1.0 - 2.0 * (1.5 * w18 - 1.5 * w20)
         w22 = -0.3 * w18 - 0.3 * w20
         Nr1_0 = Q1_7 * w21 - Q1_8 * w22 + 99.0 * xi1_1 * p_2
         s_mu_0 = m_0 + Nr1_0 * w23
@@ -366,12 +366,12 @@ def _advance(state, h, statistics):
         a_3_1 = xi2_0 * E2_2_1 + xi2_1 * E2_2_4 + xi2_2 * E2_2_7
         Q2_7 = g20 * E2_2_1 + g21 * E2_2_4 + g22 * E2_2_7
         Q2_8 = g20 * E2_2_2 + g21 * E2_2_5 + g22 * E2_2_8
-        w75 = 3.26 - 3.0 * Q2_8
-        w76 = 1.0 / sqrt(w75 - 0.3 * Q2_7)
+        w75 = 1.5 - 2.0 * Q2_8
+        w76 = 1.0 / sqrt(1.01 + 1.5 * (w75 - 0.2 * Q2_7))
         w77 = w76 * w76 * (0.5 * w76)
-        w78 = 1.0 / sqrt(w75 + 0.3 * Q2_7)
+        w78 = 1.0 / sqrt(1.01 + 1.5 * (w75 + 0.2 * Q2_7))
         w79 = w78 * w78 * (0.5 * w78)
-        w80 = -1.0 - 3.0 * (w77 - w79)
+        w80 = -1.0 - 2.0 * (1.5 * w77 - 1.5 * w79)
         w81 = -0.3 * w77 - 0.3 * w79
         Nr2_0 = Q2_7 * w80 - Q2_8 * w81 + 99.0 * a_3_1 * p_2_2
         w83 = Nr2_0 * w82
@@ -572,12 +572,12 @@ def _advance(state, h, statistics):
         a_5_1 = xi3_0 * E3_3_1 + xi3_1 * E3_3_4 + xi3_2 * E3_3_7
         Q3_7 = g20 * E3_3_1 + g21 * E3_3_4 + g22 * E3_3_7
         Q3_8 = g20 * E3_3_2 + g21 * E3_3_5 + g22 * E3_3_8
-        w172 = 3.26 - 3.0 * Q3_8
-        w173 = 1.0 / sqrt(w172 - 0.3 * Q3_7)
+        w172 = 1.5 - 2.0 * Q3_8
+        w173 = 1.0 / sqrt(1.01 + 1.5 * (w172 - 0.2 * Q3_7))
         w174 = w173 * w173 * (0.5 * w173)
-        w175 = 1.0 / sqrt(w172 + 0.3 * Q3_7)
+        w175 = 1.0 / sqrt(1.01 + 1.5 * (w172 + 0.2 * Q3_7))
         w176 = w175 * w175 * (0.5 * w175)
-        w177 = -1.0 - 3.0 * (w174 - w176)
+        w177 = -1.0 - 2.0 * (1.5 * w174 - 1.5 * w176)
         w178 = -0.3 * w174 - 0.3 * w176
         Nr3_0 = Q3_7 * w177 - Q3_8 * w178 + 99.0 * a_5_1 * p_3_2
         s_m3_5_0 = s_m2_4_0 + w23 * Nr3_0

@@ -18,10 +18,10 @@
  *             2 Adinv, 2 Adt, 2 dexpinv, 2 dexpinvt, 3 dexpt (functions)
  *             2 legendre, 2 lin, 2 series, 2 seriest (sharing)
  *             2 Ad, 4 Adtinv, 2 seriest (factors)
- *             parameters, folded: beta = 1
+ *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 42 add, 66 mul, 1 stumpff_1 a step
- *             311 add, 472 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 a sweep of the
+ *             315 add, 480 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 a sweep of the
  *             equations of v1, v2, m1, m2
  * stack:      at most 2688 bytes, without what the mathematical library takes
  * made by:    orderconds emit dipole --method 'vrkmk(2):gauss2' --target c -o .
@@ -115,7 +115,7 @@ static inline void stumpff_23(double z, double *c2, double *c3)
         *c3 = stumpff_series_3(z);
         return;
     }
-    const double half = 0.5 * sqrt(z);
+    const double half = 0.5 * sqrt(z <= 4503599627370496.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
     const double ratio = sine / half;
@@ -132,7 +132,7 @@ static inline void stumpff_123(double z, double *c1, double *c2, double *c3)
         *c3 = stumpff_series_3(z);
         return;
     }
-    const double half = 0.5 * sqrt(z);
+    const double half = 0.5 * sqrt(z <= 4503599627370496.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
     const double ratio = sine / half;
@@ -147,7 +147,7 @@ static inline double stumpff_1(double z)
     if (z <= 1.0) {
         return stumpff_series_1(z);
     }
-    const double s = sqrt(z);
+    const double s = sqrt(z <= 4503599627370496.0 ? z : NAN);
     return sin(s) / s;
 }
 
@@ -242,12 +242,12 @@ static inline int advance(double state[static 12], double h,
         const double w27 = X2_2 * w18;
         const double w28 = X2_1 * w24;
         const double Q2_8 = g20 * (w26 + w27) + g21 * (w25 - w23) + g22 * (1.0 - (w21 + w28));
-        const double w29 = 3.26 - 3.0 * Q2_8;
-        const double w30 = 1.0 / sqrt(w29 - 0.3 * Q2_7);
+        const double w29 = 1.5 - 2.0 * Q2_8;
+        const double w30 = 1.0 / sqrt(1.01 + 1.5 * (w29 - 0.2 * Q2_7));
         const double w31 = w30 * w30 * (0.5 * w30);
-        const double w32 = 1.0 / sqrt(w29 + 0.3 * Q2_7);
+        const double w32 = 1.0 / sqrt(1.01 + 1.5 * (w29 + 0.2 * Q2_7));
         const double w33 = w32 * w32 * (0.5 * w32);
-        const double w34 = -1.0 - 3.0 * (w31 - w33);
+        const double w34 = -1.0 - 2.0 * (1.5 * w31 - 1.5 * w33);
         const double w35 = -0.3 * w31 - 0.3 * w33;
         const double Nn2_0 = Q2_7 * w34 - Q2_8 * w35 + 99.0 * a_6_1 * p_2_2;
         const double X1_0 = v1_0 * w3 + v2_0 * w36;
@@ -282,12 +282,12 @@ static inline int advance(double state[static 12], double h,
         const double w60 = X1_2 * w51;
         const double w61 = X1_1 * w57;
         const double Q1_8 = g20 * (w59 + w60) + g21 * (w58 - w56) + g22 * (1.0 - (w54 + w61));
-        const double w62 = 3.26 - 3.0 * Q1_8;
-        const double w63 = 1.0 / sqrt(w62 - 0.3 * Q1_7);
+        const double w62 = 1.5 - 2.0 * Q1_8;
+        const double w63 = 1.0 / sqrt(1.01 + 1.5 * (w62 - 0.2 * Q1_7));
         const double w64 = w63 * w63 * (0.5 * w63);
-        const double w65 = 1.0 / sqrt(w62 + 0.3 * Q1_7);
+        const double w65 = 1.0 / sqrt(1.01 + 1.5 * (w62 + 0.2 * Q1_7));
         const double w66 = w65 * w65 * (0.5 * w65);
-        const double w67 = -1.0 - 3.0 * (w64 - w66);
+        const double w67 = -1.0 - 2.0 * (1.5 * w64 - 1.5 * w66);
         const double w68 = -0.3 * w64 - 0.3 * w66;
         const double Nn1_0 = Q1_7 * w67 - Q1_8 * w68 + 99.0 * a_2_1 * p_2;
         s_L_0 = m_0 + w1 * (Nn2_0 + Nn1_0);

@@ -18,10 +18,10 @@ left out:   7 dexpt, 1 lin (sharing)
             2 Adinv, 2 Adt, 2 dexpinv, 2 dexpinvt, 3 dexpt (functions)
             2 legendre, 2 lin, 2 series, 2 seriest (sharing)
             2 Ad, 4 Adtinv, 2 seriest (factors)
-            parameters, folded: beta = 1
+            parameters, folded: beta = 1, depth = 3/2
             the time: the scene does not depend on it
 operations: 42 add, 66 mul, 1 stumpff_1 a step
-            311 add, 472 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 a sweep of
+            315 add, 480 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 a sweep of
             the equations of v1, v2, m1, m2
 made by:    orderconds emit dipole --method 'vrkmk(2):gauss2' --target python -o .
 version:    orderconds 0.1.0
@@ -143,7 +143,7 @@ def _stumpff_23(z):
     """Return, for z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 1.0:
         return _stumpff_series_2(z), _stumpff_series_3(z)
-    half = 0.5 * sqrt(z)
+    half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
     ratio = sin(half) / half
     c3 = _stumpff_series_3(z) if z <= 4.0 else (1.0 - ratio * cos(half)) / z
     return 0.5 * (ratio * ratio), c3
@@ -153,7 +153,7 @@ def _stumpff_123(z):
     """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z), _stumpff_series_3(z)
-    half = 0.5 * sqrt(z)
+    half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
     ratio = sin(half) / half
     c3 = _stumpff_series_3(z) if z <= 4.0 else (1.0 - ratio * cos(half)) / z
     return ratio * cos(half), 0.5 * (ratio * ratio), c3
@@ -163,7 +163,7 @@ def _stumpff_1(z):
     """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s."""
     if z <= 1.0:
         return _stumpff_series_1(z)
-    s = sqrt(z)
+    s = sqrt(z if z <= 4503599627370496.0 else float("nan"))
     return sin(s) / s
 
 
@@ -222,12 +222,12 @@ def _advance(state, h, statistics):
         w27 = X2_2 * w18
         w28 = X2_1 * w24
         Q2_8 = g20 * (w26 + w27) + g21 * (w25 - w23) + g22 * (1.0 - (w21 + w28))
-        w29 = 3.26 - 3.0 * Q2_8
-        w30 = 1.0 / sqrt(w29 - 0.3 * Q2_7)
+        w29 = 1.5 - 2.0 * Q2_8
+        w30 = 1.0 / sqrt(1.01 + 1.5 * (w29 - 0.2 * Q2_7))
         w31 = w30 * w30 * (0.5 * w30)
-        w32 = 1.0 / sqrt(w29 + 0.3 * Q2_7)
+        w32 = 1.0 / sqrt(1.01 + 1.5 * (w29 + 0.2 * Q2_7))
         w33 = w32 * w32 * (0.5 * w32)
-        w34 = -1.0 - 3.0 * (w31 - w33)
+        w34 = -1.0 - 2.0 * (1.5 * w31 - 1.5 * w33)
         w35 = -0.3 * w31 - 0.3 * w33
         Nn2_0 = Q2_7 * w34 - Q2_8 * w35 + 99.0 * a_6_1 * p_2_2
         X1_0 = v1_0 * w3 + v2_0 * w36
@@ -261,12 +261,12 @@ def _advance(state, h, statistics):
         w60 = X1_2 * w51
         w61 = X1_1 * w57
         Q1_8 = g20 * (w59 + w60) + g21 * (w58 - w56) + g22 * (1.0 - (w54 + w61))
-        w62 = 3.26 - 3.0 * Q1_8
-        w63 = 1.0 / sqrt(w62 - 0.3 * Q1_7)
+        w62 = 1.5 - 2.0 * Q1_8
+        w63 = 1.0 / sqrt(1.01 + 1.5 * (w62 - 0.2 * Q1_7))
         w64 = w63 * w63 * (0.5 * w63)
-        w65 = 1.0 / sqrt(w62 + 0.3 * Q1_7)
+        w65 = 1.0 / sqrt(1.01 + 1.5 * (w62 + 0.2 * Q1_7))
         w66 = w65 * w65 * (0.5 * w65)
-        w67 = -1.0 - 3.0 * (w64 - w66)
+        w67 = -1.0 - 2.0 * (1.5 * w64 - 1.5 * w66)
         w68 = -0.3 * w64 - 0.3 * w66
         Nn1_0 = Q1_7 * w67 - Q1_8 * w68 + 99.0 * a_2_1 * p_2
         s_L_0 = m_0 + w1 * (Nn2_0 + Nn1_0)

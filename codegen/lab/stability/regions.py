@@ -11,8 +11,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from codegen.errors import MethodError
 from codegen.method import Method
-from orderconds.tableau.methods import RungeKutta
 from orderconds.tableau.stability import stability_function
 
 FARTHEST = 100.0
@@ -43,13 +43,10 @@ class Region:
 def region(method: Method) -> Region | None:
     """Return the linear stability of a method's tableau, None for those without A and b or an exact ring."""
     tableau = method.tableau
-    coefficients = tableau.method
-    if not isinstance(coefficients, RungeKutta) or not hasattr(tableau.ring, "approximate"):
-        return None
     try:
-        R = stability_function(coefficients, tableau.ring)
+        R = stability_function(method.runge_kutta(), tableau.ring)
         rows = [[float(tableau.ring.approximate(x, 20)) for x in p] for p in (R.numerator, R.denominator)]
-    except (TypeError, ValueError, ArithmeticError, NotImplementedError):
+    except (MethodError, TypeError, ValueError, ArithmeticError, AttributeError):
         return None
 
     def value(z: complex) -> complex:

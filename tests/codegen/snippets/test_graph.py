@@ -23,7 +23,7 @@ def test_the_edges_are_the_calls_in_the_text(target, snippet):
     text = needed(target, [snippet.name]).texts[-1]
     body = text.split("\n", 1)[1]
     called = set(re.findall(r"([a-z]\w*)\(", re.sub(r'""".*?"""|/\*.*?\*/', "", body, flags=re.S)))
-    assert called - {snippet.name} == set(snippet.calls)
+    assert called - {snippet.name, "float"} == set(snippet.calls)
 
 
 def test_callees_come_first():

@@ -10,9 +10,11 @@ import pytest
 from cffi import FFI
 
 from codegen.build import build
+from codegen.emit import emit
+from codegen.load import StepFailed, load
 from codegen.printers.precision import DOUBLE, SINGLE, Precision
 from codegen.snippets.graph import needed
-from codegen.snippets.stumpff import SETS, SMALL, SWITCH, coefficients
+from codegen.snippets.stumpff import SETS, SMALL, SWITCH, coefficients, limit
 
 POINTS = [
     *(0.0, 5e-324, 1e-310, 1e-300, 1e-16, 1e-8, 1e-3, 0.0625, math.nextafter(0.0625, 1), 0.1, 0.5),
@@ -132,6 +134,9 @@ def test_floats_are_as_accurate_in_their_last_places(spelled):
     call = spelled(SINGLE)
     for orders in SETS:
         for z in map(float, map(np.float32, POINTS)):
+            if z > limit(SINGLE):
+                assert all(math.isnan(x) for x in call(orders, z))
+                continue
             for k, value in zip(orders, call(orders, z), strict=True):
                 error = abs(float(mpmath.mpf(float(value)) - reference(k, z)))
                 assert error <= allowed(k, z, SINGLE), (k, z, value)
@@ -142,3 +147,14 @@ def test_polynomials_are_as_long_as_the_precision_asks_for():
         assert tuple(len(coefficients(k, bits=precision.bits)) for k in range(4)) == terms
     texts = [needed("c", ["stumpff_1"], precision).texts[0] for precision in (DOUBLE, SINGLE)]
     assert ["double" in text for text in texts] == [True, False]
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+def test_an_angle_beyond_half_its_digits_is_no_angle(target):
+    """The step that asked for it fails with a status; the last angle that is answered is 2^26."""
+    step = load(emit("free_rigid_body", "rkmk(0):euler", target))
+    speed = math.hypot(0.5 * math.cos(1.1), 1.5 * math.sin(1.1))
+    start = [math.cos(1.1), 0.0, math.sin(1.1)]
+    assert math.hypot(*step.step(start, 0.999 * 2.0**26 / speed)) == pytest.approx(1.0)
+    with pytest.raises(StepFailed, match="not finite"):
+        step.step(start, 1.001 * 2.0**26 / speed)

@@ -1,0 +1,86 @@
+"""Extreme input: each answer is accurate or a status, and an answer that is neither is found out."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from codegen.emit import compile_method
+from codegen.lab.runner import Emitted
+from codegen.lab.stability.extremes import ACCURATE, WRONG, Case, answer, cases
+from codegen.load import Integrator
+
+
+class Spoilt:
+    """An integrator with one fault."""
+
+    def __init__(self, sound: Integrator, fault) -> None:
+        self.sound, self.fault = sound, fault
+
+    def run(self, state, h, steps, t=0.0, statistics=None):
+        return self.fault(self.sound, state, h, steps, t)
+
+
+@pytest.mark.parametrize(
+    ("scene", "method"),
+    [
+        ("free_rigid_body", "rkmk:rk4"),
+        ("free_rigid_body", "ambient:rk4"),
+        ("dipole", "cf:cf4"),
+        ("dipole", "vcg:midpoint"),
+        ("driven_spin", "cf:cf4"),
+        ("linear_oscillator", "rk:rk4"),
+        ("fast_heavy_top", "splitting:strang"),
+    ],
+)
+def test_each_answer_is_accurate_or_a_status(scene, method):
+    made = compile_method(scene, method)
+    runner = Emitted(made, "c")
+    found = [answer(made, runner, case) for case in cases(made)]
+    assert [a for a in found if a.verdict != ACCURATE and not a.verdict.startswith("status: ")] == []
+    names = [a.case.name for a in found]
+    for wanted in ("usual step", "h = 0", "h = 1e-12", "angle pi", "angle 1e+08", "h = nan"):
+        assert wanted in names
+    usual = found[0]
+    assert usual.determined is not None
+    assert usual.determined > 14
+    assert usual.error is not None
+    assert usual.error < 1e-14
+
+
+FAULTS = {
+    "a wrong last half": lambda sound, y, h, n, t: [x * (1 + 1e-8) for x in sound.run(y, h, n, t)],
+    "the old state": lambda sound, y, h, n, t: list(y),
+    "no number": lambda sound, y, h, n, t: [math.nan] * len(y),
+    "a constant": lambda sound, y, h, n, t: [1.0] * len(y),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_an_answer_that_is_neither_is_wrong(fault, monkeypatch):
+    made = compile_method("free_rigid_body", "rkmk:rk4")
+    runner = Emitted(made, "c")
+    usual = next(iter(cases(made)))
+    assert answer(made, runner, usual).verdict == ACCURATE
+    monkeypatch.setitem(runner.__dict__, "integrator", Spoilt(runner.integrator, FAULTS[fault]))
+    assert answer(made, runner, usual).verdict.startswith(WRONG)
+
+
+def test_an_answer_to_nan_is_wrong(monkeypatch):
+    made = compile_method("free_rigid_body", "rkmk:rk4")
+    runner = Emitted(made, "c")
+    spoilt = Spoilt(runner.integrator, FAULTS["a constant"])
+    monkeypatch.setitem(runner.__dict__, "integrator", spoilt)
+    case = Case("h = nan", (1.0, 0.0, 0.0), 0.0, math.nan)
+    assert answer(made, runner, case).verdict.startswith(WRONG)
+
+
+def test_digits_go_as_the_angle_grows():
+    made = compile_method("free_rigid_body", "cf:cf4")
+    runner = Emitted(made, "c")
+    usual = next(iter(cases(made)))
+    digits = [answer(made, runner, replace(usual, h=h)).determined for h in (0.1, 10.0, 1000.0)]
+    assert digits == sorted(digits, reverse=True)
+    assert digits[0] > digits[-1] + 4
