@@ -6,6 +6,7 @@ from collections.abc import Callable
 from itertools import accumulate
 from typing import Any
 
+from codegen.errors import SceneError
 from codegen.groups.protocol import LieGroup, Scalars
 from codegen.ir.domain import Domain
 
@@ -18,6 +19,8 @@ class Product(LieGroup):
     """
 
     def __init__(self, *factors: Any) -> None:
+        if not factors:
+            raise SceneError("a product without factors", expected="one group at least")
         self.factors = factors
         self.name = " x ".join(f.name for f in factors)
         self.dim, self.size = sum(f.dim for f in factors), sum(f.size for f in factors)

@@ -28,6 +28,7 @@ GALLERY = (
     "free_rigid_body",
     "free_rigid_body_attitude",
     "free_rigid_body_product",
+    "free_rigid_body_quaternion",
     "free_rigid_body_s3",
     "heavy_top",
     "linear_oscillator",

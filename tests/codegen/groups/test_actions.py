@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from codegen.groups import LeftMultiplication, Motion, Rotation, get, listing
+from codegen.errors import SceneError
+from codegen.groups import LeftMultiplication, Motion, Product, Rotation, get, listing
 from orderconds.errors import UnknownName
 from tests.strategies import ALL_GROUPS, BASE_GROUPS, SAMPLES, sampler
 
@@ -65,3 +66,8 @@ def test_an_unknown_group_lists_the_known_ones():
     with pytest.raises(UnknownName, match="unknown group 'SO4'; expected one of Cotangent"):
         get("SO4")
     assert get("SO3").name == "SO(3)"
+
+
+def test_a_product_without_factors_is_refused():
+    with pytest.raises(SceneError, match="a product without factors"):
+        Product()

@@ -48,6 +48,11 @@ KEPT = {
         -0.2046146184817927922104834186 0.9641189611256341208230239797 0.1691374787017306298163507180
         1.7659625085182075357271504818 -0.6954641970330891194994927568 0.7795549814818710861007417738
     """,
+    "free_rigid_body_quaternion": """
+        -0.7360613641607939361612411474 -0.5707869512403507332546212462
+        -0.2993885718307900937437669433 -0.2068390861046731924831171081
+        1.7659625085182075357271504818 -0.6954641970330891194994927568 0.7795549814818710861007417738
+    """,
     "free_rigid_body_s3": """
         0.5241715935578283078592174750 0.0263319715795552151808100361
         0.0229804605934100858597309217 -0.8508952145891379190611662691
@@ -100,6 +105,15 @@ def test_the_attitude_stays_a_rotation(name):
         g = rows(kept(name))
         assert mpmath.norm(g.T * g - mpmath.eye(3)) < 1e-25
         assert mpmath.det(g) > 0
+
+
+def test_the_quaternion_is_the_attitude_of_the_matrix():
+    """E(q) = 1 + 2 q0 hat(q) + 2 hat(q)^2 (Euler and Rodrigues)."""
+    with mpmath.workdps(45):
+        a, x, y, z = kept("free_rigid_body_quaternion")[:4]
+        hat = mpmath.matrix([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+        rotation = mpmath.eye(3) + 2 * a * hat + 2 * hat * hat
+        assert mpmath.norm(rotation - rows(kept("free_rigid_body_product"))) < 1e-25
 
 
 def test_the_fast_top_has_the_published_angular_velocity():
