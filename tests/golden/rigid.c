@@ -78,7 +78,7 @@ static inline void stumpff_12(double z, double *c1, double *c2)
         *c2 = stumpff_series_2(z);
         return;
     }
-    const double half = 0.5 * sqrt(z);
+    const double half = 0.5 * sqrt(z <= 4503599627370496.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
     const double ratio = sine / half;
