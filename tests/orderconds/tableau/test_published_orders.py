@@ -43,7 +43,7 @@ PUBLISHED = {
     "magnus": {
         1: "lie_euler",
         2: "magnus2",
-        4: "magnus4 fer4 cf_magnus4",
+        4: "magnus4 fer4 cf_magnus4 lie_midpoint_triple_jump",
         6: "magnus6 fer6 cf_magnus6",
         8: "magnus8 cf_magnus8 cf_magnus8_11",
     },
