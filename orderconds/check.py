@@ -227,7 +227,7 @@ def check(
     if family is None:
         broken += _broken_claims(tableau, computed, embedded)
     if complete:
-        broken += [f"no order is claimed in family {name}, which it can serve" for name in unclaimed(tableau)]
+        broken += _missing_claims(enclosed, unclaimed(tableau))
     orders = _orders(enclosed, wanted, facts, order)
     if certified:
         broken += [f"{f.family}: certificate decimal" for f in orders if f.certificate == "decimal"]
@@ -512,6 +512,15 @@ def _broken_claims(
         order = embedded.orders[embedded.own]
         reason = f"; {embedded.failing[0]}" if order < embedded.claimed and embedded.failing else ""
         yield f"the embedded row has order {order} ({embedded.own}), claimed {embedded.claimed}{reason}"
+
+
+def _missing_claims(tableau: Tableau, names: Sequence[str]) -> Iterator[str]:
+    """Yield each family that the tableau can serve without a claim, with the claim that would hold."""
+    for name in names:
+        found = family_order(tableau, families.get(name))
+        least = " at least" if found.limit is not None or not found.decided else ""
+        order = f"its order there is{least} {found.order}"
+        yield f"no order is claimed in family {name}, which it can serve: {order}"
 
 
 def _judge(ring: Ring, residual: Element, n: int) -> str:

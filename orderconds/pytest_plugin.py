@@ -1,17 +1,25 @@
 """pytest collects tableau files: ``pytest --orderconds tableaux/`` makes each a test of all that it claims.
 
-Without the flag the plugin does nothing. ``--orderconds-complete`` demands a claim for every family that a
-tableau can serve, as ``orderconds check --complete`` does. Files ``*.toml`` without the keys of a tableau
-(``pyproject.toml``) are left alone.
+Without a flag the plugin does nothing. ``--orderconds-complete`` demands a claim for every family that a
+tableau can serve and ``--orderconds-certified`` a proof of every order, as ``orderconds check`` does. A
+tableau that claims nothing is skipped, with a word. Files ``*.toml`` without the keys of a tableau
+(``pyproject.toml``) are left alone, unless they are named one by one.
 """
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 import pytest
+
+FLAGS = ("--orderconds", "--orderconds-complete", "--orderconds-certified")
+KEYS = frozenset(
+    ("family", "A", "b", "stage", "update", "low_storage", "gamma", "alpha", "step", "exponents")
+)
+"""A file with one of these keys is meant as a tableau."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -25,14 +33,28 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         action="store_true",
         help="the same, and demand a claim for every family that a tableau can serve",
     )
+    group.addoption(
+        "--orderconds-certified",
+        action="store_true",
+        help="the same, and demand a proof of every order",
+    )
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
     """Collect a tableau file where the flag is given."""
-    asked = parent.config.getoption("--orderconds") or parent.config.getoption("--orderconds-complete")
-    if not asked or file_path.suffix != ".toml" or file_path.name == "pyproject.toml":
+    if file_path.suffix != ".toml" or not any(map(parent.config.getoption, FLAGS)):
+        return None
+    if not (parent.session.isinitpath(file_path) or _meant_as_tableau(file_path)):
         return None
     return TableauFile.from_parent(parent, path=file_path)
+
+
+def _meant_as_tableau(path: Path) -> bool:
+    """Whether a file has a key of a tableau; what cannot be read may have been one."""
+    try:
+        return not KEYS.isdisjoint(tomllib.loads(path.read_text(encoding="utf-8")))
+    except (OSError, ValueError, RecursionError):
+        return True
 
 
 class TableauFile(pytest.File):
@@ -50,9 +72,13 @@ class TableauItem(pytest.Item):
         """Check the file; :class:`ClaimFails` with what the command would print."""
         from orderconds.check import check
 
-        report = check(self.path, complete=bool(self.config.getoption("--orderconds-complete")))
+        complete, certified = (bool(self.config.getoption(flag)) for flag in FLAGS[1:])
+        report = check(self.path, complete=complete, certified=certified)
         if report.verdict != "holds":
             raise ClaimFails(report.summary())
+        if all(family.claimed is None for family in report.orders) and not complete:
+            found = ", ".join(f"{family.family} {family.order}" for family in report.orders)
+            pytest.skip(f"the file claims no order; it has {found}")
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """Return the verdict, or the message of a file that cannot be read, without a traceback."""

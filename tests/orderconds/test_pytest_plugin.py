@@ -11,11 +11,20 @@ import pytest
 EULER = 'name = "euler"\nfamily = "rk"\nA = [[]]\nb = ["1"]\n[claims]\nrk = {}\n'
 
 
-def run(folder: Path, *flags: str) -> subprocess.CompletedProcess[str]:
+def run(folder: Path, *flags: str, target: str = ".") -> subprocess.CompletedProcess[str]:
     command = [sys.executable, "-m", "pytest", "-p", "orderconds.pytest_plugin", "-p", "no:cacheprovider"]
     root = Path(__file__).parents[2]
     return subprocess.run(
-        [*command, "-q", "--rootdir", str(folder), "-c", str(folder / "none.ini"), *flags, str(folder)],
+        [
+            *command,
+            "-q",
+            "--rootdir",
+            str(folder),
+            "-c",
+            str(folder / "none.ini"),
+            *flags,
+            str(folder / target),
+        ],
         capture_output=True,
         text=True,
         cwd=root,
@@ -57,7 +66,31 @@ def test_a_file_that_cannot_be_read_fails_with_its_message(folder: Path) -> None
 def test_complete_demands_every_family(folder: Path) -> None:
     result = run(folder, "--orderconds-complete")
     assert result.returncode == 1
-    assert "no order is claimed in family cg" in result.stdout
+    assert "no order is claimed in family cg, which it can serve: its order there is 1" in result.stdout
+
+
+def test_certified_demands_proofs(folder: Path) -> None:
+    text = EULER.format(1).replace('"1"', '"1.00000000000000000000~"')
+    (folder / "rounded.toml").write_text(text.replace("euler", "rounded"), encoding="utf-8")
+    assert run(folder, "--orderconds").returncode == 0
+    result = run(folder, "--orderconds-certified")
+    assert result.returncode == 1
+    assert "rk: certificate decimal" in result.stdout
+    assert "1 failed, 1 passed" in result.stdout
+
+
+def test_a_tableau_without_claims_is_skipped_with_its_order(folder: Path) -> None:
+    (folder / "silent.toml").write_text(EULER.partition("[claims]")[0], encoding="utf-8")
+    result = run(folder, "--orderconds", "-rs")
+    assert result.returncode == 0
+    assert "the file claims no order; it has rk 1" in result.stdout
+
+
+def test_other_files_are_left_alone_unless_named(folder: Path) -> None:
+    (folder / "Cargo.toml").write_text('[package]\nname = "x"\n', encoding="utf-8")
+    assert "1 passed" in run(folder, "--orderconds").stdout
+    result = run(folder, "--orderconds", target="Cargo.toml")
+    assert "no family; expected one of cf" in result.stdout
 
 
 def test_without_the_flag_nothing_is_collected(folder: Path) -> None:

@@ -21,7 +21,9 @@ def test_a_missing_claim_fails_a_complete_check_and_no_other() -> None:
     assert check(tableau).verdict == "holds"
     report = check(tableau, complete=True)
     assert report.verdict == "fails"
-    assert report.broken_claims == ("no order is claimed in family rkmk, which it can serve",)
+    assert report.broken_claims == (
+        "no order is claimed in family rkmk, which it can serve: its order there is 2",
+    )
 
 
 def test_a_zero_weight_bars_the_variational_families() -> None:
