@@ -8,7 +8,6 @@ tableau that claims nothing is skipped, with a word. Files ``*.toml`` without th
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -16,10 +15,6 @@ from typing import Any
 import pytest
 
 FLAGS = ("--orderconds", "--orderconds-complete", "--orderconds-certified")
-KEYS = frozenset(
-    ("family", "A", "b", "stage", "update", "low_storage", "gamma", "alpha", "step", "exponents")
-)
-"""A file with one of these keys is meant as a tableau."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -44,17 +39,11 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
     """Collect a tableau file where the flag is given."""
     if file_path.suffix != ".toml" or not any(map(parent.config.getoption, FLAGS)):
         return None
-    if not (parent.session.isinitpath(file_path) or _meant_as_tableau(file_path)):
+    from orderconds.tableau.file import meant_as_tableau
+
+    if not (parent.session.isinitpath(file_path) or meant_as_tableau(file_path)):
         return None
     return TableauFile.from_parent(parent, path=file_path)
-
-
-def _meant_as_tableau(path: Path) -> bool:
-    """Whether a file has a key of a tableau; what cannot be read may have been one."""
-    try:
-        return not KEYS.isdisjoint(tomllib.loads(path.read_text(encoding="utf-8")))
-    except (OSError, ValueError, RecursionError):
-        return True
 
 
 class TableauFile(pytest.File):

@@ -147,12 +147,17 @@ def _excused(arguments: Sequence[str]) -> set[str]:
 
 
 def _files(arguments: Sequence[str]) -> Iterator[str]:
-    """Yield each argument, a directory replaced by the tableau files below it in sorted order."""
+    """Yield each argument, a directory replaced by the tableau files below it in sorted order.
+
+    Other TOML files there (``pyproject.toml``) are left alone.
+    """
+    from orderconds.tableau.file import meant_as_tableau
+
     for argument in arguments:
         if not os.path.isdir(argument):
             yield argument
             continue
-        found = sorted(str(path) for path in Path(argument).rglob("*.toml"))
+        found = sorted(str(path) for path in Path(argument).rglob("*.toml") if meant_as_tableau(path))
         if not found:
             raise TableauError("no tableau below this directory", where=argument, expected="files *.toml")
         yield from found

@@ -12,7 +12,7 @@ from typing import Any
 import msgspec
 from msgspec import Struct
 
-from orderconds.errors import TableauError
+from orderconds.errors import InputError, TableauError
 from orderconds.tableau.evaluate import Definition, NamedRoot, evaluate
 from orderconds.tableau.formats import (
     FORMATS,
@@ -35,6 +35,8 @@ from orderconds.tableau.unknowns import Proof, Spelled
 
 MAX_BYTES = 1_000_000
 MAX_NAME = 64
+KEYS = frozenset(("family", "A", "b", "stage", "update", "low_storage", "gamma", "alpha", "exponents"))
+"""A file with one of these keys is meant as a tableau."""
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.+-]*")
 _NUMBER = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
@@ -82,6 +84,19 @@ def text_of(path: str | Path) -> str:
         raise TableauError(
             "bytes that are no UTF-8", where=str(path), expected="a tableau file (TOML)"
         ) from None
+
+
+def meant_as_tableau(path: str | Path) -> bool:
+    """Whether a TOML file has a key of a tableau; one that cannot be read may have been meant so.
+
+    >>> from orderconds.tableau.library import root
+    >>> meant_as_tableau(root().parent / "pyproject.toml"), meant_as_tableau(root() / "rk" / "rk4.toml")
+    (False, True)
+    """
+    try:
+        return not KEYS.isdisjoint(tomllib.loads(text_of(path)))
+    except (InputError, ValueError, RecursionError):
+        return True
 
 
 def loads(text: str, where: str = "<text>", path: str | None = None) -> Tableau:

@@ -196,3 +196,15 @@ def test_coefficients_of_thousands_of_digits_are_checked_and_json_stays_json(tmp
     (record,) = json.loads(run("--json", str(path)).stdout, parse_constant=refuse)
     assert record["orders"]["rk"]["error_norm"] is None
     assert len(record["orders"]["rk"]["failing"][0]["residual"]) > 7000
+
+
+def test_other_toml_files_of_a_folder_are_left_alone_unless_named(tmp_path: Path) -> None:
+    (tmp_path / "euler.toml").write_text(
+        'name = "euler"\nfamily = "rk"\nA = [[]]\nb = [1]\n', encoding="utf-8"
+    )
+    other = tmp_path / "pyproject.toml"
+    other.write_text('[project]\nname = "x"\n', encoding="utf-8")
+    assert run(str(tmp_path)).exit_code == 0
+    assert run(str(other)).exit_code == 2
+    (tmp_path / "euler.toml").unlink()
+    assert "no tableau below this directory" in run(str(tmp_path)).output
