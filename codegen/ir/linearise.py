@@ -16,6 +16,9 @@ from codegen.ir.number import Number
 
 STEP = "h"
 
+EXPANDED = frozenset({"sqrt", "sin", "cos", "exp", "log", *(f"stumpff{k}" for k in range(4))})
+"""The functions whose expansions are known here."""
+
 Pair = tuple[Expr, Expr]
 """Coefficients of 1 and of h."""
 
@@ -82,8 +85,10 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
             for _ in range(node.payload - 1):
                 result = _product(space, result, args[0])
             return result
-        case _:
+        case _ if node.payload in EXPANDED:
             return _called(space, node.payload, args[0])
+        case _:
+            raise NotLinearised(f"{node.payload} is not expanded")
 
 
 def _times(a: Pair, b: Pair) -> Pair:

@@ -94,3 +94,12 @@ def test_a_pole_at_h_0_is_refused():
         first_order_jacobian([space.sym("x") / space.sym("h")], ["x"])
     with pytest.raises(NotLinearised, match="angle"):
         first_order_jacobian([space.call("stumpff1", space.sym("x"))], ["x"])
+
+
+@pytest.mark.parametrize("function", ["quotient", "signed_stumpff0", "signed_stumpff1"])
+def test_a_function_without_an_expansion_is_refused(function):
+    space = Space()
+    x = space.sym("x")
+    call = space.call(function, x, x + 1) if function == "quotient" else space.call(function, x)
+    with pytest.raises(NotLinearised, match=f"{function} is not expanded"):
+        first_order_jacobian([call], ["x"])
