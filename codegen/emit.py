@@ -20,8 +20,7 @@ from codegen.ir.domain import FloatDomain
 from codegen.ir.kernel import Kernel, Loop
 from codegen.ir.program import Program
 from codegen.lower import families_for, lower, setting
-from codegen.lower.kernel import to_kernel
-from codegen.lower.put_off import with_put_off
+from codegen.lower.variants import cheapest
 from codegen.method import Method, parse
 from codegen.passes import PassReport, optimise
 from codegen.printers import target as printer_of
@@ -92,7 +91,7 @@ def compile_method(
     candidates = []
     for framed in (False, True) if view.has_body else (False,):
         program, trace = optimise(lowered, view, framed=framed)
-        kernel = with_put_off(to_kernel(program, view), program, view)
+        kernel = cheapest(program, view)
         candidates.append(Compiled(scene, method, view, lowered, program, trace, kernel))
     return min(candidates, key=lambda c: work(c.kernel))
 

@@ -4,8 +4,9 @@
  * The free top turns the body by exp(t mu/I1) from the left, mu standing still, and by exp(t s P) about its axis X
  * from the right, s = 1/I3 - 1/I1 and P = mu.gX. Gravity depends on d = gX alone, so the second turn commutes with
  * everything, and P is kept: all of it is made in one at the very end. What is carried along is d, one more column a
- * of the attitude, and mu; the third column is a x d. A turn and the kick after it are one: the new momentum needs
- * c1 and c2 alone to be ready, not the new d, and that shortens the only chain that the processor waits for.
+ * of the attitude, and mu; the third column is a x d. A turn and the kick after it are one, and give the rotation
+ * vector x of the next turn: it is linear in c1 and c2, and all else that it needs is ready before them. That
+ * shortens the only chain that the processor waits for, from one angle to the next.
  */
 #ifndef HANDWRITTEN_FAST_HEAVY_TOP_H
 #define HANDWRITTEN_FAST_HEAVY_TOP_H
@@ -29,32 +30,34 @@ static inline void turn_column(double x, double y, double z, double c1, double c
     c[2] += c1 * w + c2 * r;
 }
 
-/* turn by exp(k mu), then kick: mu += g gX x -e3 */
-static inline void turn_and_kick(struct top *s, double k, double g)
+/* turn by exp(x), kick by mu += g gX x -e3, and make x = k mu for the turn that follows */
+static inline void turn_and_kick(struct top *s, double x[static 3], double g, double k)
 {
-    const double x = k * s->m[0], y = k * s->m[1], z = k * s->m[2];
-    const double *d = s->d;
-    const double u = y * d[2] - z * d[1], v = z * d[0] - x * d[2], w = x * d[1] - y * d[0];
-    const double p = y * w - z * v, q = z * u - x * w, r = x * v - y * u;
-    const double m0 = s->m[0] - g * d[1], m1 = s->m[1] + g * d[0];
-    const double gu = g * u, gv = g * v, gp = g * p, gq = g * q;
+    const double *d = s->d, a = x[0], b = x[1], c = x[2];
+    const double u = b * d[2] - c * d[1], v = c * d[0] - a * d[2], w = a * d[1] - b * d[0];
+    const double p = b * w - c * v, q = c * u - a * w, r = a * v - b * u;
+    const double kg = k * g;
+    const double x0 = k * s->m[0] - kg * d[1], x1 = k * s->m[1] + kg * d[0];
+    const double ku = kg * u, kv = kg * v, kp = kg * p, kq = kg * q;
     double c1, c2;
-    sinc_cosc(x * x + y * y + z * z, &c1, &c2);
-    s->m[0] = m0 - (c1 * gv + c2 * gq);
-    s->m[1] = m1 + (c1 * gu + c2 * gp);
+    sinc_cosc(a * a + b * b + c * c, &c1, &c2);
+    x[0] = x0 - (c1 * kv + c2 * kq);
+    x[1] = x1 + (c1 * ku + c2 * kp);
+    x[2] = k * s->m[2];
     s->d[0] += c1 * u + c2 * p;
     s->d[1] += c1 * v + c2 * q;
     s->d[2] += c1 * w + c2 * r;
-    turn_column(x, y, z, c1, c2, s->a);
+    s->m[0] -= g * s->d[1];
+    s->m[1] += g * s->d[0];
+    turn_column(a, b, c, c1, c2, s->a);
 }
 
-static inline void turn(struct top *s, double k)
+static inline void turn(struct top *s, const double x[static 3])
 {
-    const double x = k * s->m[0], y = k * s->m[1], z = k * s->m[2];
     double c1, c2;
-    sinc_cosc(x * x + y * y + z * z, &c1, &c2);
-    turn_column(x, y, z, c1, c2, s->d);
-    turn_column(x, y, z, c1, c2, s->a);
+    sinc_cosc(x[0] * x[0] + x[1] * x[1] + x[2] * x[2], &c1, &c2);
+    turn_column(x[0], x[1], x[2], c1, c2, s->d);
+    turn_column(x[0], x[1], x[2], c1, c2, s->a);
 }
 
 static inline void kick(struct top *s, double g)

@@ -13,13 +13,14 @@ void handwritten_run(double state[static 12], double h, size_t steps)
     struct top s;
     begin(&s, state);
     kick(&s, B[0] * g);
+    double x[3] = {A[0] * k * s.m[0], A[0] * k * s.m[1], A[0] * k * s.m[2]};
     for (size_t n = 1; n <= steps; n++) {
-        turn_and_kick(&s, A[0] * k, B[1] * g);
-        turn_and_kick(&s, A[1] * k, B[2] * g);
-        turn_and_kick(&s, A[2] * k, B[3] * g);
-        turn_and_kick(&s, A[2] * k, B[2] * g);
-        turn_and_kick(&s, A[1] * k, B[1] * g);
-        turn_and_kick(&s, A[0] * k, n < steps ? 2.0 * B[0] * g : B[0] * g);
+        turn_and_kick(&s, x, B[1] * g, A[1] * k);
+        turn_and_kick(&s, x, B[2] * g, A[2] * k);
+        turn_and_kick(&s, x, B[3] * g, A[2] * k);
+        turn_and_kick(&s, x, B[2] * g, A[1] * k);
+        turn_and_kick(&s, x, B[1] * g, A[0] * k);
+        turn_and_kick(&s, x, n < steps ? 2.0 * B[0] * g : B[0] * g, A[0] * k);
     }
     end(&s, h * (double)steps, state);
 }

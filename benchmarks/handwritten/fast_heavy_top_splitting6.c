@@ -14,17 +14,16 @@ void handwritten_run(double state[static 12], double h, size_t steps)
     const double k = h / inertia, g = h * weight;
     struct top s;
     begin(&s, state);
-    double first = A[0] * k;
-    for (size_t n = 0; n < steps; n++) {
-        turn_and_kick(&s, first, B[0] * g);
-        for (int i = 1; i < 7; i++) {
-            turn_and_kick(&s, A[i] * k, B[i] * g);
+    double x[3] = {A[0] * k * s.m[0], A[0] * k * s.m[1], A[0] * k * s.m[2]};
+    for (size_t n = 1; n <= steps; n++) {
+        for (int i = 0; i < 7; i++) {
+            turn_and_kick(&s, x, B[i] * g, A[i + 1] * k);
         }
-        for (int i = 7; i > 0; i--) {
-            turn_and_kick(&s, A[i] * k, B[i - 1] * g);
+        for (int i = 6; i > 0; i--) {
+            turn_and_kick(&s, x, B[i] * g, A[i] * k);
         }
-        first = 2.0 * A[0] * k;
+        turn_and_kick(&s, x, B[0] * g, n < steps ? 2.0 * A[0] * k : A[0] * k);
     }
-    turn(&s, A[0] * k);
+    turn(&s, x);
     end(&s, h * (double)steps, state);
 }

@@ -125,6 +125,10 @@ class LieGroup:
                 total = tuple(a + b for a, b in pairs)
         return total
 
+    def variants(self) -> tuple[Any, ...]:
+        """Return this group with the ways in which :meth:`left` can be computed, the plain one first."""
+        return (self,)
+
     def left(self, d: Domain, x: Scalars, g: Scalars) -> Scalars:
         """Return exp(x) g."""
         return self.mul(d, self.exp(d, x), g)

@@ -86,6 +86,13 @@ class SO3(LieGroup):
     name, layout = "SO(3)", ", row by row"
     dim, size = 3, 9
 
+    def __init__(self, spare: int | None = None) -> None:
+        self.spare = spare
+
+    def variants(self) -> tuple[SO3, ...]:
+        """Return this group, and as it is computed with a column that is the cross product of the others."""
+        return (self, *(SO3(column) for column in range(3)))
+
     def identity(self, d: Domain) -> Scalars:
         """Return the unit matrix."""
         one, zero = d.rational(1), d.rational(0)
@@ -180,6 +187,15 @@ class SO3(LieGroup):
         v = cross(x, y)
         w = cross(x, v)
         return tuple(a + c1 * b + c2 * c for a, b, c in zip(y, v, w, strict=True))
+
+    def left(self, d: Domain, x: Scalars, g: Scalars) -> Scalars:
+        """Return exp(x) g: two columns rotated, and their cross product as the third, which is ``spare``."""
+        if self.spare is None:
+            return self.mul(d, self.exp(d, x), g)
+        j, k = (self.spare + 1) % 3, (self.spare + 2) % 3
+        columns = {i: self.rotate(d, x, g[i::3]) for i in sorted((j, k))}
+        columns[self.spare] = cross(columns[j], columns[k])
+        return tuple(columns[i % 3][i // 3] for i in range(9))
 
     def laws(self, d: Domain, g: Scalars) -> tuple[tuple[str, Any], ...]:
         """Return g^T g = 1 and det g = 1."""
