@@ -20,7 +20,7 @@ from codegen.ir.domain import FloatDomain
 from codegen.ir.kernel import Kernel, Loop
 from codegen.ir.program import Program
 from codegen.lower import families_for, lower, setting
-from codegen.lower.variants import cheapest
+from codegen.lower.variants import fastest
 from codegen.method import Method, parse
 from codegen.passes import PassReport, optimise
 from codegen.printers import target as printer_of
@@ -91,7 +91,7 @@ def compile_method(
     candidates = []
     for framed in (False, True) if view.has_body else (False,):
         program, trace = optimise(lowered, view, framed=framed)
-        kernel = cheapest(program, view)
+        kernel = fastest(program, view)
         candidates.append(Compiled(scene, method, view, lowered, program, trace, kernel))
     return min(candidates, key=lambda c: work(c.kernel))
 

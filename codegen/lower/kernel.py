@@ -17,7 +17,8 @@ from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, walk
 from codegen.ir.interpret import apply, flatten
 from codegen.ir.kernel import ELAPSED, LEAD, Field, Kernel, Let, Loop, Sample
-from codegen.ir.program import Assign, Kind, Program, Solve, Var
+from codegen.ir.program import FLOWS, FLOWS_FOR, Assign, Kind, Program, Solve, Var
+from codegen.lower import late
 from codegen.scene import TIME, Setting
 
 INLINE = 10
@@ -87,6 +88,9 @@ def to_kernel(program: Program, scene: Setting) -> Kernel:
     outputs = tuple(x for n, var in program.outputs for x in flatten(var.kind, env[var]))
     if scene.body_group is not None:
         outputs = _framed(scene, outputs, lambda q, mu: scene.body_group.Adt(domain, q, mu))
+    composed = any(name in FLOWS | FLOWS_FOR for name in program.counts())
+    if composed:
+        outputs = late.run(outputs, frozenset({"h", *scene.runtime}))
     schedule = _Schedule(blocks, outputs, hints, name)
     state = tuple(Field(b.name, b.symbols, _meaning(b.kind, scene)) for b in scene.state)
     if scene.body_group is not None:
@@ -94,6 +98,8 @@ def to_kernel(program: Program, scene: Setting) -> Kernel:
     durations = [v.name for v in program.inputs if v.name in (LEAD, ELAPSED)]
     scalars = (TIME, "h", *scene.runtime, *durations)
     body = schedule.run()
+    if composed:
+        body = late.ordered([let for let in body if isinstance(let, Let)])
     made = Kernel(program.name, state, scalars, body, outputs=schedule.outputs)
     return _sampled(made, scene, domain)
 

@@ -55,7 +55,7 @@ def part(program: Program, scene: Setting) -> Parted | None:
 
 def with_put_off(kernel: Kernel, program: Program, scene: Setting) -> Kernel:
     """Return the kernel of a program's core with what it puts off; ``kernel`` where that is nothing."""
-    parted = part(program, scene)
+    parted = None if scene.inputs else part(program, scene)  # inputs are sampled step by step
     if parted is None:
         return kernel
     finish = to_kernel(parted.finish, scene)

@@ -1,0 +1,177 @@
+"""Short chains: what waits for a function's value is written so that it waits as little as it can.
+
+A processor makes many products at once, but a step of flows is one chain from each angle to the next: through
+sine and cosine, the turned attitude, the kicked momentum, the next angle. Whatever is linear in the values c
+that come last, as k (m - g (d + c_1 v + c_2 w)), becomes k (m - g d) - (c_1 (k g v) + c_2 (k g w)), where only
+two operations follow c. That is exact, costs a few products more, and is done on the longest chain alone, by
+the least times that operations take.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from codegen.ir.expr import Expr, Space, walk
+from codegen.ir.kernel import Kernel, Let
+
+TIMES = {"const": 0, "sym": 0, "neg": 0, "add": 1, "sub": 1, "mul": 1, "pow": 1, "div": 4, "call": 6}
+"""How long operations take, in units of an addition."""
+
+ATOMS = frozenset({"call", "div"})
+"""Operations whose values come late."""
+
+SLACK = 1
+"""How far from the longest chain an expression may be that is rewritten."""
+
+Sum = dict[Expr | None, tuple[Expr, Expr]]
+"""A sum over late values (None: no such factor) of what multiplies them, as (steps and constants, the rest)."""
+
+
+def chain(kernel: Kernel) -> int:
+    """Return how long a step takes at least, were everything else done beside the longest chain."""
+    ready: dict[int, int] = {}
+    for let in kernel.lets():
+        ready[let.value.space.sym(let.name).id] = _measured(let.value, ready)
+    return max(_measured(root, ready) for root in kernel.outputs)
+
+
+def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
+    """Return assignments in the order in which they can be ready.
+
+    A processor looks only some hundred instructions ahead: what could be done beside the longest chain must
+    stand beside it.
+    """
+    ready: dict[int, int] = {}
+    times = []
+    for let in lets:
+        times.append(_measured(let.value, ready))
+        ready[let.value.space.sym(let.name).id] = times[-1]
+    return tuple(lets[k] for k in sorted(range(len(lets)), key=lambda k: (times[k], k)))
+
+
+def _measured(root: Expr, ready: dict[int, int]) -> int:
+    for node in walk([root], lambda n: n.id in ready):
+        if node.id not in ready:
+            ready[node.id] = max((ready[a.id] for a in node.args), default=0) + TIMES[node.op]
+    return ready[root.id]
+
+
+def run(roots: Sequence[Expr], invariant: frozenset[str]) -> tuple[Expr, ...]:
+    """Return the roots with the longest chains shortened.
+
+    ``invariant`` names the symbols that do not change from step to step: products of them cost nothing.
+    """
+    return _Chains(tuple(roots), invariant).rewritten()
+
+
+@dataclass
+class _Chains:
+    """One set of roots: when its values are ready, and how long the chains are that follow them."""
+
+    roots: tuple[Expr, ...]
+    invariant: frozenset[str]
+    nodes: list[Expr] = field(init=False)
+    level: dict[int, int] = field(default_factory=dict)
+    ready: dict[int, int] = field(default_factory=dict)
+    follow: dict[int, int] = field(default_factory=dict)
+    fixed: dict[int, bool] = field(default_factory=dict)
+    new: dict[int, Expr] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.nodes = list(walk(self.roots))
+        for node in self.nodes:
+            self._measure(node)
+        for node in reversed(self.nodes):
+            after = self.follow.setdefault(node.id, 0) + TIMES[node.op]
+            for arg in node.args:
+                self.follow[arg.id] = max(self.follow.get(arg.id, 0), after)
+        self.longest = max(self.ready[r.id] for r in self.roots)
+
+    def _measure(self, node: Expr) -> None:
+        self.level[node.id] = max((self.level[a.id] for a in node.args), default=0) + (node.op in ATOMS)
+        self.ready[node.id] = max((self.ready[a.id] for a in node.args), default=0) + TIMES[node.op]
+        own = node.op == "const" or (node.op == "sym" and node.payload in self.invariant)
+        self.fixed[node.id] = all(self.fixed[a.id] for a in node.args) if node.args else own
+
+    def rewritten(self) -> tuple[Expr, ...]:
+        """Return the roots anew."""
+        ends = self._ends()
+        for node in self.nodes:
+            args = [self.new[a.id] for a in node.args]
+            plain = node.space._make(node.op, tuple(args), node.payload) if args else node
+            self._known(plain)
+            self.new[node.id] = plain
+            if node.id in ends and node.op in ("add", "sub", "mul"):
+                short = self._spelled(self._sum(node, self.level[node.id]), node.space)
+                if self.ready[short.id] < self.ready[plain.id]:
+                    self.new[node.id] = short
+        return tuple(self.new[r.id] for r in self.roots)
+
+    def _ends(self) -> frozenset[int]:
+        """Return the nodes whose late values something on a long chain uses otherwise than linearly."""
+        ends = set()
+        for node in self.nodes:
+            for arg in node.args:
+                if self.longest - self.ready[arg.id] - TIMES[node.op] - self.follow[node.id] > SLACK:
+                    continue
+                others = [a for a in node.args if a is not arg]
+                late = self.level[arg.id]
+                linear = node.op in ("add", "sub", "neg") or (
+                    node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
+                )
+                if late and not (linear and self.level[node.id] == late):
+                    ends.add(arg.id)
+        return frozenset(ends)
+
+    def _sum(self, node: Expr, level: int) -> Sum:
+        """Return an expression as a sum over the late values of a level."""
+        space = node.space
+        if self.level[node.id] < level:
+            return {None: (space.one, self.new[node.id])}
+        if node.op == "neg":
+            return _scaled(self._sum(node.args[0], level), -space.one, space.one)
+        if node.op in ("add", "sub"):
+            total = dict(self._sum(node.args[0], level))
+            sign = space.one if node.op == "add" else -space.one
+            for atom, (steps, rest) in _scaled(self._sum(node.args[1], level), sign, space.one).items():
+                if atom in total:
+                    before = self._product(*total[atom])
+                    total[atom] = (space.one, before + self._product(steps, rest))
+                else:
+                    total[atom] = (steps, rest)
+            return total
+        if node.op == "mul":
+            a, b = node.args
+            if self.level[b.id] < self.level[a.id]:
+                a, b = b, a
+            if self.level[a.id] < level:
+                factor = self.new[a.id]
+                one = space.one
+                return _scaled(self._sum(b, level), *((factor, one) if self.fixed[a.id] else (one, factor)))
+        return {self.new[node.id]: (space.one, space.one)}
+
+    def _product(self, steps: Expr, rest: Expr) -> Expr:
+        return self._known(self._known(steps) * rest)
+
+    def _spelled(self, total: Sum, space: Space) -> Expr:
+        """Return the sum of products, what is ready first added first."""
+        terms: list[Expr] = []
+        for atom, (steps, rest) in total.items():
+            product = self._product(steps, rest)
+            terms.append(product if atom is None else self._known(atom * product))
+        while len(terms) > 1:
+            terms.sort(key=lambda t: self.ready[t.id])
+            terms = [self._known(terms[0] + terms[1]), *terms[2:]]
+        return terms[0] if terms else space.zero
+
+    def _known(self, node: Expr) -> Expr:
+        """Measure a node that was made on the way, with what it is made of."""
+        for part in walk([node], lambda n: n.id in self.ready):
+            if part.id not in self.ready:
+                self._measure(part)
+        return node
+
+
+def _scaled(total: Sum, steps: Expr, rest: Expr) -> Sum:
+    return {atom: (s * steps, r * rest) for atom, (s, r) in total.items()}
