@@ -2,9 +2,9 @@
 
 A processor makes many products at once, but a step of flows is one chain from each angle to the next: through
 sine and cosine, the turned attitude, the kicked momentum, the next angle. Whatever is linear in the values c
-that come last, as k (m - g (d + c_1 v + c_2 w)), becomes k (m - g d) - (c_1 (k g v) + c_2 (k g w)), where only
-two operations follow c. That is exact, costs a few products more, and is done on the longest chain alone, by
-the least times that operations take.
+that come last, as k (m - g (d + c_1 v + c_2 w)), becomes k (m - g d) - c_1 (k g v) - c_2 (k g w), where three
+operations follow c in place of six. That is exact, costs a few products more, and is done on the longest
+chain alone, by the least times that operations take.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ SLACK = 1
 """How far from the longest chain an expression may be that is rewritten."""
 
 Sum = dict[Expr | None, tuple[Expr, Expr]]
-"""A sum over late values (None: no such factor) of what multiplies them, as (steps and constants, the rest)."""
+"""A sum over late values (None: no such factor) of what multiplies them: (steps and constants, the rest)."""
 
 
 def chain(kernel: Kernel) -> int:

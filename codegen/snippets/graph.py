@@ -39,10 +39,12 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
     switch = [float(z) for z in stumpff.SWITCH]
     for k in range(4):
         first, *rest = stumpff.constants(k, None, precision)
-        values: dict[str, Any] = {"k": k, "first": first, "even": rest[::2], "odd": rest[1::2], "short": ()}
-        if precision is DOUBLE:
-            values |= {"small": float(stumpff.SMALL), "short": stumpff.constants(k, stumpff.SMALL)}
+        values: dict[str, Any] = {"k": k, "first": first, "even": rest[::2], "odd": rest[1::2]}
         found.append(Snippet(f"stumpff_series_{k}", "stumpff_series", (), values))
+        if precision is DOUBLE:
+            short = {"k": k, "short": stumpff.constants(k, stumpff.SMALL)}
+            found.append(Snippet(f"stumpff_small_{k}", "stumpff_small", (), short))
+    small = float(stumpff.SMALL) if precision is DOUBLE else ""
     for orders in stumpff.SETS:
         name = "stumpff_" + "".join(map(str, orders))
         library = ["sqrt"]
@@ -50,8 +52,10 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
             library.append("sin")
         if orders not in ((1,), (2,), (3,), (1, 3)):
             library.append("cos")
-        calls = (*library, *(f"stumpff_series_{k}" for k in orders))
+        branches = ("small", "series") if precision is DOUBLE else ("series",)
+        calls = (*library, *(f"stumpff_{branch}_{k}" for k in orders for branch in branches))
         values = {"name": name, "orders": orders, "switch": switch, "limit": stumpff.limit(precision)}
+        values["small"] = small
         found.append(Snippet(name, "stumpff", calls, values))
     return tuple(found)
 

@@ -86,16 +86,43 @@ def _failed(status, label, block, sweep, statistics):
     return StepFailed(status, f"{label} {reason} after {sweep} sweeps")
 
 
-def _stumpff_series_3(z):
-    """Return c_3(z) = sum (-z)^j/(2j+3)! for small z."""
+def _stumpff_small_3(z):
+    """Return c_3(z) for z <= 1/16."""
     w = z * z
     w2 = w * w
-    if z <= 0.0625:
-        return (
-            (0.16666666666666666 + z * -0.008333333333333333)
-            + w * (0.0001984126984126984 + z * -2.7557319223985893e-06)
-            + w2 * (2.505210838544172e-08 + z * -1.6059043836821613e-10)
-        )
+    return (
+        (0.16666666666666666 + z * -0.008333333333333333)
+        + w * (0.0001984126984126984 + z * -2.7557319223985893e-06)
+        + w2 * (2.505210838544172e-08 + z * -1.6059043836821613e-10)
+    )
+
+
+def _stumpff_small_2(z):
+    """Return c_2(z) for z <= 1/16."""
+    w = z * z
+    w2 = w * w
+    return (
+        (0.5 + z * -0.041666666666666664)
+        + w * (0.001388888888888889 + z * -2.48015873015873e-05)
+        + w2 * (2.755731922398589e-07 + z * -2.08767569878681e-09)
+    )
+
+
+def _stumpff_small_1(z):
+    """Return c_1(z) for z <= 1/16."""
+    w = z * z
+    w2 = w * w
+    return (
+        (1.0 + z * -0.16666666666666666)
+        + w * (0.008333333333333333 + z * -0.0001984126984126984)
+        + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08)
+    )
+
+
+def _stumpff_series_3(z):
+    """Return c_3(z) = sum (-z)^j/(2j+3)! up to z = 4."""
+    w = z * z
+    w2 = w * w
     even = -1.9572941063391263e-20
     even = -1.6059043836821613e-10 + w * -2.8114572543455206e-15 + w2 * even
     even = -0.008333333333333333 + w * -2.7557319223985893e-06 + w2 * even
@@ -106,15 +133,9 @@ def _stumpff_series_3(z):
 
 
 def _stumpff_series_2(z):
-    """Return c_2(z) = sum (-z)^j/(2j+2)! for small z."""
+    """Return c_2(z) = sum (-z)^j/(2j+2)! up to z = 1."""
     w = z * z
     w2 = w * w
-    if z <= 0.0625:
-        return (
-            (0.5 + z * -0.041666666666666664)
-            + w * (0.001388888888888889 + z * -2.48015873015873e-05)
-            + w2 * (2.755731922398589e-07 + z * -2.08767569878681e-09)
-        )
     even = -2.08767569878681e-09 + w * -4.779477332387385e-14
     even = -0.041666666666666664 + w * -2.48015873015873e-05 + w2 * even
     odd = 1.1470745597729725e-11 + w * 1.5619206968586225e-16
@@ -123,15 +144,9 @@ def _stumpff_series_2(z):
 
 
 def _stumpff_series_1(z):
-    """Return c_1(z) = sum (-z)^j/(2j+1)! for small z."""
+    """Return c_1(z) = sum (-z)^j/(2j+1)! up to z = 1."""
     w = z * z
     w2 = w * w
-    if z <= 0.0625:
-        return (
-            (1.0 + z * -0.16666666666666666)
-            + w * (0.008333333333333333 + z * -0.0001984126984126984)
-            + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08)
-        )
     even = -2.505210838544172e-08 + w * -7.647163731819816e-13
     even = -0.16666666666666666 + w * -0.0001984126984126984 + w2 * even
     odd = 1.6059043836821613e-10 + w * 2.8114572543455206e-15
@@ -141,6 +156,8 @@ def _stumpff_series_1(z):
 
 def _stumpff_23(z):
     """Return, for z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
+    if z <= 0.0625:
+        return _stumpff_small_2(z), _stumpff_small_3(z)
     if z <= 1.0:
         return _stumpff_series_2(z), _stumpff_series_3(z)
     half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
@@ -151,6 +168,8 @@ def _stumpff_23(z):
 
 def _stumpff_123(z):
     """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
+    if z <= 0.0625:
+        return _stumpff_small_1(z), _stumpff_small_2(z), _stumpff_small_3(z)
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z), _stumpff_series_3(z)
     half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
@@ -161,6 +180,8 @@ def _stumpff_123(z):
 
 def _stumpff_1(z):
     """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s."""
+    if z <= 0.0625:
+        return _stumpff_small_1(z)
     if z <= 1.0:
         return _stumpff_series_1(z)
     s = sqrt(z if z <= 4503599627370496.0 else float("nan"))

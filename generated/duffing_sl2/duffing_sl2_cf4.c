@@ -12,7 +12,7 @@
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit here
  * operations: 23 add, 48 mul, 5 signed_stumpff0, 5 signed_stumpff1 a step
- * stack:      at most 832 bytes, without what the mathematical library takes
+ * stack:      at most 960 bytes, without what the mathematical library takes
  * made by:    orderconds emit duffing_sl2 --method cf4 --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -43,16 +43,32 @@
 #error "compile without -ffast-math (-ffinite-math-only): it removes the checks for infinities and NaNs"
 #endif
 
-/* c_1(z) = sum (-z)^j/(2j+1)! for small z */
+/* c_1(z) for z <= 1/16 */
+static inline double stumpff_small_1(double z)
+{
+    const double w = z * z;
+    const double w2 = w * w;
+    return (1.0 + z * -0.16666666666666666)
+        + w * (0.008333333333333333 + z * -0.0001984126984126984)
+        + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08);
+}
+
+/* c_0(z) for z <= 1/16 */
+static inline double stumpff_small_0(double z)
+{
+    const double w = z * z;
+    const double w2 = w * w;
+    return (1.0 + z * -0.5)
+        + w * (0.041666666666666664 + z * -0.001388888888888889)
+        + w2 * (2.48015873015873e-05 + z * -2.755731922398589e-07)
+        + w * w2 * (2.08767569878681e-09);
+}
+
+/* c_1(z) = sum (-z)^j/(2j+1)! up to z = 1 */
 static inline double stumpff_series_1(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
-    if (z <= 0.0625) {
-        return (1.0 + z * -0.16666666666666666)
-            + w * (0.008333333333333333 + z * -0.0001984126984126984)
-            + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08);
-    }
     double even = -2.505210838544172e-08 + w * -7.647163731819816e-13;
     even = -0.16666666666666666 + w * -0.0001984126984126984 + w2 * even;
     double odd = 1.6059043836821613e-10 + w * 2.8114572543455206e-15;
@@ -60,17 +76,11 @@ static inline double stumpff_series_1(double z)
     return 1.0 + z * (even + z * odd);
 }
 
-/* c_0(z) = sum (-z)^j/(2j+0)! for small z */
+/* c_0(z) = sum (-z)^j/(2j+0)! up to z = 1 */
 static inline double stumpff_series_0(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
-    if (z <= 0.0625) {
-        return (1.0 + z * -0.5)
-            + w * (0.041666666666666664 + z * -0.001388888888888889)
-            + w2 * (2.48015873015873e-05 + z * -2.755731922398589e-07)
-            + w * w2 * (2.08767569878681e-09);
-    }
     double even = -1.5619206968586225e-16;
     even = -2.755731922398589e-07 + w * -1.1470745597729725e-11 + w2 * even;
     even = -0.5 + w * -0.001388888888888889 + w2 * even;
@@ -82,20 +92,26 @@ static inline double stumpff_series_0(double z)
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s */
 static inline double stumpff_1(double z)
 {
+    if (z <= 0.0625) {
+        return stumpff_small_1(z);
+    }
     if (z <= 1.0) {
         return stumpff_series_1(z);
     }
-    const double s = sqrt(z);
+    const double s = sqrt(z <= 4503599627370496.0 ? z : NAN);
     return sin(s) / s;
 }
 
 /* For z >= 0 and s = sqrt(z): c_0 = cos(s) */
 static inline double stumpff_0(double z)
 {
+    if (z <= 0.0625) {
+        return stumpff_small_0(z);
+    }
     if (z <= 1.0) {
         return stumpff_series_0(z);
     }
-    const double s = sqrt(z);
+    const double s = sqrt(z <= 4503599627370496.0 ? z : NAN);
     return cos(s);
 }
 

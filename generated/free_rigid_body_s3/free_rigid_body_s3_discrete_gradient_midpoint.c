@@ -13,7 +13,7 @@
  *             the time: the scene does not depend on it
  * operations: 55 add, 101 mul, 1 stumpff_01 a step
  *             142 add, 231 mul, 3 quotient, 2 stumpff_01 a sweep of the equations of xi
- * stack:      at most 1728 bytes, without what the mathematical library takes
+ * stack:      at most 1856 bytes, without what the mathematical library takes
  * made by:    orderconds emit free_rigid_body_s3 --method discrete_gradient:midpoint --target c -o
  *             .
  * version:    orderconds 0.1.0
@@ -45,16 +45,32 @@
 #error "compile without -ffast-math (-ffinite-math-only): it removes the checks for infinities and NaNs"
 #endif
 
-/* c_1(z) = sum (-z)^j/(2j+1)! for small z */
+/* c_1(z) for z <= 1/16 */
+static inline double stumpff_small_1(double z)
+{
+    const double w = z * z;
+    const double w2 = w * w;
+    return (1.0 + z * -0.16666666666666666)
+        + w * (0.008333333333333333 + z * -0.0001984126984126984)
+        + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08);
+}
+
+/* c_0(z) for z <= 1/16 */
+static inline double stumpff_small_0(double z)
+{
+    const double w = z * z;
+    const double w2 = w * w;
+    return (1.0 + z * -0.5)
+        + w * (0.041666666666666664 + z * -0.001388888888888889)
+        + w2 * (2.48015873015873e-05 + z * -2.755731922398589e-07)
+        + w * w2 * (2.08767569878681e-09);
+}
+
+/* c_1(z) = sum (-z)^j/(2j+1)! up to z = 1 */
 static inline double stumpff_series_1(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
-    if (z <= 0.0625) {
-        return (1.0 + z * -0.16666666666666666)
-            + w * (0.008333333333333333 + z * -0.0001984126984126984)
-            + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08);
-    }
     double even = -2.505210838544172e-08 + w * -7.647163731819816e-13;
     even = -0.16666666666666666 + w * -0.0001984126984126984 + w2 * even;
     double odd = 1.6059043836821613e-10 + w * 2.8114572543455206e-15;
@@ -62,17 +78,11 @@ static inline double stumpff_series_1(double z)
     return 1.0 + z * (even + z * odd);
 }
 
-/* c_0(z) = sum (-z)^j/(2j+0)! for small z */
+/* c_0(z) = sum (-z)^j/(2j+0)! up to z = 1 */
 static inline double stumpff_series_0(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
-    if (z <= 0.0625) {
-        return (1.0 + z * -0.5)
-            + w * (0.041666666666666664 + z * -0.001388888888888889)
-            + w2 * (2.48015873015873e-05 + z * -2.755731922398589e-07)
-            + w * w2 * (2.08767569878681e-09);
-    }
     double even = -1.5619206968586225e-16;
     even = -2.755731922398589e-07 + w * -1.1470745597729725e-11 + w2 * even;
     even = -0.5 + w * -0.001388888888888889 + w2 * even;
@@ -84,12 +94,17 @@ static inline double stumpff_series_0(double z)
 /* For z >= 0 and s = sqrt(z): c_0 = cos(s), c_1 = sin(s)/s */
 static inline void stumpff_01(double z, double *c0, double *c1)
 {
+    if (z <= 0.0625) {
+        *c0 = stumpff_small_0(z);
+        *c1 = stumpff_small_1(z);
+        return;
+    }
     if (z <= 1.0) {
         *c0 = stumpff_series_0(z);
         *c1 = stumpff_series_1(z);
         return;
     }
-    const double s = sqrt(z);
+    const double s = sqrt(z <= 4503599627370496.0 ? z : NAN);
     const double ratio = sin(s) / s;
     *c0 = cos(s);
     *c1 = ratio;

@@ -79,16 +79,33 @@ def _failed(status, label, block, sweep, statistics):
     return StepFailed(status, f"{label} {reason} after {sweep} sweeps")
 
 
-def _stumpff_series_1(z):
-    """Return c_1(z) = sum (-z)^j/(2j+1)! for small z."""
+def _stumpff_small_1(z):
+    """Return c_1(z) for z <= 1/16."""
     w = z * z
     w2 = w * w
-    if z <= 0.0625:
-        return (
-            (1.0 + z * -0.16666666666666666)
-            + w * (0.008333333333333333 + z * -0.0001984126984126984)
-            + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08)
-        )
+    return (
+        (1.0 + z * -0.16666666666666666)
+        + w * (0.008333333333333333 + z * -0.0001984126984126984)
+        + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08)
+    )
+
+
+def _stumpff_small_0(z):
+    """Return c_0(z) for z <= 1/16."""
+    w = z * z
+    w2 = w * w
+    return (
+        (1.0 + z * -0.5)
+        + w * (0.041666666666666664 + z * -0.001388888888888889)
+        + w2 * (2.48015873015873e-05 + z * -2.755731922398589e-07)
+        + w * w2 * (2.08767569878681e-09)
+    )
+
+
+def _stumpff_series_1(z):
+    """Return c_1(z) = sum (-z)^j/(2j+1)! up to z = 1."""
+    w = z * z
+    w2 = w * w
     even = -2.505210838544172e-08 + w * -7.647163731819816e-13
     even = -0.16666666666666666 + w * -0.0001984126984126984 + w2 * even
     odd = 1.6059043836821613e-10 + w * 2.8114572543455206e-15
@@ -97,16 +114,9 @@ def _stumpff_series_1(z):
 
 
 def _stumpff_series_0(z):
-    """Return c_0(z) = sum (-z)^j/(2j+0)! for small z."""
+    """Return c_0(z) = sum (-z)^j/(2j+0)! up to z = 1."""
     w = z * z
     w2 = w * w
-    if z <= 0.0625:
-        return (
-            (1.0 + z * -0.5)
-            + w * (0.041666666666666664 + z * -0.001388888888888889)
-            + w2 * (2.48015873015873e-05 + z * -2.755731922398589e-07)
-            + w * w2 * (2.08767569878681e-09)
-        )
     even = -1.5619206968586225e-16
     even = -2.755731922398589e-07 + w * -1.1470745597729725e-11 + w2 * even
     even = -0.5 + w * -0.001388888888888889 + w2 * even
@@ -117,9 +127,11 @@ def _stumpff_series_0(z):
 
 def _stumpff_01(z):
     """Return, for z >= 0 and s = sqrt(z): c_0 = cos(s), c_1 = sin(s)/s."""
+    if z <= 0.0625:
+        return _stumpff_small_0(z), _stumpff_small_1(z)
     if z <= 1.0:
         return _stumpff_series_0(z), _stumpff_series_1(z)
-    s = sqrt(z)
+    s = sqrt(z if z <= 4503599627370496.0 else float("nan"))
     ratio = sin(s) / s
     return cos(s), ratio
 

@@ -368,7 +368,10 @@ def deep(scene, method, precision):
 
 
 @pytest.mark.parametrize("level", ["-O0", "-O1", "-O2"])
-@pytest.mark.parametrize(("scene", "method"), [("free_rigid_body", "cf4"), ("dipole", "vcg:triple_jump")])
+@pytest.mark.parametrize(
+    ("scene", "method"),
+    [("free_rigid_body", "cf4"), ("dipole", "vcg:triple_jump"), ("fast_heavy_top", "splitting:forest_ruth4")],
+)
 @pytest.mark.parametrize("precision", ["double", "single"])
 def test_the_stated_stack_is_enough_and_not_far_too_much(compiler, scene, method, level, precision, tmp_path):
     files = deep(scene, method, precision)

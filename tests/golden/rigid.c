@@ -5,7 +5,7 @@
  * order:      1
  * state:      [0..2] m: angular momentum in the body
  * operations: 14 add, 26 mul, 1 stumpff_12 a step
- * stack:      at most 704 bytes, without what the mathematical library takes
+ * stack:      at most 832 bytes, without what the mathematical library takes
  * made by:    none
  * version:    orderconds test
  *
@@ -36,16 +36,31 @@
 #error "compile without -ffast-math (-ffinite-math-only): it removes the checks for infinities and NaNs"
 #endif
 
-/* c_2(z) = sum (-z)^j/(2j+2)! for small z */
+/* c_2(z) for z <= 1/16 */
+static inline double stumpff_small_2(double z)
+{
+    const double w = z * z;
+    const double w2 = w * w;
+    return (0.5 + z * -0.041666666666666664)
+        + w * (0.001388888888888889 + z * -2.48015873015873e-05)
+        + w2 * (2.755731922398589e-07 + z * -2.08767569878681e-09);
+}
+
+/* c_1(z) for z <= 1/16 */
+static inline double stumpff_small_1(double z)
+{
+    const double w = z * z;
+    const double w2 = w * w;
+    return (1.0 + z * -0.16666666666666666)
+        + w * (0.008333333333333333 + z * -0.0001984126984126984)
+        + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08);
+}
+
+/* c_2(z) = sum (-z)^j/(2j+2)! up to z = 1 */
 static inline double stumpff_series_2(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
-    if (z <= 0.0625) {
-        return (0.5 + z * -0.041666666666666664)
-            + w * (0.001388888888888889 + z * -2.48015873015873e-05)
-            + w2 * (2.755731922398589e-07 + z * -2.08767569878681e-09);
-    }
     double even = -2.08767569878681e-09 + w * -4.779477332387385e-14;
     even = -0.041666666666666664 + w * -2.48015873015873e-05 + w2 * even;
     double odd = 1.1470745597729725e-11 + w * 1.5619206968586225e-16;
@@ -53,16 +68,11 @@ static inline double stumpff_series_2(double z)
     return 0.5 + z * (even + z * odd);
 }
 
-/* c_1(z) = sum (-z)^j/(2j+1)! for small z */
+/* c_1(z) = sum (-z)^j/(2j+1)! up to z = 1 */
 static inline double stumpff_series_1(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
-    if (z <= 0.0625) {
-        return (1.0 + z * -0.16666666666666666)
-            + w * (0.008333333333333333 + z * -0.0001984126984126984)
-            + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08);
-    }
     double even = -2.505210838544172e-08 + w * -7.647163731819816e-13;
     even = -0.16666666666666666 + w * -0.0001984126984126984 + w2 * even;
     double odd = 1.6059043836821613e-10 + w * 2.8114572543455206e-15;
@@ -73,6 +83,11 @@ static inline double stumpff_series_1(double z)
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
 static inline void stumpff_12(double z, double *c1, double *c2)
 {
+    if (z <= 0.0625) {
+        *c1 = stumpff_small_1(z);
+        *c2 = stumpff_small_2(z);
+        return;
+    }
     if (z <= 1.0) {
         *c1 = stumpff_series_1(z);
         *c2 = stumpff_series_2(z);

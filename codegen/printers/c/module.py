@@ -128,7 +128,7 @@ def samples(kernel: Kernel, read: frozenset[str], names: Names, statements: Stat
     return lines
 
 
-FRAMES = 512
+FRAMES = 640
 """Bytes for what calls leave on the stack besides numbers, and for the frames of helpers."""
 
 
