@@ -19,6 +19,9 @@ LEAD = "lead.h"
 ELAPSED = "elapsed.h"
 """How long the steps lasted whose end is put off."""
 
+LONGEST = 256
+"""After how many steps a run makes what commutes with all of them: the angles in it shall stay moderate."""
+
 UNIT = 2.0**-53
 """Half a unit in the last place of one."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from codegen.ir.kernel import ELAPSED, LEAD, Kernel, PutOff
+from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Kernel, PutOff
 from codegen.printers.arrange import Arrangement, arrange
 from codegen.printers.c.statements import RESERVED, Statements, comment, fill, literal
 from codegen.printers.expression import spell
@@ -88,7 +88,7 @@ def put_off(
     read = [[s for s in scalars if s in a.symbols() | {"h"}] for a in (arrangement, ending)]
     read[1] = [s for s in scalars if s in ending.symbols()]
     wide = "" if real is DOUBLE else f"({real.c_type})"
-    product = "(double)step * h" if real is DOUBLE else f"{wide}((double)step * (double)h)"
+    product = "(double)late * h" if real is DOUBLE else f"{wide}((double)late * (double)h)"
     before = later(interface).replace("(double)step", "(double)(step - 1)")
 
     def passed(read: list[str], t: str, elapsed: str) -> str:
@@ -104,6 +104,8 @@ def put_off(
     found |= {
         "finish_source": heads[1],
         "leads": LEAD in read[0],
+        "counts": ELAPSED in read[1],
+        "longest": LONGEST,
         "first": literal(real, real.round(what.first)),
         "later": literal(real, real.round(what.later)),
         "one_step": passed(read[0], "t", "h"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from codegen.ir.kernel import ELAPSED, LEAD, Kernel, PutOff
+from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Kernel, PutOff
 from codegen.printers.arrange import Arrangement, arrange
 from codegen.printers.expression import spell
 from codegen.printers.interface import Interface
@@ -98,7 +98,7 @@ def put_off(
     scalars = ("t", "h", *interface.parameters, LEAD, ELAPSED)
     read = [[s for s in scalars if s in a.symbols()] for a in (arrangement, ending)]
     single = precision is not DOUBLE
-    elapsed = "float32(made * float(h))" if single else "made * h"
+    elapsed = "float32(late * float(h))" if single else "late * h"
     time = "float32(float(t) + {} * float(h))" if single else "t + {} * h"
 
     def passed(read: list[str], made: str) -> str:
@@ -108,6 +108,8 @@ def put_off(
     number = "float32({})" if single else "{}"
     found: dict[str, object] = {
         "leads": LEAD in read[0],
+        "counts": ELAPSED in read[1],
+        "longest": LONGEST,
         "first": number.format(precision.text(precision.round(what.first))),
         "later": number.format(precision.text(precision.round(what.later))),
         "step": ", ".join(["state", *(names.spelled[s] for s in read[0])]),

@@ -11,7 +11,7 @@ from codegen import scenes
 from codegen.emit import compile_method, emit_compiled
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.interpret import interpret
-from codegen.ir.kernel import ELAPSED, LEAD
+from codegen.ir.kernel import ELAPSED, LEAD, LONGEST
 from codegen.load import StepFailed, load
 from codegen.lower.put_off import part
 from tests.strategies import top_scene
@@ -83,6 +83,26 @@ def test_runs_are_steps_one_after_the_other(name, target):
     for found, expected in zip(integrator.trajectory(first, 0.015625, 6, 2, 0.5), rows[::2], strict=True):
         assert close(found, expected)
     assert integrator.run(first, 0.015625, 0, 0.5) == first
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+@pytest.mark.parametrize("name", ["gravity does not see the spin", "a step that ends otherwise"])
+def test_what_commutes_is_made_from_time_to_time(name, target):
+    """More steps than an end is put off for, with rows before, at and after it."""
+    scene, method, *_ = CASES[name]
+    made = compiled(scene, method)
+    integrator = load(emit_compiled(made, target))
+    state = first = [float(x) for x in made.scene.initial(PreciseDomain(0, 20))]
+    rows, n = [state], 3 * LONGEST // 2
+    for _ in range(n):
+        state = integrator.step(state, 1 / 1024)
+        rows.append(state)
+    for stride in (n // 3, LONGEST, n):
+        found = integrator.trajectory(first, 1 / 1024, n, stride)
+        for a, b in zip(found, rows[::stride], strict=True):
+            assert max(abs(x - y) for x, y in zip(a, b, strict=True)) < 1e-11
+    assert integrator.run(first, 1 / 1024, n) == pytest.approx(state, abs=1e-11)
+    assert integrator.run(first, 1 / 1024, LONGEST) == pytest.approx(rows[LONGEST], abs=1e-11)
 
 
 @pytest.mark.parametrize("target", ["c", "python"])
