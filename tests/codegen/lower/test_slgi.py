@@ -92,6 +92,20 @@ def test_the_theta_method_needs_one_dexp_for_mu_and_one_for_n_where_they_differ(
     assert compile_method("heavy_top", f"slgi:{tableau}").program.counts()["dexpt"] == count
 
 
+SYMMETRIC = {"rkmk(0):euler": False, "rkmk(0):midpoint": True, "slgi:euler": False, "slgi:midpoint": True}
+"""Thesis Table 2.1: which theta-methods are symmetric; those of SLGI alone are symplectic (test_structure)."""
+
+
+@pytest.mark.parametrize("method", SYMMETRIC)
+def test_table_2_1_says_which_are_symmetric(method):
+    emission = emit("heavy_top", method, "c")
+    integrator, start = load(emission), np.array(emission.manifest["initial"])
+    back = np.array(integrator.step(integrator.step(list(start), 0.01), -0.01))
+    defect = np.abs(back - start).max() / np.abs(start).max()
+    assert (defect < 1e-14) == SYMMETRIC[method]
+    assert SYMMETRIC[method] or defect > 1e-9
+
+
 def energies(method, h, steps):
     """The relative error of the energy every hundredth step."""
     emission = emit("heavy_top", method, "c")

@@ -107,7 +107,9 @@ def test_variational_steps_are_symplectic(method):
     assert defect(method) < 1e-11
 
 
-@pytest.mark.parametrize("method", ["rkmk(2):rk4", "cf:cf4", "rkmk(2):gauss2"])
+@pytest.mark.parametrize(
+    "method", ["rkmk(2):rk4", "cf:cf4", "rkmk(2):gauss2", "rkmk(0):euler", "rkmk(0):midpoint"]
+)
 def test_others_are_not(method):
     assert defect(method) > 1e-7
 
