@@ -15,6 +15,7 @@ from typing import Any
 
 from orderconds.errors import InputError
 from orderconds.tableau import Tableau
+from orderconds.tableau.file import from_data
 from orderconds.tableau.write import as_data
 
 Data = Mapping[str, Any]
@@ -48,13 +49,30 @@ def export(data: Data, to: str) -> bytes:
 def read_data(content: bytes, of: str, where: str, name: str = "imported") -> dict[str, Any]:
     """Return the keys and values that a file in the format ``of`` holds; ``name`` serves where it gives none.
 
-    Raises :class:`~orderconds.errors.InputError` naming ``where``.
+    Tables as people have them state no order for embedded weights: it is computed. Raises
+    :class:`~orderconds.errors.InputError` naming ``where``.
 
     >>> read_data(b"0,0\\n,1\\n", "csv", "euler.csv", name="euler")
     {'name': 'euler', 'family': 'rk', 'A': [['0']], 'b': ['1'], 'c': ['0']}
     """
     data: dict[str, Any] = _module(of).read(content, where)
-    return {"name": name, **data} if of != "toml" else data
+    if of == "toml":
+        return data
+    data = {"name": name, **data}
+    embedded = data.get("embedded")
+    if of != "json" and embedded and "order" not in embedded:
+        embedded["order"] = 1
+        embedded["order"] = _computed_order(from_data(data, where))
+    return data
+
+
+def _computed_order(tableau: Tableau) -> int:
+    """Return the order of the embedded weights on vector spaces, the least that a file can state if none."""
+    from orderconds.check import family_order
+    from orderconds.families import get
+
+    lower = tableau.lower()
+    return max(1, family_order(lower, get("rk")).order) if lower else 1
 
 
 def convert(tableau: Tableau) -> dict[str, Any]:

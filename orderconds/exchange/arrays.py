@@ -15,7 +15,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from orderconds.errors import TableauError
-from orderconds.exchange.expressions import without_names
+from orderconds.exchange.expressions import TooLong, without_names
 from orderconds.ring import Balls
 from orderconds.tableau import Tableau
 from orderconds.tableau.file import from_data
@@ -26,7 +26,7 @@ Arrays = dict[str, Any]
 """Name to text (name, family, ...), to a row, or to rows of one length."""
 
 TABLES = ("numbers", "claims")
-"""Tables of a file that stand in a text as JSON; of numbers, roots that have no spelling but their names."""
+"""Tables of a file that stand in a text as JSON; numbers only where coefficients have no spelling without."""
 TEXTS = ("name", "family", "source", "bibtex", "base", "embedded_order", *TABLES)
 ROWS = ("b", "b_hat", "gamma", "alpha", "beta", "embedded_b", "count", "start", "c")
 MATRICES = ("A", "A_hat", "exponentials")
@@ -48,7 +48,11 @@ def arrays(data: Mapping[str, Any], what: str) -> Arrays:
             expected="format json, which holds everything",
         )
     if data.get("numbers") or "low_storage" in data:
-        data = spelled_out(from_data(data))
+        try:
+            data = spelled_out(from_data(data))
+        except TooLong:
+            if "low_storage" in data:
+                raise
     found: Arrays = {key: data[key] for key in TEXTS if data.get(key)}
     found |= {key: json.dumps(data[key]) for key in TABLES if data.get(key)}
     if family == "cf":
@@ -121,10 +125,9 @@ def data_of(found: Arrays, where: str) -> dict[str, Any]:
     if family == "composition":
         data.setdefault("base", "symmetric-2" if "gamma" in found else "adjoint-pair")
     if "embedded_b" in found:
-        data["embedded"] = {
-            "b": found["embedded_b"],
-            "order": _integer(found.get("embedded_order", "1"), where),
-        }
+        stated = found.get("embedded_order")
+        order = {} if stated is None else {"order": _integer(stated, where)}
+        data["embedded"] = {"b": found["embedded_b"], **order}
     return data
 
 

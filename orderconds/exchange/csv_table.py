@@ -68,5 +68,5 @@ def _plain(rows: list[list[str]], where: str) -> dict[str, Any]:
         )
     found: Arrays = {"A": [row[1:] for row in stages], "b": weights[0], "c": [row[0] for row in stages]}
     if len(weights) == 2:
-        found |= {"embedded_b": weights[1], "embedded_order": "1"}
+        found["embedded_b"] = weights[1]
     return data_of(found, where)

@@ -20,6 +20,10 @@ from orderconds.tableau.record import File, Tableau
 ONE = Constant(Fraction(1))
 
 
+class TooLong(TableauError):
+    """A coefficient that needs its names."""
+
+
 class Spelling:
     """An unevaluated number."""
 
@@ -125,10 +129,10 @@ class Spellings:
         return self.text(x)
 
     def text(self, x: Spelling) -> str:
-        """Return the coefficient; TableauError where it is longer than a file may have."""
+        """Return the coefficient; :class:`TooLong` where it is longer than a file may have."""
         text = spell(x.expression, MAX_TEXT)
         if len(text) > MAX_TEXT:
-            raise TableauError(
+            raise TooLong(
                 "a coefficient too long without names", expected="format json, which holds everything"
             )
         return text

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Any
 
@@ -29,7 +30,8 @@ def write(data: Any) -> bytes:
     """
     found = arrays(data, "SymPy")
     lines = [f"# {name}: {found[name]}" for name in TEXTS if name in found] + [IMPORT, ""]
-    lines += [f"{name} = {_root(*root)}" for name, root in _roots(found).items()]
+    for name, number in _defined(found):
+        lines.append(f"{name} = {python(number) if isinstance(number, str) else _root(*number)}")
     for name, value in found.items():
         if name in MATRICES:
             rows = ",\n    ".join("[" + ", ".join(map(python, row)) + "]" for row in value)
@@ -39,15 +41,28 @@ def write(data: Any) -> bytes:
     return ("\n".join(lines) + "\n").encode()
 
 
-def _roots(found: Arrays) -> dict[str, tuple[list[str], int]]:
-    """Return name to descending coefficients and place among the real roots, as ``CRootOf`` counts them."""
-    result = {}
-    for name, root in table(found.get("numbers", "{}"), "numbers").items():
-        near, unit = fmpq(*_ratio(root["near"])), fmpq(1, 10 ** len(root["near"].partition(".")[2]))
-        monic, enclosed = isolate([fmpq(*_ratio(x)) for x in root["minpoly"]], near, unit)
-        place = [x.overlaps(enclosed(256)) for x in real_roots(monic, 256)].index(True)
-        result[name] = [str(x) for x in monic.coeffs()][::-1], place
-    return result
+def _defined(found: Arrays) -> Iterator[tuple[str, str | tuple[list[str], int]]]:
+    """Yield the named numbers, each after those that it refers to: a spelling, or a root.
+
+    A root is given by descending coefficients and its place among the real ones, as ``CRootOf`` counts them.
+    """
+    waiting = table(found.get("numbers", "{}"), "numbers")
+    while waiting:
+        for name, number in list(waiting.items()):
+            if isinstance(number, dict):
+                yield name, _place(number)
+            elif not waiting.keys() - {name} & set(re.findall(r"[A-Za-z_]\w*", str(number), re.ASCII)):
+                yield name, str(number)
+            else:
+                continue
+            del waiting[name]
+
+
+def _place(root: Mapping[str, Any]) -> tuple[list[str], int]:
+    near, unit = fmpq(*_ratio(root["near"])), fmpq(1, 10 ** len(root["near"].partition(".")[2]))
+    monic, enclosed = isolate([fmpq(*_ratio(x)) for x in root["minpoly"]], near, unit)
+    place = [x.overlaps(enclosed(256)) for x in real_roots(monic, 256)].index(True)
+    return [str(x) for x in monic.coeffs()][::-1], place
 
 
 def _ratio(x: str | int) -> tuple[int, int]:
@@ -96,15 +111,18 @@ def to_sympy(tableau: Tableau) -> dict[str, Any]:
     from orderconds.exchange import convert
 
     found = arrays(convert(tableau), "SymPy")
-    t = sympy.Symbol("t")
-    roots = {
-        name: sympy.CRootOf(sympy.Poly([sympy.Rational(x) for x in coefficients], t), place)
-        for name, (coefficients, place) in _roots(found).items()
-    }
+    names: dict[str, Any] = {}
 
     def number(x: str) -> Any:
-        return sympy.sympify(x.replace("^", "**").replace("~", ""), roots, rational="~" not in x)
+        return sympy.sympify(x.replace("^", "**").replace("~", ""), names, rational="~" not in x)
 
+    for name, defined in _defined(found):
+        if isinstance(defined, str):
+            names[name] = number(defined)
+        else:
+            coefficients, place = defined
+            polynomial = sympy.Poly([sympy.Rational(x) for x in coefficients], sympy.Symbol("t"))
+            names[name] = sympy.CRootOf(polynomial, place)
     exact = {name: value for name, value in found.items() if name in ROWS + MATRICES}
     return {
         name: sympy.Matrix([[number(x) for x in row] for row in _rows(value)])

@@ -150,6 +150,22 @@ def test_sympy_matrices_read_back_the_same() -> None:
         assert from_sympy(name, to_sympy(tableau)).method == tableau.method
 
 
+def test_named_roots_are_sympys() -> None:
+    matrices = to_sympy(Tableau.load(find("radau2a4")))
+    assert matrices["A"].has(sympy.CRootOf)
+    assert abs(float(sum(matrices["b"].evalf(30))) - 1) < 1e-15
+
+
+def test_numbers_are_defined_before_they_are_used() -> None:
+    numbers = {"x": "y + z", "y": "0.5~", "z": {"minpoly": [-2, 0, 1], "near": "1.4"}, "w": "x*y"}
+    long = " + ".join(["w"] * 400)
+    data = {"name": "t", "family": "rk", "A": [[]], "b": [long], "numbers": numbers}
+    text = export(data, "sympy").decode()
+    places = [text.index(f"\n{name} = ") for name in ("y", "z", "x", "w", "b")]
+    assert places == sorted(places)
+    assert from_data(read_data(text.encode(), "sympy", "x")).method == from_data(data).method
+
+
 class TestForeignFiles:
     """As people have them."""
 
@@ -162,6 +178,20 @@ class TestForeignFiles:
             == Tableau.loads('name = "t"\nfamily = "rk"\nA = [[], ["1/2"]]\nb = ["0", "1"]\n').method
         )
         assert tableau.embedded is not None
+        assert tableau.embedded.order == 1
+
+    def test_the_order_of_embedded_weights_is_computed_where_a_table_states_none(self) -> None:
+        source = Tableau.load(find("bogacki_shampine3"))
+        lines = export(convert(source), "csv").decode().splitlines()
+        rows = [line.partition(",")[2] for line in lines if line.startswith("A,")]
+        weights = [
+            line.partition(",")[2] for key in ("b,", "embedded_b,") for line in lines if line.startswith(key)
+        ]
+        nodes = [source.ring.text(c) for c in source.abelian().c]
+        plain = [f"{c},{row}" for c, row in zip(nodes, rows, strict=True)] + [f",{row}" for row in weights]
+        data = read_data("\n".join(plain).encode(), "csv", "x.csv")
+        assert data["embedded"]["order"] == 2
+        assert from_data(data).embedded == source.embedded
 
     def test_a_plain_table_whose_nodes_are_not_row_sums_is_refused(self) -> None:
         with pytest.raises(InputError, match="c_2 = 1/3 beside a row of A that sums to 1/2"):
