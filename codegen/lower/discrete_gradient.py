@@ -14,13 +14,13 @@ tableau; the order is two where sum b_i c_i = 1/2, else one. The unknown is xi.
 
 from __future__ import annotations
 
-from codegen.conserved import ENERGY, energy_of
+from codegen.conserved import ENERGY, bivector, differential, energy_of
 from codegen.errors import MethodError
 from codegen.ir.number import Number
 from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
 from codegen.lower.stages import Stages
 from codegen.method import Method
-from codegen.scene import Setting
+from codegen.scene import Setting, orbit_of
 
 HALF = Number.rational(1, 2)
 
@@ -28,7 +28,8 @@ HALF = Number.rational(1, 2)
 def lower(scene: Setting, method: Method) -> Program:
     """Return the program of a discrete gradient method.
 
-    :class:`codegen.errors.MethodError` for a scene without an energy, or one that depends on time.
+    :class:`codegen.errors.MethodError` for a scene without an energy, one that depends on time, and one whose
+    energy does not change in any direction of the group at a point where the field does not vanish.
     """
     if not keeps_energy(scene):
         found = "which depends on time" if not scene.autonomous else "which has no energy"
@@ -36,6 +37,7 @@ def lower(scene: Setting, method: Method) -> Program:
             f"{method.label} on {scene.name}, {found}",
             expected=f"a Hamiltonian scene without time, or a field with an invariant called {ENERGY}",
         )
+    _check_bivector(scene, method)
     tableau = method.runge_kutta()
     y = Var("y", Kind.POINT)
     stages = Stages(scene, method, (y,))
@@ -69,3 +71,18 @@ def lower(scene: Setting, method: Method) -> Program:
 def keeps_energy(scene: Setting) -> bool:
     """Whether a scene has an energy that its field keeps."""
     return scene.autonomous and energy_of(scene) is not None
+
+
+def _check_bivector(scene: Setting, method: Method) -> None:
+    """Raise where the bivector does not take the differential of the energy to the field."""
+    orbit = orbit_of(scene)
+    for point in orbit.points:
+        y = tuple(point[s] for s in orbit.symbols)
+        gamma = differential(scene, orbit.domain, y)
+        found = bivector(scene, orbit.domain, y, gamma)
+        f = scene.apply(orbit.domain, "field", None, (y,))[0]
+        if not all(orbit.sized(a - b, (a, b)) for a, b in zip(found, f, strict=True)):
+            raise MethodError(
+                f"{method.label} on {scene.name}, whose energy is the same in all directions of the group",
+                expected="an energy whose differential along the group vanishes only where f does",
+            )

@@ -8,11 +8,13 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from sympy import sympify
 
 from codegen import conserved
 from codegen.certify import certified_order
 from codegen.emit import compile_method, emit, emit_compiled
 from codegen.errors import MethodError
+from codegen.groups import SO3, Rotation
 from codegen.ir.domain import FloatDomain, PreciseDomain
 from codegen.ir.interpret import interpret
 from codegen.ir.program import Kind
@@ -21,6 +23,7 @@ from codegen.lower import families_for
 from codegen.lower.kernel import to_kernel
 from codegen.method import parse
 from codegen.passes.rewrite import rewrite
+from codegen.scene import FieldScene
 from codegen.scenes import load as gallery
 from tests.strategies import field_scene, hamiltonian_scene, lowered
 
@@ -244,6 +247,24 @@ def test_scenes_without_an_energy_do_not_offer_it(name):
 def test_a_scene_without_an_energy_is_refused(scene, why):
     made = hamiltonian_scene("SO(3)", time=True) if scene == "time" else field_scene(scene)
     with pytest.raises(MethodError, match=why):
+        lowered("discrete_gradient", "midpoint", made)
+
+
+@pytest.mark.parametrize("energy", ["radius", "constant"])
+def test_an_energy_that_says_nothing_of_the_field_is_refused(energy):
+    """The radius is the same on all of the sphere: no bivector takes its differential to the field."""
+    m = SO3().dual("m")
+    kept = m.dot(m) if energy == "radius" else sympify(1)
+    made = FieldScene(
+        group=SO3(),
+        action=Rotation(),
+        y=m,
+        f=[m[1], 2, m[2]],
+        y0=[1, 0, 1],
+        span=(0, 1),
+        invariants={"energy": kept},
+    )
+    with pytest.raises(MethodError, match="the same in all directions of"):
         lowered("discrete_gradient", "midpoint", made)
 
 

@@ -93,7 +93,7 @@ def test_the_theta_method_needs_one_dexp_for_mu_and_one_for_n_where_they_differ(
 
 
 SYMMETRIC = {"rkmk(0):euler": False, "rkmk(0):midpoint": True, "slgi:euler": False, "slgi:midpoint": True}
-"""Thesis Table 2.1: which theta-methods are symmetric; those of SLGI alone are symplectic (test_structure)."""
+"""Thesis Table 2.1: which theta-methods are symmetric; only those of SLGI are symplectic (test_structure)."""
 
 
 @pytest.mark.parametrize("method", SYMMETRIC)
