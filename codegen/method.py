@@ -30,11 +30,15 @@ FEWEST_UP_TO = 6
 
 @dataclass(frozen=True)
 class Method:
-    """A family (``cutoff`` for those of :data:`WITH_CUTOFF`) and the tableau whose coefficients it reads."""
+    """A family (``cutoff`` for those of :data:`WITH_CUTOFF`) and the tableau whose coefficients it reads.
+
+    ``adaptive`` asks for the state that the embedded row gives, beside the new one.
+    """
 
     family: str
     tableau: Tableau
     cutoff: int | None = None
+    adaptive: bool = False
 
     @property
     def label(self) -> str:
@@ -89,6 +93,33 @@ class Method:
             return method
         return self.runge_kutta().as_crouch_grossman(self.ring)
 
+    def embedded(self) -> Method | None:
+        """Return the method of the embedded row where that is asked for; :class:`MethodError` without one.
+
+        It has the same stages, so it serves families whose stages do not depend on the weights; ``rkmk`` needs a
+        cut-off, for its fewest brackets are chosen for the weights.
+        """
+        if not self.adaptive:
+            return None
+        lower = self.tableau.lower()
+        if self.family not in WITH_ESTIMATE:
+            raise MethodError(
+                f"an estimate of the error for {self.label}", expected=f"one of {', '.join(WITH_ESTIMATE)}"
+            )
+        if self.family == "rkmk" and self.cutoff is None:
+            raise MethodError(
+                f"an estimate of the error for {self.label}, whose brackets are chosen for its weights",
+                expected="a number of brackets",
+                hint=f"write rkmk(3):{self.tableau.name}",
+            )
+        if lower is None:
+            raise MethodError(
+                f"an estimate of the error for {self.label}",
+                expected="a tableau with an embedded row",
+                hint="as dormand_prince5 or cf43",
+            )
+        return replace(self, tableau=lower, adaptive=False)
+
     def abscissae(self) -> tuple[Element, ...]:
         """Return c_i, the sum of the coefficients of stage i of the commutator-free reading."""
         return self.commutator_free().as_runge_kutta(self.ring).c
@@ -99,6 +130,9 @@ def _file(name: str) -> Path:
     path = Path(name)
     return path if path.suffix == ".toml" else find(name)
 
+
+WITH_ESTIMATE = ("rk", "rkmk", "cg", "cf", "ambient")
+"""Families whose stages do not depend on the weights, so that an embedded row makes an estimate."""
 
 EXPONENTIALS = ("cf", "vcf")
 """Families that read tableaux of format cf."""

@@ -102,6 +102,15 @@ class Sample:
 
 
 @dataclass(frozen=True)
+class Estimate:
+    """The new state less one of lower order, component by component; both differ from the flow by O(h^order)
+    or less in one step."""
+
+    errors: tuple[Expr, ...]
+    order: int
+
+
+@dataclass(frozen=True)
 class Kernel:
     """One step: state fields, scalar inputs (h, t, run-time parameters), body, new state in field order.
 
@@ -116,6 +125,7 @@ class Kernel:
     put_off: PutOff | None = None
     inputs: tuple[str, ...] = ()
     samples: tuple[Sample, ...] = ()
+    estimate: Estimate | None = None
 
     def lets(self) -> Iterator[Let]:
         """Yield every assignment, those in loops included."""
@@ -136,6 +146,8 @@ class Kernel:
                 yield from (let.value for let in statement.body)
                 yield from statement.images
         yield from self.outputs
+        if self.estimate is not None:
+            yield from self.estimate.errors
 
     def functions(self) -> tuple[str, ...]:
         """Return the scalar functions that are called, sorted."""

@@ -199,6 +199,10 @@ class Solve:
 Statement = Assign | Solve
 
 
+EMBEDDED = "embedded"
+"""The output of a program that is a second new state y, of lower order, for an estimate of the error."""
+
+
 @dataclass(frozen=True)
 class Program:
     """One step: inputs, statements, and the new state, named as the inputs that it replaces."""

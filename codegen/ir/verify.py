@@ -2,7 +2,18 @@
 
 from __future__ import annotations
 
-from codegen.ir.program import CUT_OFF, FLOWS, FLOWS_FOR, SIGNATURES, Assign, Kind, Program, Solve, Var
+from codegen.ir.program import (
+    CUT_OFF,
+    EMBEDDED,
+    FLOWS,
+    FLOWS_FOR,
+    SIGNATURES,
+    Assign,
+    Kind,
+    Program,
+    Solve,
+    Var,
+)
 
 LINEAR = (Kind.ALG, Kind.DUAL)
 
@@ -54,7 +65,7 @@ def verify(program: Program) -> Program:
     inputs = {v.name: v.kind for v in program.inputs}
     for name, var in program.outputs:
         use(var, f"output {name}")
-        if inputs.get(name) != var.kind:
+        if inputs.get("y" if name == EMBEDDED else name) != var.kind:
             raise IllFormed(f"{program.name}: output {name} replaces no input of kind {var.kind}")
     return program
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from functools import reduce
 from operator import add
 
-from codegen.ir.program import Kind, Program, Var
+from codegen.ir.program import EMBEDDED, Kind, Program, Var
 from codegen.lower.stages import Stages
 from codegen.method import Method
 from codegen.scene import Setting
@@ -49,6 +49,8 @@ def lower(scene: Setting, method: Method) -> Program:
     stage_points: list[Var] = []
 
     def update() -> dict[str, Var]:
-        return {"y": product(tableau.update, "", stage_points)}
+        lower = method.embedded()
+        more = {} if lower is None else {EMBEDDED: product(lower.commutator_free().update, "", stage_points)}
+        return {"y": product(tableau.update, "", stage_points)} | more
 
     return stages.program(k, images, lambda: [stages.f("k0", y, None)] * tableau.s, update)

@@ -16,8 +16,8 @@ from codegen.groups.actions import LeftMultiplication
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, walk
 from codegen.ir.interpret import apply, flatten
-from codegen.ir.kernel import ELAPSED, LEAD, Field, Kernel, Let, Loop, Sample
-from codegen.ir.program import FLOWS, FLOWS_FOR, Assign, Kind, Program, Solve, Var
+from codegen.ir.kernel import ELAPSED, LEAD, Estimate, Field, Kernel, Let, Loop, Sample
+from codegen.ir.program import EMBEDDED, FLOWS, FLOWS_FOR, Assign, Kind, Program, Solve, Var
 from codegen.lower import late
 from codegen.scene import TIME, Setting
 
@@ -85,13 +85,16 @@ def to_kernel(program: Program, scene: Setting) -> Kernel:
             run(statement)
         else:
             blocks.append(_enter(statement, env, domain, name, run))
-    outputs = tuple(x for n, var in program.outputs for x in flatten(var.kind, env[var]))
+    outputs = tuple(x for n, var in program.outputs if n != EMBEDDED for x in flatten(var.kind, env[var]))
+    lower = tuple(x for n, var in program.outputs if n == EMBEDDED for x in flatten(var.kind, env[var]))
     if scene.body_group is not None:
         outputs = _framed(scene, outputs, lambda q, mu: scene.body_group.Adt(domain, q, mu))
+        lower = lower and _framed(scene, lower, lambda q, mu: scene.body_group.Adt(domain, q, mu))
     composed = any(name in FLOWS | FLOWS_FOR for name in program.counts())
     if composed:
         outputs = late.run(outputs, frozenset({"h", *scene.runtime}))
-    schedule = _Schedule(blocks, outputs, hints, name)
+    errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
+    schedule = _Schedule(blocks, (*outputs, *errors), hints, name)
     state = tuple(Field(b.name, b.symbols, _meaning(b.kind, scene)) for b in scene.state)
     if scene.body_group is not None:
         state = _body_fields(scene)
@@ -100,7 +103,9 @@ def to_kernel(program: Program, scene: Setting) -> Kernel:
     body = schedule.run()
     if composed:
         body = late.ordered([let for let in body if isinstance(let, Let)])
-    made = Kernel(program.name, state, scalars, body, outputs=schedule.outputs)
+    made = Kernel(program.name, state, scalars, body, outputs=schedule.outputs[: len(outputs)])
+    if errors:
+        made = replace(made, estimate=Estimate(schedule.outputs[len(outputs) :], 0))
     return _sampled(made, scene, domain)
 
 

@@ -6,11 +6,12 @@ v_i).y0. The unknowns are the v_i. On R^n with r = 0 this is the Runge-Kutta met
 
 from __future__ import annotations
 
-from codegen.ir.program import Kind, Program, Var
+from codegen.ir.program import EMBEDDED, Kind, Program, Var
 from codegen.lower import fewest
 from codegen.lower.stages import Stages
 from codegen.method import Method
 from codegen.scene import Setting
+from orderconds.ring.protocol import Element
 
 
 def lower(scene: Setting, method: Method) -> Program:
@@ -35,8 +36,13 @@ def lower(scene: Setting, method: Method) -> Program:
             result.append(do.do("dexpinv", f"w{i + 1}", u, k, order=method.cutoff or 0))
         return result
 
+    def updated(weights: tuple[Element, ...]) -> Var:
+        u = stages.combination("u", Kind.ALG, weights, v)
+        return do.do("act", "y1", do.do("exp", "g", u), y)
+
     def update() -> dict[str, Var]:
-        u = stages.combination("u", Kind.ALG, tableau.b, v)
-        return {"y": do.do("act", "y1", do.do("exp", "g", u), y)}
+        lower = method.embedded()
+        more = {} if lower is None else {EMBEDDED: updated(lower.runge_kutta().b)}
+        return {"y": updated(tableau.b)} | more
 
     return stages.program(v, images, lambda: [stages.f("k0", y, None)] * tableau.s, update)

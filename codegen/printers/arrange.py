@@ -58,6 +58,7 @@ class Arrangement:
 
     statements: tuple[Statement, ...]
     outputs: tuple[Expr, ...]
+    errors: tuple[Expr, ...] = ()
 
     def functions(self) -> tuple[str, ...]:
         """Return the functions called, sorted: scalar ones and sets of Stumpff functions."""
@@ -80,6 +81,7 @@ class Arrangement:
             if isinstance(statement, Iteration):
                 yield from (*statement.starts, *statement.images)
         yield from self.outputs
+        yield from self.errors
 
     def symbols(self) -> frozenset[str]:
         """Return every symbol that some expression reads; for membership only."""
@@ -90,7 +92,8 @@ def arrange(kernel: Kernel) -> Arrangement:
     """Return the printable statements of a kernel, in its order and with its roundings."""
     scope = _Scope(_taken(kernel))
     outer = [e for s in kernel.body for e in ([s.value] if isinstance(s, Let) else s.starts)]
-    scope.expect([*outer, *kernel.outputs])
+    ends = [*kernel.outputs, *(kernel.estimate.errors if kernel.estimate is not None else ())]
+    scope.expect([*outer, *ends])
     statements: list[Statement] = []
     loops = 0
     for position, statement in enumerate(kernel.body):
@@ -109,9 +112,10 @@ def arrange(kernel: Kernel) -> Arrangement:
         kept = tuple(let.name for let in statement.body if let.name in later)
         loops += 1
         statements.append(Iteration(statement, loops, starts, tuple(body), images, kept))
-    outputs = tuple(scope.rewrite(e) for e in kernel.outputs)
+    rewritten = tuple(scope.rewrite(e) for e in ends)
     statements += scope.take()
-    return Arrangement(tuple(statements), outputs)
+    states = len(kernel.outputs)
+    return Arrangement(tuple(statements), rewritten[:states], rewritten[states:])
 
 
 def _taken(kernel: Kernel) -> dict[str, int]:
@@ -124,7 +128,8 @@ def _taken(kernel: Kernel) -> dict[str, int]:
 
 
 def _read_later(kernel: Kernel, position: int) -> frozenset[str]:
-    rest = Kernel(kernel.name, (), (), kernel.body[position + 1 :], kernel.outputs)
+    after = kernel.body[position + 1 :]
+    rest = Kernel(kernel.name, (), (), after, kernel.outputs, estimate=kernel.estimate)
     return frozenset(n.payload for n in walk(rest.expressions()) if n.op == "sym")
 
 

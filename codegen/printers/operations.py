@@ -18,7 +18,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
     The key ``step`` holds what a step does once, other keys what each block does a sweep. Changes of sign,
     comparisons and what a stopping rule costs are not counted.
     """
-    total = {STEP: _count([], arrangement.outputs)}
+    total = {STEP: _count([], (*arrangement.outputs, *arrangement.errors))}
     for statement in arrangement.statements:
         if isinstance(statement, Iteration):
             total[STEP] = _plus(total[STEP], _count([], statement.starts))
