@@ -9,7 +9,7 @@ from __future__ import annotations
 import keyword
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import PurePath
 from typing import Any
 
@@ -69,13 +69,14 @@ def compile_method(
     parameters: Sequence[str] = (),
     inputs: Sequence[str] = (),
     frame: str = "space",
+    adaptive: bool = False,
 ) -> Compiled:
     """Return a method on a scene (or their names) lowered, optimised and made a kernel.
 
     ``parameters`` stay run-time arguments, or are folded at the value given (``alpha=1/2``); all others are
     folded at the scene's values; ``inputs`` are signals to be taken at run time, ``frame`` that of
     momenta (:meth:`codegen.scene.Setting.with_frame`). SceneError, MethodError, UnknownName or TableauError
-    for what cannot be read or does not fit.
+    for what cannot be read or does not fit. ``adaptive`` asks for the estimate of an embedded row.
     """
     if isinstance(scene, str):
         scene = scenes.load(scene)
@@ -86,6 +87,8 @@ def compile_method(
     scene = scene.with_frame(frame)
     if isinstance(method, str):
         method = parse(method, families_for(scene))
+    if adaptive:
+        method = replace(method, adaptive=True)
     view = setting(scene, method)
     lowered = lower(scene, method)
     candidates = []
@@ -93,7 +96,12 @@ def compile_method(
         program, trace = optimise(lowered, view, framed=framed)
         kernel = fastest(program, view)
         candidates.append(Compiled(scene, method, view, lowered, program, trace, kernel))
-    return min(candidates, key=lambda c: work(c.kernel))
+    best = min(candidates, key=lambda c: work(c.kernel))
+    embedded, estimate = method.embedded(), best.kernel.estimate
+    if embedded is None or estimate is None:
+        return best
+    order = 1 + min(certified_order(m, scene).order for m in (method, embedded))
+    return replace(best, kernel=replace(best.kernel, estimate=replace(estimate, order=order)))
 
 
 def work(kernel: Kernel) -> int:
@@ -115,20 +123,21 @@ def emit(
     precision: str = DOUBLE.name,
     inputs: Sequence[str] = (),
     frame: str = "space",
+    adaptive: bool = False,
 ) -> Emission:
     """Return the integrator of a method on a scene as a module of a target.
 
     ``scene`` is a name of the gallery, the path of a Python file, or a setting; ``method`` is spelled
     ``FAMILY:TABLEAU`` or ``TABLEAU``; ``prefix`` starts every external name, by default scene and method;
     ``precision`` is ``double`` or ``single``; ``inputs`` are signals of the scene that are taken at run time,
-    ``frame`` is that of momenta, ``space`` or ``body``.
+    ``frame`` is that of momenta, ``space`` or ``body``; ``adaptive`` adds a run that chooses its steps.
     Errors as :func:`compile_method`, UnknownName for a target, InputError for a prefix that C cannot take.
     """
     printer_of(target)
     known_precision(precision)
     named = {"scene": bare(scene) if isinstance(scene, str) else scene.name}
     named["method"] = bare(method) if isinstance(method, str) else method.label
-    made = compile_method(scene, method, parameters, inputs, frame)
+    made = compile_method(scene, method, parameters, inputs, frame, adaptive)
     return emit_compiled(made, target, prefix, named, precision=precision)
 
 
@@ -156,6 +165,7 @@ def emit_compiled(
     order = order or certified_order(method, scene)
     options = [f"--prefix {chosen}"] if prefix else []
     options += ["--frame body"] if body else []
+    options += ["--adaptive"] if method.adaptive else []
     options += [f"--precision {precision}"] if single else []
     options += [f"--parameter {p}" for p in scene.runtime]
     options += [f"--parameter {p}={value}" for p, value in scene.fixed if p not in scene.runtime]
@@ -172,6 +182,7 @@ def emit_compiled(
             ("scene", f"{scene.title}, group {scene.group.name}"),
             *((("flows", flows_of(compiled.view)),) if compiled.view.flows else ()),
             *((("precision", SINGLE_IS),) if single else ()),
+            *((("steps", steps_of(compiled.kernel)),) if method.adaptive else ()),
         ),
         initial=start_of(scene),
         h=float((last - first) / STEPS),
@@ -223,6 +234,15 @@ def emit_kernel(
         "version": recipe.version,
     }
     return Emission(files, manifest)
+
+
+def steps_of(kernel: Kernel) -> str:
+    """Say how a run chooses its steps."""
+    assert kernel.estimate is not None
+    return (
+        f"of one size, or chosen by the embedded row, whose estimate is O(h^{kernel.estimate.order}), and a "
+        "proportional-integral controller"
+    )
 
 
 def start_of(scene: Setting) -> tuple[float, ...]:

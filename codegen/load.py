@@ -7,7 +7,7 @@ import operator
 import types
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from pathlib import Path
 from typing import Any
@@ -31,6 +31,7 @@ class Status(IntEnum):
     NOT_CONVERGED = 1
     NOT_FINITE = 2
     BAD_STEP = 3
+    LIMIT = 4
 
 
 class StepFailed(ArithmeticError):
@@ -39,6 +40,17 @@ class StepFailed(ArithmeticError):
     def __init__(self, status: Status, step: int, state: State, reason: str) -> None:
         super().__init__(f"step {step + 1}: {reason}")
         self.status, self.step, self.state, self.reason = status, step, state, reason
+
+
+@dataclass(frozen=True)
+class Arrival:
+    """Where a run that chose its steps ended: the size to go on with, steps made and steps refused."""
+
+    state: State
+    t: float
+    h: float
+    accepted: int
+    rejected: int
 
 
 @dataclass
@@ -113,6 +125,35 @@ class Integrator(ABC):
         _, rows = self._call(self._numbers(state), t, h, steps, values, stride, statistics, state, inputs)
         return like(state, rows)
 
+    def adaptive(
+        self,
+        state: State,
+        t: float,
+        end: float,
+        h: float = 0.0,
+        *,
+        rtol: float = 1e-6,
+        atol: float = 1e-9,
+        limit: int = 100_000,
+        statistics: Statistics | None = None,
+        inputs: Signals | None = None,
+        **parameters: float,
+    ) -> Arrival:
+        """Return where steps from t to end lead, as large as the tolerances allow; ``h`` is the first.
+
+        TypeError for a module without an estimate of the error (``emit --adaptive``), StepFailed as
+        :meth:`run`, and with the status ``LIMIT`` where the end is not reached.
+        """
+        if not self.interface.adaptive:
+            raise TypeError("this module has no run that chooses its steps; emit it with --adaptive")
+        self._known(inputs)
+        span, tolerances = (float(t), float(end), float(h)), (float(rtol), float(atol))
+        numbers, values = self._numbers(state), self._values(parameters)
+        found = self._adapt(
+            numbers, span, tolerances, operator.index(limit), values, statistics, inputs, state
+        )
+        return replace(found, state=like(state, found.state))
+
     def _checked_count(self, steps: int) -> int:
         count = operator.index(steps)
         if count < 0:
@@ -141,6 +182,14 @@ class Integrator(ABC):
                 raise TypeError(f"the parameter {name} has no value")
         return [float(values[name]) for name in known]
 
+    def _count(self, counts: Any, statistics: Statistics | None) -> None:
+        """Add what emitted code counted."""
+        if counts is not None and statistics is not None:
+            before = statistics.sweeps or [0] * len(self.interface.blocks)
+            statistics.sweeps = [a + b for a, b in zip(before, counts.sweeps, strict=True)]
+            statistics.most = max(statistics.most, counts.most)
+            statistics.failed = counts.failed
+
     @abstractmethod
     def _call(
         self,
@@ -155,6 +204,20 @@ class Integrator(ABC):
         inputs: Signals | None,
     ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
         """Run and return the final state and the rows."""
+
+    @abstractmethod
+    def _adapt(
+        self,
+        numbers: list[float],
+        span: tuple[float, float, float],
+        tolerances: tuple[float, float],
+        limit: int,
+        values: list[float],
+        statistics: Statistics | None,
+        inputs: Signals | None,
+        like_state: State,
+    ) -> Arrival:
+        """Run with chosen steps; ``span`` is (t, end, h)."""
 
 
 class CompiledIntegrator(Integrator):
@@ -194,17 +257,44 @@ class CompiledIntegrator(Integrator):
         status = Status(self._run(*arguments, *([counts] if blocks else []), completed))
         if callback is not None and callback.failure is not None:
             raise callback.failure
-        if counts is not None and statistics is not None:
-            before = statistics.sweeps or [0] * len(blocks)
-            statistics.sweeps = [a + b for a, b in zip(before, counts.sweeps, strict=True)]
-            statistics.most = max(statistics.most, counts.most)
-            statistics.failed = counts.failed
+        self._count(counts, statistics)
         final = self._ffi.unpack(state, size)
         if status != Status.OK:
             block = blocks[counts.failed - 1] if counts is not None and counts.failed else ""
             raise StepFailed(status, completed[0], like(like_state, final), reason(status, block, h))
         flat = self._ffi.unpack(rows, row_count * size) if stride else []
         return final, [flat[i : i + size] for i in range(0, len(flat), size)]
+
+    def _adapt(
+        self,
+        numbers: list[float],
+        span: tuple[float, float, float],
+        tolerances: tuple[float, float],
+        limit: int,
+        values: list[float],
+        statistics: Statistics | None,
+        inputs: Signals | None,
+        like_state: State,
+    ) -> Arrival:
+        real, prefix, new = self.interface.format.c_type, self.interface.prefix, self._ffi.new
+        state, t, h = new(f"{real}[]", numbers), new(f"{real} *", span[0]), new(f"{real} *", span[2])
+        accepted, rejected = new("size_t *"), new("size_t *")
+        counts = new(f"{prefix}statistics *") if self.interface.blocks else None
+        callback = None if inputs is None else _Callback(self._ffi, self.interface, inputs)
+        sampled = [] if callback is None else [callback.pointer, self._ffi.NULL]
+        run = getattr(self._library, f"{prefix}run_adaptive")
+        counted = [] if counts is None else [counts]
+        found = run(
+            *(state, t, span[1], h, *tolerances, limit, *values, *sampled, *counted, accepted, rejected)
+        )
+        if callback is not None and callback.failure is not None:
+            raise callback.failure
+        self._count(counts, statistics)
+        final, status = self._ffi.unpack(state, self.interface.size), Status(found)
+        if status != Status.OK:
+            block = self.interface.blocks[counts.failed - 1] if counts is not None and counts.failed else ""
+            raise StepFailed(status, accepted[0], like(like_state, final), reason(status, block, span[2]))
+        return Arrival(final, t[0], h[0], accepted[0], rejected[0])
 
 
 class _Callback:
@@ -265,12 +355,34 @@ class InterpretedIntegrator(Integrator):
             status = Status(failure.status)
             raise StepFailed(status, failure.step, like(like_state, failure.state), failure.reason) from None
         finally:
-            if counts is not None and statistics is not None:
-                before = statistics.sweeps or [0] * len(counts.sweeps)
-                statistics.sweeps = [a + b for a, b in zip(before, counts.sweeps, strict=True)]
-                statistics.most = max(statistics.most, counts.most)
-                statistics.failed = counts.failed
+            self._count(counts, statistics)
         return (found[-1], found) if stride else (found, [])
+
+    def _adapt(
+        self,
+        numbers: list[float],
+        span: tuple[float, float, float],
+        tolerances: tuple[float, float],
+        limit: int,
+        values: list[float],
+        statistics: Statistics | None,
+        inputs: Signals | None,
+        like_state: State,
+    ) -> Arrival:
+        t, end, h = span
+        sampled = [] if inputs is None else [inputs]
+        keywords: dict[str, Any] = dict(zip(("rtol", "atol"), tolerances, strict=True)) | {"limit": limit}
+        keywords |= dict(zip(self.interface.parameters, values, strict=True))
+        counts = self.module.Statistics() if self.interface.blocks else None
+        if counts is not None:
+            keywords["statistics"] = counts
+        try:
+            return Arrival(*self.module.run_adaptive(numbers, t, end, *sampled, h, **keywords))
+        except self.module.StepFailed as failure:
+            state = like(like_state, failure.state)
+            raise StepFailed(Status(failure.status), failure.step, state, failure.reason) from None
+        finally:
+            self._count(counts, statistics)
 
 
 def reason(status: Status, block: str, h: float) -> str:
@@ -278,6 +390,8 @@ def reason(status: Status, block: str, h: float) -> str:
     match status:
         case Status.BAD_STEP:
             return f"the step size h = {h} is not finite"
+        case Status.LIMIT:
+            return "the end is not reached within the tolerance"
         case Status.NOT_CONVERGED:
             return f"{block} did not converge"
         case _:

@@ -96,8 +96,8 @@ class Method:
     def embedded(self) -> Method | None:
         """Return the method of the embedded row where that is asked for; :class:`MethodError` without one.
 
-        It has the same stages, so it serves families whose stages do not depend on the weights; ``rkmk`` needs a
-        cut-off, for its fewest brackets are chosen for the weights.
+        It has the same stages, so it serves families whose stages do not depend on the weights; ``rkmk``
+        needs a cut-off, for its fewest brackets are chosen for the weights.
         """
         if not self.adaptive:
             return None

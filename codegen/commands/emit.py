@@ -27,6 +27,7 @@ from orderconds.commands.place import FOLDER
 )
 @click.option("--input", "inputs", multiple=True, help="A signal of the scene to take at run time.")
 @click.option("--frame", default="space", help="Momenta of the space (the default) or of the body.")
+@click.option("--adaptive", is_flag=True, help="Add a run that chooses its steps by the embedded row.")
 @click.option("--precision", default="double", help="double (the default) or single.")
 @click.option("--explain", is_flag=True, help="Print the program after each pass, and what was left out.")
 @click.option("--json", "as_json", is_flag=True, help="One record a module on stdout, nothing else.")
@@ -39,6 +40,7 @@ def command(
     parameters: tuple[str, ...],
     inputs: tuple[str, ...],
     frame: str,
+    adaptive: bool,
     precision: str,
     explain: bool,
     as_json: bool,
@@ -56,7 +58,7 @@ def command(
     for name in targets:
         known_target(name)
     known_precision(precision)
-    compiled = compile_method(scene, method, parameters, inputs, frame)
+    compiled = compile_method(scene, method, parameters, inputs, frame, adaptive)
     named = {"scene": bare(scene), "method": bare(method)}
     records: list[dict[str, Any]] = []
     if explain and not as_json:

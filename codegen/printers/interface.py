@@ -22,7 +22,7 @@ class Interface:
     has; ``time`` says whether the step reads t; ``parameters`` are the run-time parameters in order;
     ``blocks`` are the labels of the implicit blocks, which statistics count; ``precision`` names the format
     of all numbers (:mod:`codegen.printers.precision`); ``inputs`` are the functions of time that are taken at
-    run time, in order.
+    run time, in order; ``adaptive`` says that there is a run that chooses its steps.
     """
 
     prefix: str
@@ -32,6 +32,7 @@ class Interface:
     blocks: tuple[str, ...]
     precision: str = DOUBLE.name
     inputs: tuple[str, ...] = ()
+    adaptive: bool = False
 
     @classmethod
     def of(cls, kernel: Kernel, prefix: str, precision: str = DOUBLE.name) -> Interface:
@@ -46,6 +47,7 @@ class Interface:
             blocks=tuple(s.label for s in kernel.body if isinstance(s, Loop)),
             precision=precision,
             inputs=kernel.inputs,
+            adaptive=kernel.estimate is not None,
         )
 
     @property

@@ -20,7 +20,7 @@ TIME = "t"
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """The flags that emitted C is promised to compile under, without a warning."""
 
-STATUSES = ("OK", "NOT_CONVERGED", "NOT_FINITE", "BAD_STEP")
+STATUSES = ("OK", "NOT_CONVERGED", "NOT_FINITE", "BAD_STEP", "LIMIT")
 """The status codes, each after the prefix in capitals."""
 
 
@@ -32,7 +32,11 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     functions = {*arrangement.functions(), "isfinite"}
     if interface.blocks:
         functions |= {"fabs", "greater"}
-    variables["put_off"], held = None, names.count + len(kernel.samples) * len(kernel.inputs)
+    held_more = 0
+    if kernel.estimate is not None:
+        variables["order"] = kernel.estimate.order
+        held_more = 2 * interface.size
+    variables["put_off"], held = None, names.count + len(kernel.samples) * len(kernel.inputs) + held_more
     if kernel.put_off is not None:
         variables["put_off"], variables["advance_source"], more, held = put_off(
             kernel.put_off, arrangement, names, interface
@@ -69,6 +73,7 @@ def definition(
     loads = [f"const {real} {names.spelled[s]} = state[{i}];" for i, s in enumerate(symbols) if s in read]
     finite = (f"isfinite({new[0]})", *(f"&& isfinite({n})" for n in new[1:]))
     return {
+        "errors": statements.errors(),
         "body": [*samples(kernel, read, names, statements), *loads, *body, *ends],
         "new": new,
         "finite": fill("if (!(", finite, ")) {", joint=""),
@@ -147,7 +152,7 @@ def stack(numbers: int, interface: Interface) -> str:
 def own_names(interface: Interface) -> frozenset[str]:
     """Return what a module itself declares or defines, which no variable may hide."""
     prefix, upper = interface.prefix, interface.prefix.upper()
-    functions = {f"{prefix}{name}" for name in ("step", "run", "statistics", "input")}
+    functions = {f"{prefix}{name}" for name in ("step", "run", "run_adaptive", "statistics", "input")}
     return frozenset(functions | {f"{upper}{name}" for name in (*STATUSES, "H")})
 
 
@@ -162,11 +167,16 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
     sampled = [f"{interface.prefix}input input", "void *context"] if several else []
     constant = [f"const {real} inputs[{several}]"] if several else []
     step = [*time, f"{real} h", *parameters, *constant, *statistics]
-    inner = [*time, f"{real} h", *parameters, *sampled, *statistics]
+    estimate = [f"{real} *error"] if interface.adaptive else []
+    inner = [*time, f"{real} h", *parameters, *sampled, *statistics, *estimate]
+    chosen = [f"{real} *t", f"{real} end", f"{real} *h", f"{real} rtol", f"{real} atol", "size_t limit"]
+    chosen += [*parameters, *sampled, *statistics, "size_t *accepted", "size_t *rejected"]
     run = [*time, f"{real} h", "size_t steps", *parameters, *sampled, f"{real} *trajectory", "size_t stride"]
     run += [*statistics, "size_t *completed"]
     passed = ["h", *(names.spelled[p] for p in interface.parameters)]
     given = ["statistics"] if interface.blocks else []
+    none = ["NULL"] if interface.adaptive else []
+    called = ["input", "context"] if several else []
     return {
         "prefix": interface.prefix,
         "upper": interface.prefix.upper(),
@@ -182,8 +192,16 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
         "advance_source": signature("static inline int advance", state, inner, ""),
         "step_source": signature(f"int {interface.prefix}step", state, step, ""),
         "run_source": signature(f"int {interface.prefix}run", state, run, ""),
-        "passed": ", ".join([*passed, *(["input", "context"] if several else []), *given]),
-        "passed_once": ", ".join([*passed, *(["hold", "held"] if several else []), *given]),
+        "passed": ", ".join([*passed, *called, *given, *none]),
+        "passed_once": ", ".join([*passed, *(["hold", "held"] if several else []), *given, *none]),
+        "adaptive": interface.adaptive,
+        "adaptive_header": signature(
+            f"int {interface.prefix}run_adaptive", f"{real} state[{interface.size}]", chosen, ";"
+        ),
+        "adaptive_source": signature(f"int {interface.prefix}run_adaptive", state, chosen, ""),
+        "passed_adaptive": ", ".join(["taken", *passed[1:], *called, *given, "error"]),
+        "f": interface.format.suffix,
+        "number": lambda x: literal(interface.format, interface.format.round(float(x))),
     }
 
 
@@ -205,14 +223,17 @@ def prototypes(interface: Interface) -> str:
     )
     callback = f"typedef void (*{prefix}input)({real} t, {real} *inputs, void *context);\n"
     sampled = f"{prefix}input input, void *context, " if interface.inputs else ""
-    return (
-        (record if blocks else "")
-        + (callback if interface.inputs else "")
-        + (
-            f"int {prefix}run({real} *state, {time}{real} h, size_t steps, {parameters}{sampled}"
-            f"{real} *trajectory, size_t stride, {statistics}size_t *completed);\n"
-        )
+    chosen = f"{real} *t, {real} end, {real} *h, {real} rtol, {real} atol, size_t limit, "
+    adaptive = (
+        f"int {prefix}run_adaptive({real} *state, {chosen}{parameters}{sampled}{statistics}"
+        "size_t *accepted, size_t *rejected);\n"
     )
+    run = (
+        f"int {prefix}run({real} *state, {time}{real} h, size_t steps, {parameters}{sampled}"
+        f"{real} *trajectory, size_t stride, {statistics}size_t *completed);\n"
+    )
+    known = ((record, bool(blocks)), (callback, bool(interface.inputs)), (adaptive, interface.adaptive))
+    return "".join(text for text, there in known if there) + run
 
 
 def example_input(interface: Interface) -> list[str]:

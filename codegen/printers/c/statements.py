@@ -32,6 +32,8 @@ _WORDS = """
     sqrtf sinf cosf expf logf sinhf coshf fabsf
     state statistics steps step stride trajectory completed status advance row sweep change scale still close
     count_sweeps input inputs context held hold
+    weighted between error rtol atol limit accepted rejected end now size left last taken then trial norm wish
+    factor trend shrunk refused made before next total ratio
 """
 RESERVED = frozenset(_WORDS.split()) | {f"stumpff_{''.join(map(str, orders))}" for orders in SETS}
 """Words that no variable may take.
@@ -73,6 +75,13 @@ class Statements:
             found.append(self.names.fresh(f"new_{symbol}"))
             lines += self._declare(found[-1], value)
         return lines, tuple(found)
+
+    def errors(self) -> list[str]:
+        """Return the lines that write the estimate of the error, component by component."""
+        lines: list[str] = []
+        for k, value in enumerate(self.arrangement.errors):
+            lines += fill(f"    error[{k}] =", spell(value, self.names.spelled, self.style), ";")
+        return ["if (error != NULL) {", *lines, "}"] if lines else []
 
     def _declare(self, name: str, value: Expr, kind: str | None = None) -> list[str]:
         kind = f"const {self.real} " if kind is None else kind

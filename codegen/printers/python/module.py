@@ -15,6 +15,9 @@ from codegen.printers.recipe import Recipe, header
 from codegen.snippets.graph import needed
 from codegen.templates import environment
 
+LIMITS = ["rtol=1e-6", "atol=1e-9", "limit=100000"]
+"""What a run that chooses its steps is told by default."""
+
 
 def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[str, str]:
     """Return the text of PREFIX.py for one step."""
@@ -35,6 +38,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     found = needed("python", sorted(functions), precision)
     library = [name for name in found.library if name != "fabs"]
     imports = ["isfinite"] if single else library
+    if kernel.estimate is not None:
+        imports = sorted({*imports, "copysign", "inf", "sqrt"})
     arrays = ["errstate", "float32", *(n for n in library if n != "isfinite")] if single else []
     parameters = [names.spelled[p] for p in interface.parameters]
     arguments = parameters
@@ -45,8 +50,21 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     statistics = ["statistics"] if interface.blocks else []
     inputs = ["inputs"] if interface.inputs else []
     held = ["lambda t: inputs"] if interface.inputs else []
-    body = [*samples(kernel, arrangement.symbols(), names, statements), *body]
     optional = [f"{s}=None" for s in statistics]
+    adaptive: dict[str, object] | None = None
+    if kernel.estimate is not None:
+        order = kernel.estimate.order
+        adaptive = {
+            "run": ", ".join(
+                [*("state", "t", "end"), *inputs, "h=0.0", *keywords(LIMITS), *arguments, *optional]
+            ),
+            "floats": ["rtol", "atol", *parameters],
+            "passed": ", ".join([*parameters, *inputs, *statistics]),
+            "present": repr(-0.7 / order),
+            "past": repr(0.4 / order),
+            "alone": repr(-1.0 / order),
+        }
+    body = [*samples(kernel, arrangement.symbols(), names, statements), *body]
     text = (
         environment("python")
         .get_template("module/module.py.j2")
@@ -78,7 +96,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             put_off=ending,
             again=", ".join(["state", *time, "h", "failure.step", *parameters]),
             body=[*body, *ends],
-            new=listed("return ", new, 1),
+            new=listed("return ", (*new, *statements.errors()), 1),
+            adaptive=adaptive,
         )
     )
     return {f"{interface.module}.py": text}

@@ -20,7 +20,9 @@ _WORDS = """
     sqrt sin cos exp log sinh cosh inf isfinite still close quotient signed_stumpff0 signed_stumpff1
     state statistics steps step stride trajectory run row rows sweep change scale total
     settled error failure labels count made new
-    float32 errstate inputs _sampled
+    float32 errstate inputs _sampled copysign
+    end now size left last taken then rtol atol limit refused before shrunk norm wish factor
+    LIMIT
     OK NOT_CONVERGED NOT_FINITE BAD_STEP StepFailed Statistics
 """
 RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split())
@@ -70,6 +72,11 @@ class Statements:
             found.append(self.names.fresh(f"new_{symbol}"))
             lines += self._assign(found[-1], value, 1)
         return lines, tuple(found)
+
+    def errors(self) -> tuple[str, ...]:
+        """Return the estimate of the error, component by component."""
+        values = self.arrangement.errors
+        return tuple(" ".join(spell(value, self.names.spelled, self.style)) for value in values)
 
     def _assign(self, name: str, value: Expr, depth: int) -> list[str]:
         return indented(f"{name} = ", spell(value, self.names.spelled, self.style), depth)
