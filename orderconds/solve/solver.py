@@ -149,8 +149,7 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
         + (f"; solutions not proved: {refused}" if refused else "")
     )
     outcome.structure = structure
-    if outcome.found is not None:
-        checkpoint.remove()
+    checkpoint.remove()  # the search is over, whatever it came to
 
 
 def _finished(

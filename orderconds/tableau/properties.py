@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from orderconds.ring import Balls
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.methods import CommutatorFree, Composition, PartitionedRungeKutta, RungeKutta
+from orderconds.tableau.palindromes import symmetric_paths
 from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
 from orderconds.tableau.record import Tableau
 from orderconds.tableau.reversal import symmetric_exponents
@@ -21,7 +22,7 @@ Verdict = bool | None
 def properties(tableau: Tableau) -> dict[str, Verdict]:
     """Return every property of :data:`PROPERTIES` that has a meaning for this tableau, in that order.
 
-    A commutator-free method is asked whether it is explicit and whether its last stage is its update.
+    A commutator-free method is asked whether it is explicit, symmetric, and ends with its last stage.
 
     >>> from orderconds.tableau import Tableau
     >>> midpoint = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["1/2"]]\\nb = ["1"]')
@@ -30,8 +31,10 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
     """
     ring, method = tableau.ring, tableau.method
     if isinstance(method, CommutatorFree):
+        palindrome = symmetric_paths(method, ring)
         return {
             "explicit": all(_commutator_free_explicit(method, ring)),
+            "symmetric": _symmetric_by_spelling(tableau) if palindrome is None else palindrome,
             "fsal": _ends_at_update(method, ring),
         }
     if isinstance(method, Composition):
@@ -68,6 +71,8 @@ def _symmetric_by_spelling(tableau: Tableau) -> Verdict:
         method = ring.method()
     except (ArithmeticError, AttributeError, TypeError, ValueError):  # quotients, named roots
         return None
+    if isinstance(method, CommutatorFree):
+        return symmetric_paths(method, ring) or None
     assert isinstance(method, AdjointComposition | Splitting | Magnus)
     return symmetric_product(method, ring) or None
 

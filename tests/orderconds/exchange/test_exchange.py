@@ -19,7 +19,7 @@ from hypothesis import strategies as st
 
 from orderconds import Tableau
 from orderconds.cli import program
-from orderconds.errors import InputError
+from orderconds.errors import InputError, TableauError
 from orderconds.exchange import FORMATS, convert, export, read_data
 from orderconds.exchange.spelling import from_latex, from_python, latex, python
 from orderconds.exchange.sympy_source import from_sympy, to_sympy
@@ -54,7 +54,15 @@ def test_every_tableau_of_the_library_reads_back_the_same(of: str) -> None:
             with pytest.raises(InputError, match="format json"):
                 export(data, of)
             continue
-        back = from_data(read_data(export(data, of), of, "back"))
+        try:
+            text = export(data, of)
+        except TableauError:
+            # Relations between coefficients, written out, may be longer than a coefficient may be.
+            spelled_by_others = tableau.proof is not None and tableau.proof.reduction == "spelling"
+            if not spelled_by_others:
+                raise
+            continue
+        back = from_data(read_data(text, of, "back"))
         assert back.method == tableau.method, name
         assert back.embedded == tableau.embedded, name
         assert (back.name, back.family, back.source) == (tableau.name, tableau.family, tableau.source)

@@ -86,5 +86,7 @@ def test_a_composition_is_symplectic_by_construction_and_symmetric_only_if_palin
 
 def test_commutator_free_methods_tell_whether_they_are_explicit_and_end_at_their_update() -> None:
     text = 'name = "t"\nfamily = "cf"\n[[stage]]\nexp = [["{}"]]\n[update]\nexp = [["1"]]\n'
-    assert properties(Tableau.loads(text.format("1/2"))) == {"explicit": False, "fsal": False}
-    assert properties(Tableau.loads(text.format("0"))) == {"explicit": True, "fsal": False}
+    midpoint = {"explicit": False, "symmetric": True, "fsal": False}
+    assert properties(Tableau.loads(text.format("1/2"))) == midpoint
+    euler = {"explicit": True, "symmetric": False, "fsal": False}
+    assert properties(Tableau.loads(text.format("0"))) == euler

@@ -1,0 +1,64 @@
+"""Whether a commutator-free method is symmetric: read from its end it is the same method.
+
+A step of length -h that starts from y1 undoes one of length h from y0 if, stages j and s + 1 - j exchanged,
+the update reads the same backwards, and stage s + 1 - i is reached from y1 by the exponentials that lead from
+y0 to stage i, their signs changed. Neighbouring exponentials that are multiples of each other count as one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from orderconds.ring.protocol import Ring
+from orderconds.tableau.methods import CommutatorFree, Row
+
+
+def symmetric_paths(method: CommutatorFree, ring: Ring) -> bool | None:
+    """Say whether a method is symmetric in the order in which its stages stand; None where balls do not tell.
+
+    >>> from orderconds.tableau import Tableau, find
+    >>> tableaux = [Tableau.load(find(name)) for name in ("cf4", "vcf_gauss2")]
+    >>> [symmetric_paths(t.method, t.ring) for t in tableaux]
+    [False, True]
+    """
+    update = method.from_start(method.update)
+    verdicts = [_same(update, tuple(row[::-1] for row in update[::-1]), ring)]
+    for one, other in zip(method.stages, method.stages[::-1], strict=True):
+        back = tuple(tuple(-x for x in row[::-1]) for row in method.from_start(other))
+        verdicts.append(_same(method.from_start(one), (*update, *back), ring))
+    if False in verdicts:
+        return False
+    return None if None in verdicts else True
+
+
+def _same(one: Sequence[Row], other: Sequence[Row], ring: Ring) -> bool | None:
+    """Compare two products of exponentials by their reduced forms."""
+    left, right = _reduced(one, ring), _reduced(other, ring)
+    if len(left) != len(right):
+        decided = all(ring.is_zero(x) is not None for row in (*one, *other) for x in row)
+        return False if decided else None
+    verdicts = [
+        x is y or ring.is_zero(x - y)
+        for row, column in zip(left, right, strict=True)
+        for x, y in zip(row, column, strict=True)
+    ]
+    if False in verdicts:
+        return False
+    return None if None in verdicts else True
+
+
+def _reduced(rows: Sequence[Row], ring: Ring) -> list[Row]:
+    """Return a product of exponentials with neighbours that are multiples of each other added up."""
+    found: list[Row] = []
+    for row in rows:
+        total = row
+        if found and _parallel(found[-1], row, ring):
+            total = tuple(x + y for x, y in zip(found.pop(), row, strict=True))
+        if not all(ring.is_zero(x) is True for x in total):
+            found.append(total)
+    return found
+
+
+def _parallel(x: Row, y: Row, ring: Ring) -> bool:
+    pairs = ((i, j) for i in range(len(x)) for j in range(i))
+    return all(ring.is_zero(x[i] * y[j] - x[j] * y[i]) is True for i, j in pairs)
