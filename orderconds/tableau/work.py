@@ -3,7 +3,8 @@
 Evaluations are those of a step after another: stages that enter the update, an explicit first-same-as-last
 stage not counted again. Of an implicit method they are those of one sweep of its iteration. Equal exponents
 are one exponential, applied where it is needed; brackets are those of dexpinv applied stage by stage, without
-simplification (dexpinv of the zero argument needs none).
+simplification (dexpinv of the zero argument needs none). Of a Magnus method they are the commutators that it
+spells, each once, and an exponential may be a Cayley transform.
 """
 
 from __future__ import annotations
@@ -12,7 +13,9 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 
 from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.brackets import Bracket, Product, Term, spell
 from orderconds.tableau.methods import CommutatorFree, PartitionedRungeKutta, RungeKutta
+from orderconds.tableau.products import Magnus
 from orderconds.tableau.properties import explicit, fsal
 from orderconds.tableau.record import Tableau
 
@@ -44,6 +47,8 @@ def work(tableau: Tableau, family: str, cutoff: int | None = None) -> Work | Non
     (Work(evaluations=2, exponentials=3, brackets=0), Work(evaluations=2, exponentials=2, brackets=1))
     """
     ring = tableau.ring
+    if isinstance(tableau.method, Magnus):
+        return _linear(tableau.method, ring)
     method = tableau.read_as(("cf", "rk", "prk") if family in FREE else ("rk", "cf", "prk"))
     if isinstance(method, CommutatorFree):
         rows = [row for stage in (*method.stages, method.update) for row in stage.exponentials]
@@ -63,6 +68,34 @@ def work(tableau: Tableau, family: str, cutoff: int | None = None) -> Work | Non
         exponentials = _distinct([row for row, moves in zip(method.A, moved, strict=True) if moves], ring)
         return Work(evaluations, exponentials + 1, sum(moved) * _nested(cutoff))
     return Work(evaluations)
+
+
+def _linear(method: Magnus, ring: Ring) -> Work:
+    """Count what the exponents of a Magnus method use: nodes, different exponents, brackets spelled."""
+    elements = dict(method.elements)
+    used: dict[Term, None] = {}
+
+    def use(term: Term) -> None:
+        if term in used:
+            return
+        used[term] = None
+        if isinstance(term, str):
+            inner = [t for t, x in elements[term] if ring.is_zero(x) is not True]
+        elif isinstance(term, Product):
+            inner = list(term.factors)
+        else:
+            inner = [term.left, term.right] if isinstance(term, Bracket) else []
+        for t in inner:
+            use(t)
+
+    exponents = set()
+    for combination in method.exponents:
+        kept = [(term, x) for term, x in combination if ring.is_zero(x) is not True]
+        exponents.add(tuple((spell(term), ring.key(x)) for term, x in kept))
+        for term, _ in kept:
+            use(term)
+    nodes, brackets = (sum(isinstance(term, kind) for term in used) for kind in (int, Bracket))
+    return Work(nodes, len(exponents), brackets)
 
 
 def _nested(cutoff: int | None) -> int:
