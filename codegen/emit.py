@@ -48,8 +48,8 @@ HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
 
 
 @dataclass(frozen=True)
-class Compiled:
-    """A method on a scene, ready to be printed: the program before and after each pass, and the kernel.
+class Optimised:
+    """A method on a scene, ready to be interpreted: the program before and after each pass.
 
     ``view`` is the scene as the method's family sees it.
     """
@@ -60,7 +60,20 @@ class Compiled:
     lowered: Program
     program: Program
     trace: tuple[PassReport, ...]
+
+
+@dataclass(frozen=True)
+class Compiled(Optimised):
+    """A method on a scene, ready to be printed: with the kernel."""
+
     kernel: Kernel
+
+
+def optimise_method(scene: Setting, method: Method) -> Optimised:
+    """Return a method on a scene lowered and optimised, for groups without closed forms as well."""
+    view, lowered = setting(scene, method), lower(scene, method)
+    program, trace = optimise(lowered, view)
+    return Optimised(scene, method, view, lowered, program, trace)
 
 
 def compile_method(

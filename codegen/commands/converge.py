@@ -2,29 +2,68 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
-from orderconds.commands.screen import print_json, print_table, working
+from orderconds.commands.screen import counting, print_json, print_table, working
 from orderconds.commands.variadic import Variadic
 from orderconds.errors import InputError
 
+if TYPE_CHECKING:
+    from codegen.lab.converge import Convergence
+
 
 @click.command("converge", cls=Variadic)
-@click.argument("scene")
+@click.argument("scene", required=False)
 @click.option("--method", "-m", "methods", multiple=True, required=True, help="TABLEAU or FAMILY:TABLEAU.")
 @click.option("--target", default="c", show_default=True, help="c, python or interpreter.")
 @click.option("--steps", multiple=True, help="Prescribe the rungs, as 20,40,80,160.")
 @click.option("--digits", default=16, type=click.IntRange(16, 60), help="Precision of the interpreter.")
+@click.option(
+    "--protocol",
+    type=click.Choice(["strict"]),
+    help="strict: a battery of scenes in 50 digits, against the claimed order; takes no SCENE.",
+)
+@click.option("--stated", type=click.IntRange(1, 20), help="The order to hold methods to.")
 @click.option("--json", "as_json", is_flag=True, help="Machine-readable output.")
 def command(
-    scene: str, methods: tuple[str, ...], target: str, steps: tuple[str, ...], digits: int, as_json: bool
+    scene: str | None,
+    methods: tuple[str, ...],
+    target: str,
+    steps: tuple[str, ...],
+    digits: int,
+    protocol: str | None,
+    stated: int | None,
+    as_json: bool,
 ) -> int:
     """Measure the order of methods on SCENE (a gallery name or a Python file).
 
     The exit status is 0 when every observed order is the stated one, 1 when some is not or cannot be told.
     """
-    from codegen.certify import certified_order
-    from codegen.lab.converge import Convergence, converge
+    if (scene is None) != (protocol is not None):
+        raise click.UsageError("name one SCENE, or give --protocol strict, which brings its own")
+    found = (
+        _by_protocol(methods, stated, as_json)
+        if scene is None
+        else _on_scene(scene, methods, target, steps, digits, stated, as_json)
+    )
+    if as_json:
+        print_json([result.as_json() for result in found])
+    return 0 if all(result.verdict == "holds" for result in found) else 1
+
+
+def _on_scene(
+    scene: str,
+    methods: tuple[str, ...],
+    target: str,
+    steps: tuple[str, ...],
+    digits: int,
+    stated: int | None,
+    as_json: bool,
+) -> list[Convergence]:
+    from codegen.certify import CertifiedOrder, certified_order
+    from codegen.lab.converge import converge
     from codegen.lab.remembered import remembered
     from codegen.lab.runner import runner
     from codegen.lower import families_for
@@ -35,7 +74,8 @@ def command(
     setting = load(scene)
     chosen = [parse(spelling, families_for(setting)) for spelling in methods]
     with working("order conditions") as tell:
-        pairs = [(method, certified_order(method, setting)) for method in chosen]
+        held = None if stated is None else CertifiedOrder(stated, "stated")
+        pairs = [(method, held or certified_order(method, setting)) for method in chosen]
         tell("compiling")
         runners = [(runner(setting, method, target, digits, order), order) for method, order in pairs]
         tell("reference solution")
@@ -46,9 +86,22 @@ def command(
             found.append(converge(run, order, exact, steps=prescribed))
         if not as_json:
             show(found[-1], first=len(found) == 1)
-    if as_json:
-        print_json([result.as_json() for result in found])
-    return 0 if all(result.verdict == "holds" for result in found) else 1
+    return found
+
+
+def _by_protocol(methods: tuple[str, ...], stated: int | None, as_json: bool) -> list[Convergence]:
+    from codegen.lab.strict import stated_order, strict
+    from codegen.lower import LOWERINGS
+    from codegen.method import parse
+
+    found: list[Convergence] = []
+    for method in [parse(spelling, tuple(LOWERINGS)) for spelling in methods]:
+        with counting(f"{method.label}") as tell:
+            for result in strict(method, stated_order(method, stated), tell):
+                found.append(result)
+                if not as_json:
+                    click.echo(f"{result.method} on {result.scene}: {result.sentence()}")
+    return found
 
 
 def read_steps(texts: tuple[str, ...]) -> list[int]:
@@ -65,11 +118,8 @@ def read_steps(texts: tuple[str, ...]) -> list[int]:
     return sorted({int(word) for word in words})
 
 
-def show(result: object, first: bool) -> None:
+def show(result: Convergence, first: bool) -> None:
     """Print one ladder as a table with the verdict below it."""
-    from codegen.lab.converge import Convergence
-
-    assert isinstance(result, Convergence)
     if not first:
         click.echo()
     click.echo(f"{result.method} on {result.scene}, {result.target}")

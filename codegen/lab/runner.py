@@ -13,7 +13,7 @@ from typing import Any
 
 from codegen.certify import CertifiedOrder
 from codegen.emission import Emission
-from codegen.emit import Compiled, compile_method, emit_compiled
+from codegen.emit import Compiled, Optimised, compile_method, emit_compiled
 from codegen.errors import MethodError
 from codegen.ir.domain import Domain, FloatDomain, NotConverged, PreciseDomain
 from codegen.ir.interpret import flatten, interpret
@@ -35,7 +35,7 @@ class RunFailed(ArithmeticError):
 class Interpreted:
     """The interpreter on the optimised step program, in ``digits`` decimal digits (16: doubles)."""
 
-    compiled: Compiled
+    compiled: Optimised
     digits: int = DOUBLE
     target: str = "interpreter"
 

@@ -1,0 +1,120 @@
+"""The scenes of the strict protocol: fields that no order can hide behind.
+
+Software has shipped methods of order 2 as order 4 because its tests turned about one axis, or had generators
+orthogonal to the state, or fields that did not depend on time. Here every field is polynomial, depends on
+state and time, commutes with nothing, and on the sphere has a component along the state. The groups are
+SO(3), GL(3) and the Heisenberg group, acting on themselves or on vectors; variational methods meet
+Hamiltonians without symmetry that depend on time on T*G.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+from codegen.scene import Setting
+
+SPAN = (0, "1/4")
+"""Short: solutions of polynomial equations may reach infinity soon after."""
+
+
+@cache
+def fields() -> tuple[Setting, ...]:
+    """Return the field scenes."""
+    from sympy import Matrix, Rational, Symbol
+
+    from codegen.groups import GL, SO3, LeftMultiplication, MatrixGroup, Rotation
+    from codegen.scene import FieldScene
+
+    t, half = Symbol("t", real=True), Rational(1, 2)
+    span = tuple(Rational(x) for x in SPAN)
+    turn = [0, -1, 0, Rational(3, 5), 0, -Rational(4, 5), Rational(4, 5), 0, Rational(3, 5)]
+
+    g = SO3().point("g")
+    rotations = FieldScene(
+        name="SO(3) on itself",
+        group=SO3(),
+        action=LeftMultiplication(),
+        y=Matrix(list(g)),
+        f=Matrix(
+            [g[0, 1] * g[1, 2] + t * g[2, 0] + 1, g[1, 1] - t + g[0, 0] * g[2, 2], g[2, 1] + t * t - half]
+        ),
+        y0=turn,
+        span=span,
+    )
+    m = SO3().dual("m")
+    sphere = FieldScene(
+        name="SO(3) on a sphere",
+        group=SO3(),
+        action=Rotation(),
+        y=m,
+        f=Matrix([m[1] * m[2] + t + m[0], m[0] - t * m[1] + 1, m[2] * m[2] - m[0] * t + 2]),
+        y0=Matrix([Rational(2, 3), -Rational(1, 3), Rational(2, 3)]),
+        span=span,
+    )
+    a = GL(3).point("a")
+    entries = [
+        a[(i + 1) % 3, j] * (half + t) - a[j, i] * a[i, (j + 2) % 3] / 3 + (t if i == j else half * (i - j))
+        for i in range(3)
+        for j in range(3)
+    ]
+    linear = FieldScene(
+        name="GL(3) on itself",
+        group=GL(3),
+        action=LeftMultiplication(),
+        y=Matrix(list(a)),
+        f=Matrix(entries),
+        y0=[1, half, 0, -half, 1, Rational(1, 3), 0, 0, 1],
+        span=span,
+    )
+    places = ((0, 1), (1, 2), (0, 2))
+    basis = [[[int((i, j) == p) for j in range(3)] for i in range(3)] for p in places]
+    x = [Symbol(f"x{k}", real=True) for k in range(3)]
+    nilpotent = FieldScene(
+        name="Heisenberg group on vectors",
+        group=MatrixGroup("Heisenberg", basis),
+        action=Rotation(),
+        y=Matrix(x),
+        f=Matrix([x[0] * x[1] + t, x[0] - t * x[1], x[1] * x[1] + x[0] * t + 1]),
+        y0=Matrix([half, -1, Rational(3, 2)]),
+        span=span,
+    )
+    return rotations, sphere, linear, nilpotent
+
+
+@cache
+def hamiltonians() -> tuple[Setting, ...]:
+    """Return the Hamiltonian scenes."""
+    from sympy import Matrix, Rational, Symbol
+
+    from codegen.groups import GL, SO3, MatrixGroup
+    from codegen.scene import HamiltonianScene
+
+    t, half = Symbol("t", real=True), Rational(1, 2)
+    span = tuple(Rational(x) for x in SPAN)
+    turn = Matrix(3, 3, [0, -1, 0, Rational(3, 5), 0, -Rational(4, 5), Rational(4, 5), 0, Rational(3, 5)])
+    places = ((0, 1), (1, 2), (0, 2))
+    basis = [[[int((i, j) == p) for j in range(3)] for i in range(3)] for p in places]
+    upper = Matrix(3, 3, [1, half, 2, 0, 1, -Rational(1, 3), 0, 0, 1])
+    grounds: tuple[tuple[str, Any, Any], ...] = (
+        ("T*SO(3)", SO3(), turn),
+        ("T*GL(2)", GL(2), Matrix(2, 2, [1, half, -Rational(1, 3), 1])),
+        ("T*Heisenberg", MatrixGroup("Heisenberg", basis), upper),
+    )
+    found = []
+    for name, group, start in grounds:
+        q, mu = group.point("q"), group.dual("p")
+        moved = q.T * Matrix(list(mu)[: q.shape[0]])
+        H = mu.dot(mu) / 2 + mu[0] * mu[1] / 3 + moved.dot(moved) / 2
+        H += q[0, 1] * q[1, 0] + q[0, 0] * mu[1] + t * (q[0, 1] + mu[0] * mu[0] / 2) + q[0, 0] * q[1, 1]
+        momentum = [1, Rational(-1, 2), Rational(2, 3), half][: group.dim]
+        scene = HamiltonianScene(
+            name=name, group=group, q=q, mu=mu, H=H, q0=start, mu0=Matrix(momentum), span=span
+        )
+        found.append(scene)
+    return tuple(found)
+
+
+def battery(variational: bool) -> tuple[Setting, ...]:
+    """Return the scenes for variational methods, or for all others."""
+    return hamiltonians() if variational else fields()
