@@ -3,8 +3,8 @@
 Software has shipped methods of order 2 as order 4 because its tests turned about one axis, or had generators
 orthogonal to the state, or fields that did not depend on time. Here every field is polynomial, depends on
 state and time, commutes with nothing, and on the sphere has a component along the state. The groups are
-SO(3), GL(3) and the Heisenberg group, acting on themselves or on vectors; variational methods meet
-Hamiltonians without symmetry that depend on time on T*G.
+SO(3), GL(3) and the unipotent 4 x 4 matrices, whose brackets end only after two, acting on themselves or on
+vectors; variational methods meet Hamiltonians without symmetry that depend on time on T*G.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def fields() -> tuple[Setting, ...]:
         action=LeftMultiplication(),
         y=Matrix(list(g)),
         f=Matrix(
-            [g[0, 1] * g[1, 2] + t * g[2, 0] + 1, g[1, 1] - t + g[0, 0] * g[2, 2], g[2, 1] + t * t - half]
+            [g[0, 1] * g[1, 2] + t * g[2, 0] + 1, g[1, 1] - t + g[0, 0] * g[2, 2], g[2, 1] + t**2 - half]
         ),
         y0=turn,
         span=span,
@@ -67,16 +67,21 @@ def fields() -> tuple[Setting, ...]:
         y0=[1, half, 0, -half, 1, Rational(1, 3), 0, 0, 1],
         span=span,
     )
-    places = ((0, 1), (1, 2), (0, 2))
-    basis = [[[int((i, j) == p) for j in range(3)] for i in range(3)] for p in places]
-    x = [Symbol(f"x{k}", real=True) for k in range(3)]
+    places = ((0, 1), (1, 2), (2, 3), (0, 2), (1, 3), (0, 3))
+    basis = [[[int((i, j) == p) for j in range(4)] for i in range(4)] for p in places]
+    x = [Symbol(f"x{k}", real=True) for k in range(4)]
     nilpotent = FieldScene(
-        name="Heisenberg group on vectors",
-        group=MatrixGroup("Heisenberg", basis),
+        name="unipotent matrices on vectors",
+        group=MatrixGroup("U(4)", basis),
         action=Rotation(),
         y=Matrix(x),
-        f=Matrix([x[0] * x[1] + t, x[0] - t * x[1], x[1] * x[1] + x[0] * t + 1]),
-        y0=Matrix([half, -1, Rational(3, 2)]),
+        f=Matrix(
+            [
+                *(3 * x[2] * x[1] + 5 * t, 2 * x[0] - 4 * t * x[2] + x[1], x[1] * x[3] - 6 * t),
+                *(x[2] + x[0] * x[0], t - x[1] * x[0], x[2] * x[1]),
+            ]
+        ),
+        y0=Matrix([half, -1, Rational(3, 2), 1]),
         span=span,
     )
     return rotations, sphere, linear, nilpotent
