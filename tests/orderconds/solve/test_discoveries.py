@@ -36,7 +36,7 @@ def test_a_discovery_is_certified_in_every_family_it_serves(name: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", FOUND)
+@pytest.mark.parametrize("name", [name for name in FOUND if name.startswith(("vcf", "vcg3"))])
 def test_its_command_finds_it_again(name: str) -> None:
     text = text_of(find(name))
     (command,) = re.findall(r'^source = "(orderconds solve .*)"$', text, re.MULTILINE)
