@@ -9,7 +9,7 @@ from __future__ import annotations
 import keyword
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import PurePath
 from typing import Any
 
@@ -20,6 +20,7 @@ from codegen.ir.domain import FloatDomain
 from codegen.ir.kernel import Kernel, Loop
 from codegen.ir.program import Program
 from codegen.lower import families_for, lower, setting
+from codegen.lower.solver import AUTO, Choice, known_solver, solved
 from codegen.lower.variants import fastest
 from codegen.method import Method, parse
 from codegen.passes import PassReport, optimise
@@ -51,7 +52,8 @@ HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
 class Optimised:
     """A method on a scene, ready to be interpreted: the program before and after each pass.
 
-    ``view`` is the scene as the method's family sees it.
+    ``view`` is the scene as the method's family sees it; ``solvers`` tells how each implicit block is solved,
+    ``asked`` what was asked for.
     """
 
     scene: Setting
@@ -67,6 +69,8 @@ class Compiled(Optimised):
     """A method on a scene, ready to be printed: with the kernel."""
 
     kernel: Kernel
+    solvers: tuple[Choice, ...] = ()
+    asked: str = AUTO
 
 
 def optimise_method(scene: Setting, method: Method) -> Optimised:
@@ -83,13 +87,16 @@ def compile_method(
     inputs: Sequence[str] = (),
     frame: str = "space",
     adaptive: bool = False,
+    *,
+    solver: str = AUTO,
 ) -> Compiled:
     """Return a method on a scene (or their names) lowered, optimised and made a kernel.
 
     ``parameters`` stay run-time arguments, or are folded at the value given (``alpha=1/2``); all others are
     folded at the scene's values; ``inputs`` are signals to be taken at run time, ``frame`` that of
-    momenta (:meth:`codegen.scene.Setting.with_frame`). SceneError, MethodError, UnknownName or TableauError
-    for what cannot be read or does not fit. ``adaptive`` asks for the estimate of an embedded row.
+    momenta (:meth:`codegen.scene.Setting.with_frame`); ``solver`` is for implicit blocks
+    (:mod:`codegen.lower.solver`). SceneError, MethodError, UnknownName or TableauError for what cannot be
+    read or does not fit. ``adaptive`` asks for the estimate of an embedded row.
     """
     if isinstance(scene, str):
         scene = scenes.load(scene)
@@ -110,6 +117,9 @@ def compile_method(
         kernel = fastest(program, view)
         candidates.append(Compiled(scene, method, view, lowered, program, trace, kernel))
     best = min(candidates, key=lambda c: work(c.kernel))
+    if known_solver(solver) and best.kernel.loops:
+        kernel, choices = solved(best.program, view, start_of(scene), solver)
+        best = replace(best, kernel=kernel, solvers=choices, asked=solver)
     embedded, estimate = method.embedded(), best.kernel.estimate
     if embedded is None or estimate is None:
         return best
@@ -137,20 +147,22 @@ def emit(
     inputs: Sequence[str] = (),
     frame: str = "space",
     adaptive: bool = False,
+    solver: str = AUTO,
 ) -> Emission:
     """Return the integrator of a method on a scene as a module of a target.
 
     ``scene`` is a name of the gallery, the path of a Python file, or a setting; ``method`` is spelled
     ``FAMILY:TABLEAU`` or ``TABLEAU``; ``prefix`` starts every external name, by default scene and method;
     ``precision`` is ``double`` or ``single``; ``inputs`` are signals of the scene that are taken at run time,
-    ``frame`` is that of momenta, ``space`` or ``body``; ``adaptive`` adds a run that chooses its steps.
+    ``frame`` is that of momenta, ``space`` or ``body``; ``adaptive`` adds a run that chooses its steps;
+    ``solver``, for implicit blocks, is ``newton``, ``fixed-point`` or ``auto``, which takes the cheaper one.
     Errors as :func:`compile_method`, UnknownName for a target, InputError for a prefix that C cannot take.
     """
     printer_of(target)
     known_precision(precision)
     named = {"scene": bare(scene) if isinstance(scene, str) else scene.name}
     named["method"] = bare(method) if isinstance(method, str) else method.label
-    made = compile_method(scene, method, parameters, inputs, frame, adaptive)
+    made = compile_method(scene, method, parameters, inputs, frame, adaptive, solver=solver)
     return emit_compiled(made, target, prefix, named, precision=precision)
 
 
@@ -180,6 +192,7 @@ def emit_compiled(
     options += ["--frame body"] if body else []
     options += ["--adaptive"] if method.adaptive else []
     options += [f"--precision {precision}"] if single else []
+    options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]
     options += [f"--parameter {p}={value}" for p, value in scene.fixed if p not in scene.runtime]
     options += [f"--input {name}" for name in scene.inputs]
@@ -194,6 +207,7 @@ def emit_compiled(
             ("order", order.text()),
             ("scene", f"{scene.title}, group {scene.group.name}"),
             *((("flows", flows_of(compiled.view)),) if compiled.view.flows else ()),
+            *(("solved by", choice.text()) for choice in compiled.solvers),
             *((("precision", SINGLE_IS),) if single else ()),
             *((("steps", steps_of(compiled.kernel)),) if method.adaptive else ()),
         ),
@@ -216,6 +230,7 @@ def emit_compiled(
         "initial": list(recipe.initial),
         "span": [float(first), float(last)],
         "left_out": list(recipe.left_out),
+        "solvers": [asdict(choice) for choice in compiled.solvers],
     }
     return emit_kernel(compiled.kernel, recipe, target, chosen, about, precision)
 

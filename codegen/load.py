@@ -55,11 +55,15 @@ class Arrival:
 
 @dataclass
 class Statistics:
-    """Fixed-point sweeps by block, the most one block took in one step, and 1 + the block that failed."""
+    """Sweeps by block, the most one block took in one step, and 1 + the block that failed.
+
+    ``matrices`` is how often a matrix of Newton's method was made.
+    """
 
     sweeps: list[int] = field(default_factory=list)
     most: int = 0
     failed: int = 0
+    matrices: int = 0
 
 
 class Integrator(ABC):
@@ -189,6 +193,7 @@ class Integrator(ABC):
             statistics.sweeps = [a + b for a, b in zip(before, counts.sweeps, strict=True)]
             statistics.most = max(statistics.most, counts.most)
             statistics.failed = counts.failed
+            statistics.matrices += counts.matrices if self.interface.newton else 0
 
     @abstractmethod
     def _call(

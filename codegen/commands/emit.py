@@ -29,6 +29,9 @@ from orderconds.commands.place import FOLDER
 @click.option("--frame", default="space", help="Momenta of the space (the default) or of the body.")
 @click.option("--adaptive", is_flag=True, help="Add a run that chooses its steps by the embedded row.")
 @click.option("--precision", default="double", help="double (the default) or single.")
+@click.option(
+    "--solver", default="auto", help="newton, fixed-point or auto (the default), which takes the cheaper."
+)
 @click.option("--explain", is_flag=True, help="Print the program after each pass, and what was left out.")
 @click.option("--json", "as_json", is_flag=True, help="One record a module on stdout, nothing else.")
 def command(
@@ -42,6 +45,7 @@ def command(
     frame: str,
     adaptive: bool,
     precision: str,
+    solver: str,
     explain: bool,
     as_json: bool,
 ) -> int:
@@ -58,7 +62,7 @@ def command(
     for name in targets:
         known_target(name)
     known_precision(precision)
-    compiled = compile_method(scene, method, parameters, inputs, frame, adaptive)
+    compiled = compile_method(scene, method, parameters, inputs, frame, adaptive, solver=solver)
     named = {"scene": bare(scene), "method": bare(method)}
     records: list[dict[str, Any]] = []
     if explain and not as_json:
@@ -96,6 +100,8 @@ def explanation(compiled: Any) -> str:
         parts.append(report.program.text())
     costs = sentences(operations(arrange(compiled.kernel)))
     parts.append("# kernel\n" + "".join(f"  {line}\n" for line in costs))
+    if compiled.solvers:
+        parts.append("# solved by\n" + "".join(f"  {choice.text()}\n" for choice in compiled.solvers))
     parts.append("# left out\n" + "".join(f"  {line}\n" for line in left_out(compiled)))
     return "\n".join(parts)
 

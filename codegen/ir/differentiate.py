@@ -8,6 +8,10 @@ from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
 
 
+class NotDifferentiable(ValueError):
+    """A function whose derivative has no expression here."""
+
+
 def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
     """Return the partial derivatives of root by the named symbols, in order.
 
@@ -22,13 +26,17 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
         bar = bars.get(node.id)
         if bar is None or bar is space.zero:
             continue
-        for arg, factor in zip(node.args, _partials(node), strict=True):
+        for arg, factor in zip(node.args, partials(node), strict=True):
             bars[arg.id] = bars.get(arg.id, space.zero) + bar * factor
     return [bars.get(space.sym(name).id, space.zero) for name in symbols]
 
 
-def _partials(node: Expr) -> list[Expr]:
-    """Return the derivatives of a node by its arguments."""
+def partials(node: Expr) -> list[Expr]:
+    """Return the derivatives of a node by its arguments, in order.
+
+    Those of ``quotient`` are taken away from the zeros of its divisor. :class:`NotDifferentiable` for
+    ``signed_stumpff1`` and the slopes.
+    """
     space, args = node.space, node.args
     match node.op:
         case "add":
@@ -46,25 +54,35 @@ def _partials(node: Expr) -> list[Expr]:
             n = node.payload
             return [space.const(Number.rational(n)) * space.pow(args[0], n - 1)]
         case "call":
-            return [_derivative(node)]
+            return _derivatives(node)
         case _:
             return []
 
 
-def _derivative(node: Expr) -> Expr:
-    """Return the derivative of a function of one argument."""
+def _derivatives(node: Expr) -> list[Expr]:
+    """Return the derivatives of a function by its arguments; c_k' = (k c_{k+2} - c_{k+1})/2 for Stumpff's."""
     space, x = node.space, node.args[0]
+    half = space.const(Number.rational(1, 2))
     match node.payload:
         case "sqrt":
-            return space.const(Number.rational(1, 2)) * (space.one / node)
+            return [half * (space.one / node)]
         case "sin":
-            return space.call("cos", x)
+            return [space.call("cos", x)]
         case "cos":
-            return -space.call("sin", x)
+            return [-space.call("sin", x)]
         case "exp":
-            return node
+            return [node]
         case "log":
-            return space.one / x
+            return [space.one / x]
+        case "stumpff0" | "signed_stumpff0" as name:
+            return [-(half * space.call(f"{name[:-1]}1", x))]
+        case "stumpff1":
+            return [half * (space.call("stumpff3", x) - space.call("stumpff2", x))]
+        case "stumpff2" | "stumpff3" as name:
+            return [space.call(f"slope{name[-1]}", x)]
+        case "quotient":
+            inverse = space.call("quotient", space.one, node.args[1])
+            return [inverse, -(node * inverse)]
         case _:
-            message = f"{node.payload} stands in no scene and is not differentiated"
-            raise ValueError(message)
+            message = f"{node.payload} is not differentiated"
+            raise NotDifferentiable(message)

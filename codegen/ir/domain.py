@@ -71,8 +71,27 @@ def stumpff(k: int, z: float) -> float:
     return (root - math.sin(root)) / (z * root)
 
 
+def slope(k: int, z: float) -> float:
+    """Return c_k'(z) for k = 2, 3 and z >= 0: its series up to 1, (c_{k-1} - k c_k)/(2 z) beyond.
+
+    >>> slope(2, 0.0) == -1 / 24, slope(3, 0.0) == -1 / 120
+    (True, True)
+    """
+    if z > 1:
+        return (stumpff(k - 1, z) - k * stumpff(k, z)) / (2 * z)
+    total = 0.0
+    for j in range(12, 0, -1):
+        total = -j / math.factorial(2 * j + k) - z * total
+    return total
+
+
 class FloatDomain:
-    """IEEE double precision."""
+    """IEEE double precision.
+
+    ``patience`` is how many sweeps a fixed point may take that is sharp when it settles.
+    """
+
+    patience = 40
 
     def __init__(self, h: float) -> None:
         self.h = h
@@ -89,6 +108,8 @@ class FloatDomain:
         """Call the function of the math library, or :func:`stumpff`."""
         if "stumpff" in function:
             return stumpff(int(function[-1]), args[0])
+        if function.startswith("slope"):
+            return slope(int(function[-1]), args[0])
         if function == "quotient":
             return args[0] / args[1] if args[1] else 0.0
         result: float = getattr(math, function)(*args)
@@ -105,6 +126,10 @@ class FloatDomain:
             return True, change
         return 0 < before <= change <= 2.0**-44 * scale, change
 
+    def increment(self, x: float) -> float:
+        """Return the step of a difference quotient at x."""
+        return math.ldexp(max(1.0, abs(x)), -26)
+
 
 class PreciseDomain:
     """mpmath numbers of a given number of decimal digits, in a context of their own."""
@@ -118,6 +143,7 @@ class PreciseDomain:
         self.h = (
             self.context.mpf(h) if not isinstance(h, Fraction) else self.rational(h.numerator, h.denominator)
         )
+        self.patience = 3 * digits
 
     def number(self, value: Number) -> Any:
         """Return the number rounded to this domain's precision."""
@@ -134,6 +160,8 @@ class PreciseDomain:
         """Call mpmath; Stumpff functions by their series near zero."""
         if function == "quotient":
             return args[0] / args[1] if args[1] else args[0] * 0
+        if function.startswith("slope"):
+            return self._slope(int(function[-1]), args[0])
         if "stumpff" not in function:
             return getattr(self.context, function)(*args)
         k, z = int(function[-1]), args[0]
@@ -150,11 +178,27 @@ class PreciseDomain:
             term = -term * z / ((2 * j + k) * (2 * j + k - 1))
         return total
 
+    def _slope(self, k: int, z: Any) -> Any:
+        """Return c_k'(z) by its series up to 1, by c_{k-1} and c_k beyond."""
+        if z > 1:
+            return (self.call(f"stumpff{k - 1}", z) - k * self.call(f"stumpff{k}", z)) / (2 * z)
+        total, j = self.context.mpf(0), 1
+        term = -self.context.mpf(1) / math.factorial(k + 2)
+        while abs(term) > self.context.eps / 1024:
+            total += term
+            j += 1
+            term = -term * z * j / ((j - 1) * (2 * j + k) * (2 * j + k - 1))
+        return total
+
     def settled(self, old: Sequence[Any], new: Sequence[Any], previous: Any) -> tuple[bool, Any]:
         """Stand still within 2^12 units of the working precision."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
         return small and (change == 0 or (previous is not None and change >= previous)), change
+
+    def increment(self, x: Any) -> Any:
+        """Return the step of a difference quotient at x."""
+        return self.context.sqrt(self.context.eps) * max(1, abs(x))
 
 
 class SeriesDomain:
@@ -187,6 +231,10 @@ class SeriesDomain:
         starts = {"sin": (1, 2, z), "cos": (0, 2, self.ring.one), "exp": (0, 1, self.ring.one)}
         if self.base.is_zero(z.coefficients[0]) is not True:
             raise ArithmeticError(f"{function} of a series with a constant term is not exact")
+        if function.startswith("slope"):
+            k = int(function[-1])
+            c, d = (self.call(f"stumpff{k + i}", z) for i in (2, 1))
+            return (k * c - d) * self.ring.rational(1, 2)
         if "stumpff" in function:
             k = int(function[-1])
             return self._sum(k, 2, self.ring.rational(1, math.factorial(k)), z)

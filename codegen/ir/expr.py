@@ -30,6 +30,9 @@ FUNCTIONS = (
     # c_0 and c_1 for z of either sign: cosh and sinh where z < 0
     "signed_stumpff0",
     "signed_stumpff1",
+    # derivatives of stumpff2 and stumpff3: (2 c_4 - c_3)/2 and (3 c_5 - c_4)/2
+    "slope2",
+    "slope3",
     # a/b, and 0 where b = 0: a removable singularity whose limit is 0
     "quotient",
 )

@@ -85,13 +85,20 @@ def flatten(kind: Kind, value: Any) -> tuple[Any, ...]:
 
 
 def interpret(
-    program: Program, setting: Setting, domain: Domain, inputs: Mapping[str, Any], *, limit: int = 400
+    program: Program,
+    setting: Setting,
+    domain: Domain,
+    inputs: Mapping[str, Any],
+    *,
+    limit: int = 400,
+    newton: bool = True,
 ) -> dict[str, Any]:
     """Return the new state after one step, by input name.
 
     ``inputs`` gives every input of the program: a Real is a scalar of the domain, anything else a flat tuple
     of scalars (group elements row by row). Blocks are iterated until the domain says they stand still; one
-    that does not within ``limit`` sweeps raises :class:`NotConverged` naming it.
+    that takes long or fails is solved by Newton's method with difference quotients where the domain has them
+    (and ``newton``). After ``limit`` sweeps of either :class:`NotConverged` names the block.
     """
     env: dict[Var, Any] = {v: inputs[v.name] for v in program.inputs}
 
@@ -103,7 +110,13 @@ def interpret(
         if isinstance(statement, Assign):
             run(statement)
         else:
-            _iterate(statement, env, domain, run, limit)
+            patience = getattr(domain, "patience", limit) if newton else limit
+            try:
+                _iterate(statement, env, domain, run, min(limit, patience))
+            except (ArithmeticError, ValueError):
+                if not newton or not hasattr(domain, "increment"):
+                    raise
+                _correct(statement, env, domain, run, limit)
     return {name: env[var] for name, var in program.outputs}
 
 
@@ -122,3 +135,61 @@ def _iterate(block: Solve, env: dict[Var, Any], domain: Domain, run: Any, limit:
         for unknown, image in zip(block.unknowns, block.images, strict=True):
             env[unknown] = env[image]
     raise NotConverged(f"{block.label} did not settle in {limit} sweeps; the last change was {size}")
+
+
+def _correct(block: Solve, env: dict[Var, Any], domain: Any, run: Any, limit: int) -> None:
+    """Solve a block by Newton's method with difference quotients: no formula is differentiated."""
+    kinds = [u.kind for u in block.unknowns]
+    widths = [len(flatten(s.kind, env[s])) for s in block.starts]
+
+    def images(numbers: list[Any]) -> list[Any]:
+        place = 0
+        for unknown, kind, width in zip(block.unknowns, kinds, widths, strict=True):
+            part = tuple(numbers[place : place + width])
+            env[unknown] = part[0] if kind is Kind.REAL else part
+            place += width
+        for assign in block.body:
+            run(assign)
+        return [x for v in block.images for x in flatten(v.kind, env[v])]
+
+    now = [x for s in block.starts for x in flatten(s.kind, env[s])]
+    size, sharp = None, False
+    for _ in range(limit):
+        found = images(now)
+        residual = [g - u for g, u in zip(found, now, strict=True)]
+        columns = []
+        for j, u in enumerate(now):
+            step = domain.increment(u)
+            moved = images([*now[:j], u + step, *now[j + 1 :]])
+            slopes = [(a - b) / step for a, b in zip(moved, found, strict=True)]
+            columns.append([(i == j) - x for i, x in enumerate(slopes)])
+        new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
+        done, size = domain.settled(now, new, size)
+        now = new
+        if done or sharp:
+            images(now)
+            if sharp:
+                return
+            sharp = True  # once more: a fixed point that settles slowly leaves some rounding errors
+    raise NotConverged(f"{block.label} did not settle in {limit} sweeps; the last change was {size}")
+
+
+def _solved(columns: list[list[Any]], right: list[Any]) -> list[Any]:
+    """Solve a linear system by elimination with row exchanges; the matrix is given by columns."""
+    n = len(right)
+    rows = [[column[i] for column in columns] + [right[i]] for i in range(n)]
+    for k in range(n):
+        pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        if not rows[k][k]:
+            raise NotConverged("Newton's matrix is singular")
+        for i in range(k + 1, n):
+            factor = rows[i][k] / rows[k][k]
+            rows[i] = [x - factor * y for x, y in zip(rows[i], rows[k], strict=True)]
+    found: list[Any] = []
+    for k in reversed(range(n)):
+        total = rows[k][n]
+        for x, y in zip(rows[k][k + 1 : n], reversed(found), strict=True):
+            total = total - x * y
+        found.append(total / rows[k][k])
+    return found[::-1]

@@ -1,14 +1,16 @@
-"""Kernels: a step as scalar assignments and fixed-point loops, ready for a printer.
+"""Kernels: a step as scalar assignments and loops that solve equations, ready for a printer.
 
-A kernel is single assignment. A :class:`Loop` repeats its body with the unknowns replaced by their images
-until they stand still; the unknowns keep the values that the last body was computed from, so that body
-values may be read afterwards. A kernel never branches on data apart from loops: it selects.
+A kernel is single assignment. A :class:`Loop` repeats its body with the unknowns replaced by their images, or
+corrected by Newton's method, until they stand still. Body values may be read afterwards: they are those of
+the last sweep. A :class:`Start` says where the unknowns of all loops begin, unless solutions of earlier steps
+are known. A kernel never branches on data apart from that: it selects.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import ClassVar
 
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
@@ -21,6 +23,9 @@ ELAPSED = "elapsed.h"
 
 LONGEST = 256
 """After how many steps a run makes what commutes with all of them: the angles in it shall stay moderate."""
+
+FIXED_POINT, NEWTON = "fixed-point", "newton"
+"""The methods that a block may be solved by."""
 
 UNIT = 2.0**-53
 """Half a unit in the last place of one."""
@@ -35,14 +40,33 @@ class Let:
 
 
 @dataclass(frozen=True)
+class Newton:
+    """The matrix of Newton's method for u = g(u): ``matrix`` is 1 - g'(u), ``body`` computes its entries.
+
+    The matrix is inverted in the first sweep of all, and kept from sweep to sweep and from step to step until
+    a correction is not smaller than ``CONTRACTION`` times the one before it; it is then made anew.
+    """
+
+    body: tuple[Let, ...]
+    matrix: tuple[tuple[Expr, ...], ...]
+
+    CONTRACTION: ClassVar[float] = 2.0**-4
+
+
+@dataclass(frozen=True)
 class Loop:
-    """Iterate unknowns <- images over body until the largest change stands still at rounding level.
+    """Solve unknowns = images over body until the largest change stands still at rounding level.
 
     ``label`` names the block in messages and statistics ("stage 2"); ``starts`` are evaluated before the
-    loop. With the largest change d and its predecessor e, both in units of max(1, largest unknown), the
-    iteration has converged when d <= ``tolerance`` and d >= e (it stands still), or d <= ``close`` and
+    loop, and empty where a :class:`Start` gives them. Without ``newton`` the change of the unknowns is images
+    - unknowns, and the unknowns keep the values that the last body was computed from; with it the change is
+    that times the inverse of ``newton.matrix``, and the last change is made too.
+
+    With the largest change d and its predecessor e, both in units of max(1, largest unknown), the iteration
+    has converged when d <= ``tolerance`` and d >= e (it stands still), or d <= ``close`` and
     d^2/e <= ``UNIT`` (the next change would be below rounding); after ``limit`` sweeps without that it has
-    failed, and so has a change that is not finite.
+    failed, and so has a change that is not finite. ``read_anew`` says that nothing but the unknowns is read
+    after the loop, so that the last change may be larger.
     """
 
     label: str
@@ -52,11 +76,18 @@ class Loop:
     images: tuple[Expr, ...]
     tolerance: float = 2.0**-44
     limit: int = 100
+    newton: Newton | None = None
+    read_anew: bool = False
+
+    @property
+    def solver(self) -> str:
+        """The name of the method: ``newton`` or ``fixed-point``."""
+        return FIXED_POINT if self.newton is None else NEWTON
 
     @property
     def close(self) -> float:
         """The largest change after which a contraction is trusted to finish."""
-        return self.tolerance / 16
+        return self.tolerance * (16 if self.read_anew else 1 / 16)
 
     def settled(self, change: float, previous: float, scale: float) -> bool:
         """Return whether a change ends the iteration; ``previous`` is 0 in the first sweep.
@@ -68,6 +99,22 @@ class Loop:
         if change <= self.close * scale and change * change <= UNIT * scale * previous:
             return True
         return previous > 0 and previous <= change <= self.tolerance * scale
+
+
+@dataclass(frozen=True)
+class Start:
+    """unknowns = values over body, unless solutions of earlier steps are known.
+
+    With the last solutions u1, u2, ... (the latest first) the unknowns begin at u1 after one step, at
+    2 u1 - u2 after two, and at the quadratic extrapolation 3 (u1 - u2) + u3 from then on. They are of all
+    loops of the kernel, in order.
+    """
+
+    unknowns: tuple[str, ...]
+    body: tuple[Let, ...]
+    values: tuple[Expr, ...]
+
+    DEPTH: ClassVar[int] = 3
 
 
 @dataclass(frozen=True)
@@ -120,20 +167,32 @@ class Kernel:
     name: str
     state: tuple[Field, ...]
     scalars: tuple[str, ...]
-    body: tuple[Let | Loop, ...]
+    body: tuple[Let | Start | Loop, ...]
     outputs: tuple[Expr, ...]
     put_off: PutOff | None = None
     inputs: tuple[str, ...] = ()
     samples: tuple[Sample, ...] = ()
     estimate: Estimate | None = None
 
+    @property
+    def loops(self) -> tuple[Loop, ...]:
+        """Every loop in order."""
+        return tuple(s for s in self.body if isinstance(s, Loop))
+
+    @property
+    def start(self) -> Start | None:
+        """Where the loops begin, where the kernel says so for all of them together."""
+        return next((s for s in self.body if isinstance(s, Start)), None)
+
     def lets(self) -> Iterator[Let]:
         """Yield every assignment, those in loops included."""
         for statement in self.body:
             if isinstance(statement, Let):
                 yield statement
-            else:
-                yield from statement.body
+                continue
+            yield from statement.body
+            if isinstance(statement, Loop) and statement.newton is not None:
+                yield from statement.newton.body
 
     def expressions(self) -> Iterator[Expr]:
         """Yield every expression root in order."""
@@ -141,10 +200,15 @@ class Kernel:
         for statement in self.body:
             if isinstance(statement, Let):
                 yield statement.value
-            else:
-                yield from statement.starts
-                yield from (let.value for let in statement.body)
-                yield from statement.images
+                continue
+            yield from (let.value for let in statement.body)
+            if isinstance(statement, Start):
+                yield from statement.values
+                continue
+            yield from (*statement.starts, *statement.images)
+            if statement.newton is not None:
+                yield from (let.value for let in statement.newton.body)
+                yield from (x for row in statement.newton.matrix for x in row)
         yield from self.outputs
         if self.estimate is not None:
             yield from self.estimate.errors

@@ -2,21 +2,27 @@
 
 Every value becomes a tuple of expressions; hash-consing shares what is equal. A block becomes a loop: what
 depends on its unknowns and is needed for its images goes inside, what does not depend on them goes before,
-and body values needed later are read where the last sweep left them.
+and body values needed later are read where the last sweep left them. What only the starting values of loops
+need stands apart, for a step that follows others begins from their solutions.
+
+Of a block solved by Newton's method the matrix 1 - g' is taken from the very expressions of its images g.
+After it the unknowns stand for their images, and what follows is computed from them anew where that is less
+than half a sweep.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 from codegen.errors import SceneError
 from codegen.groups.actions import LeftMultiplication
 from codegen.ir.domain import ExprDomain
-from codegen.ir.expr import Expr, walk
+from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.interpret import apply, flatten
-from codegen.ir.kernel import ELAPSED, LEAD, Estimate, Field, Kernel, Let, Loop, Sample
+from codegen.ir.jacobian import jacobian
+from codegen.ir.kernel import ELAPSED, LEAD, Estimate, Field, Kernel, Let, Loop, Newton, Sample, Start
 from codegen.ir.program import EMBEDDED, FLOWS, FLOWS_FOR, Assign, Kind, Program, Solve, Var
 from codegen.lower import late
 from codegen.scene import TIME, Setting
@@ -25,20 +31,27 @@ INLINE = 10
 """Largest number of operations spelled in one assignment: longer expressions get names on the way."""
 
 
+WEIGHT = {"call": 10, "div": 4, "neg": 0}
+"""What operations cost, in additions or products; those that are not named cost one."""
+
+
 @dataclass(frozen=True)
 class _Block:
-    """A loop before scheduling: names of the unknowns, expressions of starts and images."""
+    """A loop before scheduling: names of the unknowns, expressions of starts, images and Newton's matrix."""
 
     label: str
     unknowns: tuple[str, ...]
     starts: tuple[Expr, ...]
     images: tuple[Expr, ...]
+    matrix: tuple[tuple[Expr, ...], ...] = ()
 
 
-def to_kernel(program: Program, scene: Setting) -> Kernel:
+def to_kernel(program: Program, scene: Setting, newton: Collection[str] = ()) -> Kernel:
     """Return the kernel of a program in its setting (:func:`codegen.lower.setting`).
 
-    :class:`codegen.errors.SceneError` where an operation of the group has no closed form.
+    ``newton`` are the labels of the blocks to be solved by Newton's method, the others are iterated.
+    :class:`codegen.errors.SceneError` where an operation of the group has no closed form,
+    :class:`codegen.ir.differentiate.NotDifferentiable` where Newton's method has no matrix.
     """
     domain = ExprDomain()
     space = domain.space
@@ -83,8 +96,15 @@ def to_kernel(program: Program, scene: Setting) -> Kernel:
     for statement in program.body:
         if isinstance(statement, Assign):
             run(statement)
-        else:
-            blocks.append(_enter(statement, env, domain, name, run))
+            continue
+        entered = _enter(statement, env, domain, name, run)
+        if statement.label in newton:
+            entered = replace(entered, matrix=_matrix(entered))
+            solved = _Solved(entered)
+            for var in env:
+                env[var] = solved.value(env[var])
+                remember(var)
+        blocks.append(entered)
     outputs = tuple(x for n, var in program.outputs if n != EMBEDDED for x in flatten(var.kind, env[var]))
     lower = tuple(x for n, var in program.outputs if n == EMBEDDED for x in flatten(var.kind, env[var]))
     if scene.body_group is not None:
@@ -173,6 +193,47 @@ def _enter(
     return _Block(block.label, tuple(names), tuple(starts), tuple(images))
 
 
+def _matrix(block: _Block) -> tuple[tuple[Expr, ...], ...]:
+    """Return 1 - g' for the images g, a row for each."""
+    space = block.images[0].space
+    rows = jacobian(block.images, block.unknowns)
+    units = [[space.one if i == j else space.zero for j in range(len(rows))] for i in range(len(rows))]
+    return tuple(tuple(e - x for e, x in zip(*pair, strict=True)) for pair in zip(units, rows, strict=True))
+
+
+class _Solved:
+    """Rewrites expressions for what stands after a block: there its images are its unknowns."""
+
+    def __init__(self, block: _Block) -> None:
+        self.space: Space = block.images[0].space
+        self.known: dict[int, Expr] = {}
+        for name, image in zip(block.unknowns, block.images, strict=True):
+            if image.args:
+                self.known[image.id] = self.space.sym(name)
+
+    def value(self, value: Any) -> Any:
+        """Return the value of a variable, rewritten."""
+        return tuple(map(self._one, value)) if isinstance(value, tuple) else self._one(value)
+
+    def _one(self, root: Expr) -> Expr:
+        for node in walk([root], stop=lambda n: n.id in self.known):
+            if node.id not in self.known:
+                args = tuple(self.known[a.id] for a in node.args)
+                same = all(a is b for a, b in zip(args, node.args, strict=True))
+                self.known[node.id] = node if same else self._made(node, args)
+        return self.known[root.id]
+
+    def _made(self, node: Expr, args: tuple[Expr, ...]) -> Expr:
+        match node.op:
+            case "pow":
+                return self.space.pow(args[0], node.payload)
+            case "call":
+                return self.space.call(node.payload, *args)
+            case op:
+                made: Expr = getattr(self.space, op)(*args)
+                return made
+
+
 @dataclass
 class _Schedule:
     """Orders expressions into assignments and loops, naming what is shared or long."""
@@ -181,25 +242,32 @@ class _Schedule:
     roots: Sequence[Expr]
     hints: dict[int, str]
     name: Callable[[str], str]
-    body: list[Let | Loop] = field(default_factory=list)
+    body: list[Let | Start | Loop] = field(default_factory=list)
     outputs: tuple[Expr, ...] = ()
     count: int = 0
 
-    def run(self) -> tuple[Let | Loop, ...]:
+    def run(self) -> tuple[Let | Start | Loop, ...]:
         """Return the kernel's body and set ``outputs``."""
         self._prepare()
+        if self.blocks:
+            self.body.append(self._start())
         for k, block in enumerate(self.blocks):
             inside: list[Let] = []
-            starts = tuple(self._place(x, self.body, [], -1) for x in block.starts)
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
-            self.body.append(Loop(block.label, block.unknowns, starts, tuple(inside), images))
+            newton = self._newton(block)
+            anew = newton is not None and self._is_short(k)
+            if anew:
+                self._forget(k)
+            loop = Loop(block.label, block.unknowns, (), tuple(inside), images, newton=newton, read_anew=anew)
+            self.body.append(loop)
         self.outputs = tuple(self._place(x, self.body, [], -1) for x in self.roots)
         return tuple(self.body)
 
     def _prepare(self) -> None:
         """Find for each node how often it is used and the last block whose unknowns it depends on."""
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
-        roots = [x for b in self.blocks for x in (*b.starts, *b.images)] + list(self.roots)
+        entries = [x for b in self.blocks for row in b.matrix for x in row]
+        roots = [x for b in self.blocks for x in (*b.starts, *b.images)] + entries + list(self.roots)
         self.uses: dict[int, int] = {}
         self.level: dict[int, int] = {}
         self.done: dict[int, Expr] = {}
@@ -212,6 +280,46 @@ class _Schedule:
             levels = [self.level[a.id] for a in node.args]
             own = owner.get(node.payload, -1) if node.op == "sym" else -1
             self.level[node.id] = max([own, *levels])
+
+    def _start(self) -> Start:
+        """Return the starting values of all blocks; what others need too is assigned before."""
+        later = {n.id: n for n in walk([*(x for b in self.blocks for x in b.images), *self.roots])}
+        values = [x for block in self.blocks for x in block.starts]
+        if any(self.level[x.id] >= 0 for x in values):
+            raise AssertionError("a block starts from the unknowns of another")
+        for node in walk(values):
+            if node.id in later and node.args:
+                self._place(node, self.body, [], -1)
+        own: list[Let] = []
+        placed = tuple(self._place(x, own, [], -1) for x in values)
+        self.done = {n: x for n, x in self.done.items() if n in later}
+        return Start(tuple(u for b in self.blocks for u in b.unknowns), tuple(own), placed)
+
+    def _newton(self, block: _Block) -> Newton | None:
+        """Return Newton's matrix; what nothing else needs is assigned where it is made."""
+        if not block.matrix:
+            return None
+        before, own = dict(self.done), list[Let]()
+        rows = tuple(tuple(self._place(x, own, [], -1) for x in row) for row in block.matrix)
+        self.done = before
+        return Newton(tuple(own), rows)
+
+    def _is_short(self, k: int) -> bool:
+        """Whether what is read of block k after it costs less than half of a sweep."""
+        rest = [x for b in self.blocks[k + 1 :] for x in b.images] + list(self.roots)
+        return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
+
+    def _work(self, roots: Iterable[Expr], k: int) -> int:
+        """Return the weight of the nodes below roots that depend on the unknowns of block k and no later."""
+        nodes = (n for n in walk(roots) if self.level[n.id] == k and n.args)
+        return sum(WEIGHT.get(n.op, 1) for n in nodes)
+
+    def _forget(self, k: int) -> None:
+        """Let nothing after block k read what its sweeps compute."""
+        nodes = walk([x for b in self.blocks for x in b.images] + list(self.roots))
+        for node in nodes:
+            if self.level[node.id] == k and node.args:
+                self.done.pop(node.id, None)
 
     def _place(self, root: Expr, outer: list[Any], inner: list[Let], loop: int) -> Expr:
         """Return root with every named part replaced by its symbol, appending the assignments it needs."""

@@ -70,13 +70,16 @@ class Reference:
             if results and step > results[-1][0] / APART:
                 continue
             try:
-                after = interpret(program, self.scene, FloatDomain(step), inputs, limit=SWEEPS)
+                after = self._run(program, step, inputs, SWEEPS)
             except FAILURES:
                 continue
             results.append((step, inputs, after))
             if len(results) == TRIES:
                 break
         return results
+
+    def _run(self, program: Program, step: float, inputs: dict[str, Any], limit: int) -> dict[str, Any]:
+        return interpret(program, self.scene, FloatDomain(step), inputs, limit=limit, newton=False)
 
     def differs(self, program: Program) -> str:
         """Return an account of what a program does differently, or ''."""
@@ -91,7 +94,7 @@ class Reference:
         failure = ""
         for step, inputs, before in results:
             try:
-                after = interpret(program, self.scene, FloatDomain(step), inputs, limit=2 * SWEEPS)
+                after = self._run(program, step, inputs, 2 * SWEEPS)
             except NotConverged as error:
                 failure = f"interpretation failed: {error}"
             except FAILURES as error:

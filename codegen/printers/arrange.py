@@ -1,16 +1,16 @@
 """Kernel to printable statements: Stumpff functions of one argument computed together, powers as products.
 
-A target's template sees three kinds of statement: :class:`Assignment`, :class:`Joint` (one call, several
-results) and :class:`Iteration`. What a loop computes on the way is not reused after it.
+A target's template sees four kinds of statement: :class:`Assignment`, :class:`Joint` (one call, several
+results), :class:`Beginning` and :class:`Iteration`. What a loop computes on the way is not reused after it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from codegen.ir.expr import Expr, walk
-from codegen.ir.kernel import Kernel, Let, Loop
+from codegen.ir.kernel import Kernel, Let, Loop, Start
 
 STUMPFF = {f"stumpff{k}": k for k in range(4)}
 
@@ -37,19 +37,37 @@ class Joint:
         return "stumpff_" + "".join(map(str, self.orders))
 
 
+Simple = Assignment | Joint
+
+
+@dataclass(frozen=True)
+class Beginning:
+    """Where the unknowns of all loops begin (see :class:`codegen.ir.kernel.Start`)."""
+
+    start: Start
+    body: tuple[Simple, ...]
+    values: tuple[Expr, ...]
+
+
 @dataclass(frozen=True)
 class Iteration:
-    """A fixed-point loop (see :class:`codegen.ir.kernel.Loop`); ``kept`` are body names read after it."""
+    """A loop (see :class:`codegen.ir.kernel.Loop`); ``kept`` are body names read after it.
+
+    ``matrix`` is that of Newton's method, by rows, with the statements that only it needs in ``newton``; both
+    are empty where there is none.
+    """
 
     loop: Loop
     number: int
     starts: tuple[Expr, ...]
-    body: tuple[Assignment | Joint, ...]
+    body: tuple[Simple, ...]
     images: tuple[Expr, ...]
     kept: tuple[str, ...]
+    newton: tuple[Simple, ...] = ()
+    matrix: tuple[Expr, ...] = ()
 
 
-Statement = Assignment | Joint | Iteration
+Statement = Simple | Beginning | Iteration
 
 
 @dataclass(frozen=True)
@@ -66,10 +84,11 @@ class Arrangement:
         called |= {n.payload for n in walk(self.expressions()) if n.op == "call"}
         return tuple(sorted(called))
 
-    def _simple(self) -> Iterable[Assignment | Joint]:
+    def _simple(self) -> Iterable[Simple]:
         for statement in self.statements:
-            if isinstance(statement, Iteration):
+            if isinstance(statement, Beginning | Iteration):
                 yield from statement.body
+                yield from statement.newton if isinstance(statement, Iteration) else ()
             else:
                 yield statement
 
@@ -79,7 +98,9 @@ class Arrangement:
             yield simple.value if isinstance(simple, Assignment) else simple.argument
         for statement in self.statements:
             if isinstance(statement, Iteration):
-                yield from (*statement.starts, *statement.images)
+                yield from (*statement.starts, *statement.images, *statement.matrix)
+            elif isinstance(statement, Beginning):
+                yield from statement.values
         yield from self.outputs
         yield from self.errors
 
@@ -91,31 +112,50 @@ class Arrangement:
 def arrange(kernel: Kernel) -> Arrangement:
     """Return the printable statements of a kernel, in its order and with its roundings."""
     scope = _Scope(_taken(kernel))
-    outer = [e for s in kernel.body for e in ([s.value] if isinstance(s, Let) else s.starts)]
     ends = [*kernel.outputs, *(kernel.estimate.errors if kernel.estimate is not None else ())]
-    scope.expect([*outer, *ends])
+    scope.expect([*(e for s in kernel.body for e in _outside(s)), *ends])
     statements: list[Statement] = []
     loops = 0
     for position, statement in enumerate(kernel.body):
         if isinstance(statement, Let):
             statements += scope.assign(statement, False)
             continue
+        if isinstance(statement, Start):
+            body, values = scope.nested(statement.body, statement.values)
+            statements.append(Beginning(statement, body, values))
+            continue
         starts = tuple(scope.rewrite(e) for e in statement.starts)
         statements += scope.take()
-        inner = scope.inside([*(let.value for let in statement.body), *statement.images])
-        body: list[Assignment | Joint] = []
         later = _read_later(kernel, position)
-        for let in statement.body:
-            body += inner.assign(let, let.name in later)
-        images = tuple(inner.rewrite(e) for e in statement.images)
-        body += inner.take()
-        kept = tuple(let.name for let in statement.body if let.name in later)
         loops += 1
-        statements.append(Iteration(statement, loops, starts, tuple(body), images, kept))
+        statements.append(_iteration(statement, loops, starts, scope, later))
     rewritten = tuple(scope.rewrite(e) for e in ends)
     statements += scope.take()
     states = len(kernel.outputs)
     return Arrangement(tuple(statements), rewritten[:states], rewritten[states:])
+
+
+def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
+    """Return the expressions of a statement that are computed where it stands."""
+    if isinstance(statement, Let):
+        return [statement.value]
+    return statement.starts if isinstance(statement, Loop) else []
+
+
+def _iteration(
+    loop: Loop, number: int, starts: tuple[Expr, ...], scope: _Scope, later: Collection[str]
+) -> Iteration:
+    inner = scope.inside([*(let.value for let in loop.body), *loop.images])
+    body = [s for let in loop.body for s in inner.assign(let, let.name in later)]
+    images = tuple(inner.rewrite(e) for e in loop.images)
+    body += inner.take()
+    kept = tuple(let.name for let in loop.body if let.name in later)
+    made: tuple[Simple, ...] = ()
+    matrix: tuple[Expr, ...] = ()
+    if loop.newton is not None:
+        entries = tuple(x for row in loop.newton.matrix for x in row)
+        made, matrix = inner.nested(loop.newton.body, entries)
+    return Iteration(loop, number, starts, tuple(body), images, kept, made, matrix)
 
 
 def _taken(kernel: Kernel) -> dict[str, int]:
@@ -123,7 +163,7 @@ def _taken(kernel: Kernel) -> dict[str, int]:
     names = [s for f in kernel.state for s in f.symbols] + list(kernel.scalars)
     names += [s for sample in kernel.samples for s in sample.symbols]
     names += [let.name for let in kernel.lets()]
-    names += [u for s in kernel.body if isinstance(s, Loop) for u in s.unknowns]
+    names += [u for loop in kernel.loops for u in loop.unknowns]
     return dict.fromkeys(names, 1)
 
 
@@ -140,8 +180,17 @@ class _Scope:
     taken: dict[str, int]
     known: dict[int, Expr] = field(default_factory=dict)
     orders: dict[int, tuple[int, ...]] = field(default_factory=dict)
-    pending: list[Assignment | Joint] = field(default_factory=list)
+    pending: list[Simple] = field(default_factory=list)
     results: dict[str, int] = field(default_factory=dict)
+
+    def nested(
+        self, lets: Sequence[Let], values: Sequence[Expr]
+    ) -> tuple[tuple[Simple, ...], tuple[Expr, ...]]:
+        """Return the statements and values of a block in this scope, which nothing reads after it."""
+        inner = self.inside([*(let.value for let in lets), *values])
+        body = [s for let in lets for s in inner.assign(let, False)]
+        rewritten = tuple(inner.rewrite(e) for e in values)
+        return (*body, *inner.take()), rewritten
 
     def inside(self, expressions: list[Expr]) -> _Scope:
         """Return the scope of a loop body: it sees what stands before the loop."""
@@ -157,7 +206,7 @@ class _Scope:
                 needed.setdefault(node.args[0].id, []).append(STUMPFF[node.payload])
         self.orders = {argument: tuple(sorted(set(ks))) for argument, ks in needed.items()}
 
-    def assign(self, let: Let, kept: bool) -> list[Assignment | Joint]:
+    def assign(self, let: Let, kept: bool) -> list[Simple]:
         """Return the statements of an assignment: none of its own where a joint call made its value."""
         value = self.rewrite(let.value)
         before = self.take()
@@ -166,7 +215,7 @@ class _Scope:
             return before
         return [*before, Assignment(let.name, value)]
 
-    def take(self) -> list[Assignment | Joint]:
+    def take(self) -> list[Simple]:
         """Return and forget the statements that must stand before the next one."""
         pending, self.pending = self.pending, []
         return pending

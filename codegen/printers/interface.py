@@ -8,10 +8,11 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from codegen.ir.kernel import ELAPSED, LEAD, Kernel, Loop
+from codegen.ir.kernel import ELAPSED, LEAD, NEWTON, Kernel
 from codegen.printers.precision import DOUBLE, Precision, precision
 
-LISTS = ("parameters", "blocks", "inputs")
+LISTS = ("parameters", "blocks", "inputs", "solvers")
+"""Those of the fields below that JSON keeps as lists."""
 
 
 @dataclass(frozen=True)
@@ -22,7 +23,8 @@ class Interface:
     has; ``time`` says whether the step reads t; ``parameters`` are the run-time parameters in order;
     ``blocks`` are the labels of the implicit blocks, which statistics count; ``precision`` names the format
     of all numbers (:mod:`codegen.printers.precision`); ``inputs`` are the functions of time that are taken at
-    run time, in order; ``adaptive`` says that there is a run that chooses its steps.
+    run time, in order; ``adaptive`` says that there is a run that chooses its steps; ``solvers`` are the
+    methods that solve the blocks.
     """
 
     prefix: str
@@ -33,6 +35,7 @@ class Interface:
     precision: str = DOUBLE.name
     inputs: tuple[str, ...] = ()
     adaptive: bool = False
+    solvers: tuple[str, ...] = ()
 
     @classmethod
     def of(cls, kernel: Kernel, prefix: str, precision: str = DOUBLE.name) -> Interface:
@@ -44,16 +47,22 @@ class Interface:
             size=sum(len(field.symbols) for field in kernel.state),
             time="t" in used,
             parameters=tuple(name for name in used if name not in ("h", "t", LEAD, ELAPSED)),
-            blocks=tuple(s.label for s in kernel.body if isinstance(s, Loop)),
+            blocks=tuple(loop.label for loop in kernel.loops),
             precision=precision,
             inputs=kernel.inputs,
             adaptive=kernel.estimate is not None,
+            solvers=tuple(loop.solver for loop in kernel.loops),
         )
 
     @property
     def format(self) -> Precision:
         """The format of all numbers."""
         return precision(self.precision)
+
+    @property
+    def newton(self) -> bool:
+        """Whether statistics count matrices of Newton's method."""
+        return NEWTON in self.solvers
 
     @property
     def module(self) -> str:
@@ -67,4 +76,4 @@ class Interface:
     @classmethod
     def from_json(cls, data: dict[str, Any]) -> Interface:
         """Return the interface that :meth:`as_json` wrote."""
-        return cls(**(data | {name: tuple(data[name]) for name in LISTS}))
+        return cls(**(data | {name: tuple(data.get(name, ())) for name in LISTS}))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from codegen.ir.kernel import Kernel
-from codegen.printers.arrange import Arrangement, Iteration, Joint
+from codegen.printers.arrange import Arrangement, Beginning, Iteration, Joint
 from codegen.printers.expression import spell
 from codegen.printers.names import Names
 
@@ -37,8 +37,15 @@ def register(kernel: Kernel, arrangement: Arrangement, names: Names) -> Names:
     names.add_all(s for f in kernel.state for s in f.symbols)
     names.add_all(s for sample in kernel.samples for s in sample.symbols)
     for statement in arrangement.statements:
-        if isinstance(statement, Iteration):
-            names.add_all(statement.loop.unknowns)
-        for simple in statement.body if isinstance(statement, Iteration) else (statement,):
-            names.add_all(simple.names if isinstance(simple, Joint) else (simple.name,))
+        match statement:
+            case Iteration():
+                names.add_all(statement.loop.unknowns)
+                simple = (*statement.body, *statement.newton)
+            case Beginning():
+                names.add_all(statement.start.unknowns)
+                simple = statement.body
+            case _:
+                simple = (statement,)
+        for one in simple:
+            names.add_all(one.names if isinstance(one, Joint) else (one.name,))
     return names

@@ -6,26 +6,43 @@ from collections.abc import Iterable
 
 from codegen.ir.expr import Expr, walk
 from codegen.ir.kernel import Kernel
-from codegen.printers.arrange import Arrangement, Assignment, Iteration, Joint, arrange
+from codegen.printers.arrange import Arrangement, Assignment, Beginning, Iteration, Joint, arrange
 
 STEP = "step"
 """The key under which operations outside loops are counted."""
+
+START = "start"
+"""The key under which starting values are counted."""
 
 
 def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
     """Return how often each operation is carried out: ``add`` (and subtract), ``mul``, ``div``, and calls.
 
-    The key ``step`` holds what a step does once, other keys what each block does a sweep. Changes of sign,
-    comparisons and what a stopping rule costs are not counted.
+    The key ``step`` holds what a step does once, ``start`` what a step does more that follows no other,
+    further keys what each block does a sweep, and where it makes Newton's matrix, without its inversion.
+    Changes of sign, comparisons, extrapolation and what a stopping rule costs are not counted.
     """
     total = {STEP: _count([], (*arrangement.outputs, *arrangement.errors))}
     for statement in arrangement.statements:
-        if isinstance(statement, Iteration):
-            total[STEP] = _plus(total[STEP], _count([], statement.starts))
-            total[statement.loop.label] = _count(statement.body, statement.images)
-        else:
-            total[STEP] = _plus(total[STEP], _count([statement], ()))
+        match statement:
+            case Iteration():
+                total[STEP] = _plus(total[STEP], _count([], statement.starts))
+                sweep, label = _count(statement.body, statement.images), statement.loop.label
+                if statement.matrix:
+                    n = len(statement.loop.unknowns)
+                    sweep = _plus(sweep, {"add": n * (n - 1), "mul": n * n})
+                    total[matrix_of(label)] = _count(statement.newton, statement.matrix)
+                total[label] = sweep
+            case Beginning():
+                total[START] = _count(statement.body, statement.values)
+            case _:
+                total[STEP] = _plus(total[STEP], _count([statement], ()))
     return total
+
+
+def matrix_of(label: str) -> str:
+    """Return the key of what making a block's matrix costs."""
+    return f"matrix of {label}"
 
 
 def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
@@ -37,7 +54,14 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
     lines = []
     for block, found in counts.items():
         each = ", ".join(f"{n} {name}" for name, n in found.items()) or "none"
-        lines.append(f"{each} a step" if block == STEP else f"{each} a sweep of {block}")
+        if block == START:
+            lines.append(f"{each} a start, in steps that follow no other")
+        elif block == STEP:
+            lines.append(f"{each} a step")
+        elif block.startswith("matrix of "):
+            lines.append(f"{each} a {block}")
+        else:
+            lines.append(f"{each} a sweep of {block}")
     return lines
 
 

@@ -33,6 +33,10 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
     The shorter polynomial near zero is for doubles: in single precision the longer one is as short.
     """
     found = [Snippet("greater", "greater"), Snippet("quotient", "quotient")]
+    found.append(Snippet("invert", "invert", ("fabs",)))
+    for k in (2, 3):
+        variables = {"k": k, "terms": stumpff.slopes(k, precision)}
+        found.append(Snippet(f"slope{k}", "slope", (f"stumpff_{k - 1}{k}",), variables))
     for k, hyperbolic in enumerate(("cosh", "sinh")):
         needs = (f"stumpff_{k}", "sqrt", hyperbolic)
         found.append(Snippet(f"signed_stumpff{k}", "signed_stumpff", needs, {"k": k}))

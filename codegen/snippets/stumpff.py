@@ -59,3 +59,13 @@ def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> 
 def constants(k: int, last: Fraction | int | None = None, precision: Precision = DOUBLE) -> tuple[float, ...]:
     """Return :func:`coefficients` as numbers of a format, each rounded once."""
     return tuple(precision.round(c) for c in coefficients(k, last, precision.bits))
+
+
+def slopes(k: int, precision: Precision = DOUBLE) -> tuple[float, ...]:
+    """Return the Taylor coefficients of c_k' for arguments up to 1.
+
+    >>> [1 / x for x in slopes(2)[:2]]
+    [-24.0, 360.0]
+    """
+    terms = coefficients(k, 1, precision.bits)
+    return tuple(precision.round((j + 1) * c) for j, c in enumerate(terms[1:]))

@@ -15,7 +15,7 @@ enum {
     DIPOLE_VCF_CF4_BAD_STEP = 3 /* h is infinite or a NaN */
 };
 
-/* Fixed-point sweeps, added up over all steps since the caller set everything to zero. */
+/* Sweeps over the equations, added up over all steps since the caller set everything to zero. */
 typedef struct {
     size_t sweeps[1]; /* by block: the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4 */
     size_t most; /* the most that one block took in one step */

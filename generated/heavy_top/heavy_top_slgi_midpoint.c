@@ -5,12 +5,17 @@
  * source:     Table 3.2a of Bogfjellmo and Marthinsen
  * order:      2, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Heavy top as printed, T*SO(3) (thesis section 2.5), group SO(3)
+ * solved by:  the equations of xi1, n1: Newton's method, 6 unknowns (a fixed point does not settle
+ *             with steps 8 times as long)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
  * left out:   the time: the scene does not depend on it
- * operations: 52 add, 80 mul, 1 stumpff_12, 1 stumpff_1 a step
- *             45 add, 78 mul, 1 stumpff_12, 2 stumpff_23 a sweep of the equations of xi1, n1
- * stack:      at most 1600 bytes, without what the mathematical library takes
+ * operations: 50 add, 71 mul, 2 stumpff_1 a step
+ *             3 mul a start, in steps that follow no other
+ *             105 add, 219 mul, 3 slope2, 2 slope3, 1 stumpff_3 a matrix of the equations of xi1,
+ *             n1
+ *             75 add, 114 mul, 1 stumpff_12, 2 stumpff_23 a sweep of the equations of xi1, n1
+ * stack:      at most 3136 bytes, without what the mathematical library takes
  * made by:    orderconds emit heavy_top --method slgi:midpoint --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -109,6 +114,19 @@ static inline double stumpff_series_1(double z)
     return 1.0 + z * (even + z * odd);
 }
 
+/* For z >= 0 and s = sqrt(z): c_3 = (s - sin(s))/s^3 */
+static inline double stumpff_3(double z)
+{
+    if (z <= 0.0625) {
+        return stumpff_small_3(z);
+    }
+    if (z <= 4.0) {
+        return stumpff_series_3(z);
+    }
+    const double s = sqrt(z <= 4503599627370496.0 ? z : NAN);
+    return (1.0 - sin(s) / s) / z;
+}
+
 /* For z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
 static inline void stumpff_23(double z, double *c2, double *c3)
 {
@@ -164,6 +182,88 @@ static inline double stumpff_1(double z)
     return sin(s) / s;
 }
 
+/* The derivative of c_3 for z >= 0 */
+static inline double slope3(double z)
+{
+    if (z > 1.0) {
+        double before, c;
+        stumpff_23(z, &before, &c);
+        return 0.5 * (before - 3.0 * c) / z;
+    }
+    double total = 6.576508197299464e-17;
+    total = -1.9680200780418645e-14 + z * total;
+    total = 4.58829823909189e-12 + z * total;
+    total = -8.029521918410807e-10 + z * total;
+    total = 1.0020843354176688e-07 + z * total;
+    total = -8.267195767195768e-06 + z * total;
+    total = 0.0003968253968253968 + z * total;
+    total = -0.008333333333333333 + z * total;
+    return total;
+}
+
+/* The derivative of c_2 for z >= 0 */
+static inline double slope2(double z)
+{
+    if (z > 1.0) {
+        double before, c;
+        stumpff_12(z, &before, &c);
+        return 0.5 * (before - 2.0 * c) / z;
+    }
+    double total = 1.249536557486898e-15;
+    total = -3.3456341326711696e-13 + z * total;
+    total = 6.882447358637835e-11 + z * total;
+    total = -1.043837849393405e-08 + z * total;
+    total = 1.1022927689594355e-06 + z * total;
+    total = -7.440476190476191e-05 + z * total;
+    total = 0.002777777777777778 + z * total;
+    total = -0.041666666666666664 + z * total;
+    return total;
+}
+
+/* Replace an n x n matrix, by rows, by its inverse (Gauss-Jordan, rows exchanged); return 0 where it has none. */
+static int invert(size_t n, double *a, size_t *order)
+{
+    for (size_t k = 0; k < n; k++) {
+        size_t pivot = k;
+        for (size_t i = k + 1; i < n; i++) {
+            if (fabs(a[i * n + k]) > fabs(a[pivot * n + k])) {
+                pivot = i;
+            }
+        }
+        if (!(fabs(a[pivot * n + k]) > 0.0)) {
+            return 0;
+        }
+        order[k] = pivot;
+        for (size_t j = 0; j < n; j++) {
+            const double kept = a[k * n + j];
+            a[k * n + j] = a[pivot * n + j];
+            a[pivot * n + j] = kept;
+        }
+        const double factor = 1.0 / a[k * n + k];
+        a[k * n + k] = 1.0;
+        for (size_t j = 0; j < n; j++) {
+            a[k * n + j] *= factor;
+        }
+        for (size_t i = 0; i < n; i++) {
+            if (i != k) {
+                const double multiple = a[i * n + k];
+                a[i * n + k] = 0.0;
+                for (size_t j = 0; j < n; j++) {
+                    a[i * n + j] -= multiple * a[k * n + j];
+                }
+            }
+        }
+    }
+    for (size_t k = n; k-- > 0;) {
+        for (size_t i = 0; i < n; i++) {
+            const double kept = a[i * n + k];
+            a[i * n + k] = a[i * n + order[k]];
+            a[i * n + order[k]] = kept;
+        }
+    }
+    return 1;
+}
+
 static inline double greater(double a, double b)
 {
     return a > b ? a : b;
@@ -183,7 +283,36 @@ static void count_sweeps(heavy_top_slgi_midpoint_statistics *statistics, size_t 
     }
 }
 
-static inline int advance(double state[static 12], double h,
+static void count_matrix(heavy_top_slgi_midpoint_statistics *statistics)
+{
+    if (statistics != NULL) {
+        statistics->matrices++;
+    }
+}
+
+/* What one step of a run leaves for the next: solutions of its equations, the latest first, and inverses of Newton's matrices. */
+struct memory {
+    size_t known;
+    double past[3][6];
+    int made_1;
+    double inverse_1[36];
+};
+
+/* The polynomial through the last solutions, continued by a step. */
+static inline double extrapolated(const struct memory *memory, size_t i)
+{
+    const double last = memory->past[0][i];
+    switch (memory->known) {
+    case 1:
+        return last;
+    case 2:
+        return 2.0 * last - memory->past[1][i];
+    default:
+        return 3.0 * (last - memory->past[1][i]) + memory->past[2][i];
+    }
+}
+
+static inline int advance(double state[static 12], double h, struct memory *memory,
     heavy_top_slgi_midpoint_statistics *statistics)
 {
     if (!isfinite(h)) {
@@ -201,81 +330,252 @@ static inline int advance(double state[static 12], double h,
     const double mu0 = state[9];
     const double mu1 = state[10];
     const double mu2 = state[11];
-    const double w10 = -0.5 * h;
-    const double w17 = 0.5 * h;
-    /* the equations of xi1, n1: fixed point in xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2 */
-    double xi1_0 = 0.001 * mu0;
-    double xi1_1 = 0.0002 * mu1;
-    double xi1_2 = 0.00016666666666666666 * mu2;
-    double n1_0 = -g12;
-    double n1_1 = g02;
-    double n1_2 = 0.0;
-    double z_0, z_1, z_2, w11, w12, f1_0, f1_1, f1_2, Q1_5, Q1_2;
+    double xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2;
+    if (memory->known > 0) {
+        xi1_0 = extrapolated(memory, 0);
+        xi1_1 = extrapolated(memory, 1);
+        xi1_2 = extrapolated(memory, 2);
+        n1_0 = extrapolated(memory, 3);
+        n1_1 = extrapolated(memory, 4);
+        n1_2 = extrapolated(memory, 5);
+    } else {
+        xi1_0 = 0.001 * mu0;
+        xi1_1 = 0.0002 * mu1;
+        xi1_2 = 0.00016666666666666666 * mu2;
+        n1_0 = -g12;
+        n1_1 = g02;
+        n1_2 = 0.0;
+    }
+    const double w8 = -0.5 * h;
+    const double w16 = 0.5 * h;
+    /* the equations of xi1, n1: Newton's method in xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2 */
+    double Y_0, Y_1, Y_2, w1, w2, z_0, z_1, z_2, w9, w10;
     double previous_1 = 0.0;
+    int make_1 = !memory->made_1;
     for (size_t sweep = 1;; sweep++) {
-        const double w1 = h * xi1_0;
-        const double w2 = h * xi1_1;
-        const double w3 = h * xi1_2;
-        const double w4 = w1 * w1 + w2 * w2 + w3 * w3;
+        Y_0 = h * xi1_0;
+        Y_1 = h * xi1_1;
+        Y_2 = h * xi1_2;
+        w1 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2;
         double c2_1, c3_1;
-        stumpff_23(w4, &c2_1, &c3_1);
-        const double w6 = mu1 * w3 - mu2 * w2;
-        const double w8 = mu2 * w1 - mu0 * w3;
-        const double w9 = mu0 * w2 - mu1 * w1;
-        z_0 = xi1_0 * w10;
-        z_1 = xi1_1 * w10;
-        z_2 = xi1_2 * w10;
-        w11 = z_0 * z_0 + z_1 * z_1 + z_2 * z_2;
+        stumpff_23(w1, &c2_1, &c3_1);
+        w2 = c2_1;
+        const double w3 = mu1 * Y_2 - mu2 * Y_1;
+        const double w5 = mu2 * Y_0 - mu0 * Y_2;
+        const double w6 = mu0 * Y_1 - mu1 * Y_0;
+        const double w7 = Y_2 * w5 - Y_1 * w6;
+        z_0 = xi1_0 * w8;
+        z_1 = xi1_1 * w8;
+        z_2 = xi1_2 * w8;
+        w9 = z_0 * z_0 + z_1 * z_1 + z_2 * z_2;
         double c2_2, c3_2;
-        stumpff_23(w11, &c2_2, &c3_2);
-        w12 = c2_2;
-        const double w13 = n1_2 * z_1 - n1_1 * z_2;
-        const double w15 = n1_1 * z_0 - n1_0 * z_1;
-        const double w16 = n1_0 * z_2 - n1_2 * z_0;
-        const double M1_0 = mu0 - w6 * c2_1 + (w3 * w8 - w2 * w9) * c3_1
-            + w17 * (n1_0 - w12 * w13 + (z_1 * w15 - z_2 * w16) * c3_2);
-        f1_0 = 0.001 * M1_0;
-        const double M1_1 = mu1 - w8 * c2_1 + (w1 * w9 - w3 * w6) * c3_1
-            + w17 * (n1_1 - w12 * w16 + (z_2 * w13 - z_0 * w15) * c3_2);
-        f1_1 = 0.0002 * M1_1;
-        const double M1_2 = mu2 - w9 * c2_1 + (w2 * w6 - w1 * w8) * c3_1
-            + w17 * (n1_2 - w12 * w15 + (z_0 * w16 - z_1 * w13) * c3_2);
-        f1_2 = 0.00016666666666666666 * M1_2;
-        const double X1_2 = xi1_2 * w17;
-        const double X1_0 = xi1_0 * w17;
-        const double X1_1 = xi1_1 * w17;
-        const double w18 = X1_0 * X1_0 + X1_1 * X1_1 + X1_2 * X1_2;
+        stumpff_23(w9, &c2_2, &c3_2);
+        w10 = c2_2;
+        const double w11 = n1_2 * z_1 - n1_1 * z_2;
+        const double w13 = n1_1 * z_0 - n1_0 * z_1;
+        const double w14 = n1_0 * z_2 - n1_2 * z_0;
+        const double w15 = z_1 * w13 - z_2 * w14;
+        const double M1_0 = mu0 - w2 * w3 + w7 * c3_1 + w16 * (n1_0 - w10 * w11 + w15 * c3_2);
+        const double w17 = Y_0 * w6 - Y_2 * w3;
+        const double w18 = z_2 * w11 - z_0 * w13;
+        const double M1_1 = mu1 - w2 * w5 + w17 * c3_1 + w16 * (n1_1 - w10 * w14 + w18 * c3_2);
+        const double w19 = Y_1 * w3 - Y_0 * w5;
+        const double w20 = z_0 * w14 - z_1 * w11;
+        const double M1_2 = mu2 - w2 * w6 + w19 * c3_1 + w16 * (n1_2 - w10 * w13 + w20 * c3_2);
+        const double X1_2 = xi1_2 * w16;
+        const double X1_0 = xi1_0 * w16;
+        const double X1_1 = xi1_1 * w16;
+        const double w21 = X1_2 * X1_2;
+        const double w22 = X1_0 * X1_0 + X1_1 * X1_1 + w21;
         double c1_1, c2_3;
-        stumpff_12(w18, &c1_1, &c2_3);
-        const double w20 = X1_2 * c1_1;
-        const double w22 = X1_0 * c2_3;
-        const double w23 = X1_1 * w22;
-        const double w24 = X1_2 * c2_3 * X1_2;
-        const double w25 = X1_1 * c2_3;
-        Q1_5 = g02 * (w20 + w23) + g12 * (1.0 - (X1_0 * w22 + w24))
-            + g22 * (X1_2 * w25 - X1_0 * c1_1);
-        Q1_2 = g12 * (w23 - w20) + g02 * (1.0 - (w24 + X1_1 * w25))
-            + g22 * (X1_2 * w22 + X1_1 * c1_1);
+        stumpff_12(w22, &c1_1, &c2_3);
+        const double w24 = X1_2 * c1_1;
+        const double w26 = X1_0 * c2_3;
+        const double w27 = X1_1 * w26;
+        const double w28 = X1_2 * c2_3;
+        const double w29 = X1_2 * w28;
+        const double w30 = X1_1 * c2_3;
+        const double Q1_5 = g02 * (w24 + w27) + g12 * (1.0 - (X1_0 * w26 + w29))
+            + g22 * (X1_2 * w30 - X1_0 * c1_1);
+        const double Q1_2 = g12 * (w27 - w24) + g02 * (1.0 - (w29 + X1_1 * w30))
+            + g22 * (X1_2 * w26 + X1_1 * c1_1);
+        const double next_xi1_0 = 0.001 * M1_0;
+        const double next_xi1_1 = 0.0002 * M1_1;
+        const double next_xi1_2 = 0.00016666666666666666 * M1_2;
         const double next_n1_0 = -Q1_5;
         const double next_n1_2 = 0.0;
-        const double change_xi1_0 = fabs(f1_0 - xi1_0);
-        const double change_xi1_1 = fabs(f1_1 - xi1_1);
-        const double change_xi1_2 = fabs(f1_2 - xi1_2);
-        const double change_n1_0 = fabs(next_n1_0 - n1_0);
-        const double change_n1_1 = fabs(Q1_2 - n1_1);
-        const double change_n1_2 = fabs(next_n1_2 - n1_2);
-        const double change = greater(greater(change_xi1_0, greater(change_xi1_1, change_xi1_2)),
-            greater(change_n1_0, greater(change_n1_1, change_n1_2)));
-        const double scale = greater(greater(1.0, greater(fabs(xi1_0), fabs(xi1_1))),
-            greater(greater(fabs(xi1_2), fabs(n1_0)), greater(fabs(n1_1), fabs(n1_2))));
-        if (!isfinite(change_xi1_0 + change_xi1_1 + change_xi1_2 + change_n1_0 + change_n1_1
-            + change_n1_2)) {
+        const double residual_xi1_0 = next_xi1_0 - xi1_0;
+        const double residual_xi1_1 = next_xi1_1 - xi1_1;
+        const double residual_xi1_2 = next_xi1_2 - xi1_2;
+        const double residual_n1_0 = next_n1_0 - n1_0;
+        const double residual_n1_1 = Q1_2 - n1_1;
+        const double residual_n1_2 = next_n1_2 - n1_2;
+        if (!isfinite(residual_xi1_0 + residual_xi1_1 + residual_xi1_2 + residual_n1_0
+            + residual_n1_1 + residual_n1_2)) {
             count_sweeps(statistics, 0, sweep, 1);
             return HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE;
         }
+        if (make_1) {
+            const double w31 = 0.001 * c3_1;
+            const double w32 = Y_1 * w31;
+            const double w33 = h * mu1;
+            const double w34 = Y_2 * w31;
+            const double w35 = h * mu2;
+            const double w36 = slope3(w9);
+            const double w37 = 0.0005 * h;
+            const double w38 = slope2(w9);
+            const double w39 = w15 * w37 * w36 - w11 * w37 * w38;
+            const double w40 = 2.0 * z_0 * w8;
+            const double w41 = slope3(w1);
+            const double w42 = slope2(w1);
+            const double w43 = 0.001 * w7 * w41 - 0.001 * w3 * w42;
+            const double w44 = 2.0 * Y_0 * h;
+            const double w45 = w37 * c3_2;
+            const double w46 = z_1 * w45;
+            const double w47 = n1_1 * w8;
+            const double w48 = z_2 * w45;
+            const double w49 = n1_2 * w8;
+            const double w50 = w32 * w33 + w34 * w35 + w39 * w40 + w43 * w44 + w46 * w47 + w48 * w49;
+            const double w51 = w10 * w37;
+            const double w52 = h * mu0;
+            const double w53 = -0.001 * w2;
+            const double w54 = 2.0 * z_1 * w8;
+            const double w55 = w13 * w45 * w8 - w6 * w31 * h - w32 * w52 - w35 * w53 + w39 * w54;
+            const double w56 = 2.0 * Y_1 * h;
+            const double w57 = n1_0 * w8;
+            const double w58 = 2.0 * z_2 * w8;
+            const double w59 = w5 * w31 * h - w14 * w45 * w8 - w34 * w52 + w33 * w53 + w39 * w58;
+            const double w60 = 2.0 * Y_2 * h;
+            const double w61 = 0.0002 * c3_1;
+            const double w62 = 0.0001 * h;
+            const double w63 = w62 * c3_2;
+            const double w64 = Y_0 * w61;
+            const double w65 = -0.0002 * w2;
+            const double w66 = w18 * w62 * w36 - w14 * w62 * w38;
+            const double w67 = w6 * w61 * h - w13 * w63 * w8 - w33 * w64 + w35 * w65 + w40 * w66;
+            const double w68 = 0.0002 * w17 * w41 - 0.0002 * w5 * w42;
+            const double w69 = z_0 * w63;
+            const double w70 = w10 * w62;
+            const double w71 = Y_2 * w61;
+            const double w72 = z_2 * w63;
+            const double w73 = w52 * w64 + w35 * w71 + w54 * w66 + w56 * w68 + w57 * w69 + w49 * w72;
+            const double w74 = w11 * w63 * w8 - w3 * w61 * h - w52 * w65 - w33 * w71 + w58 * w66;
+            const double w75 = 8.333333333333333e-05 * h;
+            const double w76 = w75 * c3_2;
+            const double w77 = z_0 * w76;
+            const double w78 = 0.00016666666666666666 * c3_1;
+            const double w79 = -0.00016666666666666666 * w2;
+            const double w80 = Y_0 * w78;
+            const double w81 = w20 * w75 * w36 - w13 * w75 * w38;
+            const double w82 = w14 * w76 * w8 - w5 * w78 * h - w33 * w79 - w35 * w80 + w40 * w81;
+            const double w83 = 0.00016666666666666666 * w19 * w41 - 0.00016666666666666666 * w6 * w42;
+            const double w84 = w10 * w75;
+            const double w85 = z_1 * w76;
+            const double w86 = Y_1 * w78;
+            const double w87 = w3 * w78 * h - w11 * w76 * w8 + w52 * w79 - w35 * w86 + w54 * w81;
+            const double w88 = w52 * w80 + w33 * w86 + w58 * w81 + w60 * w83 + w57 * w77 + w47 * w85;
+            const double w89 = g12 * w26;
+            const double w90 = g22 * c1_1;
+            const double w91 = w16 * c2_3;
+            const double w92 = g02 * X1_1;
+            const double w93 = g12 * X1_0 - w92;
+            const double w94 = 2.0 * X1_0 * w16;
+            const double c3_3 = stumpff_3(w22);
+            const double w95 = 0.5 * (c3_3 - c2_3);
+            const double w96 = slope2(w22);
+            const double w97 = w21 * w96;
+            const double w98 = g22 * X1_2;
+            const double w99 = X1_1 * w96;
+            const double w100 = X1_0 * w96;
+            const double w101 = X1_2 * w95;
+            const double w102 = g22 * X1_0 * w95 + g12 * w97 - w98 * w99 + w93 * w100 - g02 * w101;
+            const double w103 = 2.0 * X1_1 * w16;
+            const double w104 = 2.0 * w28;
+            const double w105 = 2.0 * X1_2 * w16;
+            const double w106 = w98 + g12 * X1_1;
+            const double w107 = g22 * X1_1 * w95 - g02 * w97 - w92 * w99 + w100 * w106 - g12 * w101;
+            memory->inverse_1[0] = 1.0 - w50;
+            memory->inverse_1[1] = w49 * w51 - (w55 + w43 * w56 - w46 * w57);
+            memory->inverse_1[2] = -(w59 + w43 * w60 - w48 * w57 + w47 * w51);
+            memory->inverse_1[3] = z_2 * w48 - (w37 - z_1 * w46);
+            memory->inverse_1[4] = -(z_0 * w46 + z_2 * w51);
+            memory->inverse_1[5] = z_1 * w51 - z_0 * w48;
+            memory->inverse_1[6] = -(w67 + w44 * w68 - w47 * w69 + w49 * w70);
+            memory->inverse_1[7] = 1.0 - w73;
+            memory->inverse_1[8] = w47 * w72 - (w74 + w60 * w68 - w57 * w70);
+            memory->inverse_1[9] = z_2 * w70 - z_1 * w69;
+            memory->inverse_1[10] = z_2 * w72 - (w62 - z_0 * w69);
+            memory->inverse_1[11] = -(z_0 * w70 + z_1 * w72);
+            memory->inverse_1[12] = w49 * w77 - (w82 + w44 * w83 - w47 * w84);
+            memory->inverse_1[13] = w49 * w85 - (w87 + w56 * w83 + w57 * w84);
+            memory->inverse_1[14] = 1.0 - w88;
+            memory->inverse_1[15] = -(z_1 * w84 + z_2 * w77);
+            memory->inverse_1[16] = z_0 * w84 - z_2 * w85;
+            memory->inverse_1[17] = z_1 * w85 - (w75 - z_0 * w77);
+            memory->inverse_1[18] = -(w16 * (w89 + w90) + w91 * w93 + w94 * w102);
+            memory->inverse_1[19] = w16 * (g02 * w26 + w98 * c2_3) - w102 * w103;
+            memory->inverse_1[20] = -(w102 * w105 + w16 * (g12 * w104 - g22 * w30 - g02 * c1_1));
+            memory->inverse_1[21] = 1.0;
+            memory->inverse_1[22] = 0.0;
+            memory->inverse_1[23] = 0.0;
+            memory->inverse_1[24] = -(w91 * w106 + w94 * w107);
+            memory->inverse_1[25] = -(w103 * w107 + w16 * (w90 - g02 * w30 + w89 - w92 * c2_3));
+            memory->inverse_1[26] = -(w16 * (g22 * w26 - g02 * w104 - g12 * c1_1) + w105 * w107);
+            memory->inverse_1[27] = 0.0;
+            memory->inverse_1[28] = 1.0;
+            memory->inverse_1[29] = 0.0;
+            memory->inverse_1[30] = 0.0;
+            memory->inverse_1[31] = 0.0;
+            memory->inverse_1[32] = 0.0;
+            memory->inverse_1[33] = 0.0;
+            memory->inverse_1[34] = 0.0;
+            memory->inverse_1[35] = 1.0;
+            size_t order_1[6];
+            memory->made_1 = invert(6, memory->inverse_1, order_1);
+            count_matrix(statistics);
+            if (!memory->made_1) {
+                count_sweeps(statistics, 0, sweep, 1);
+                return HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED;
+            }
+        }
+        const double change_xi1_0 = memory->inverse_1[0] * residual_xi1_0
+            + memory->inverse_1[1] * residual_xi1_1 + memory->inverse_1[2] * residual_xi1_2
+            + memory->inverse_1[3] * residual_n1_0 + memory->inverse_1[4] * residual_n1_1
+            + memory->inverse_1[5] * residual_n1_2;
+        const double change_xi1_1 = memory->inverse_1[6] * residual_xi1_0
+            + memory->inverse_1[7] * residual_xi1_1 + memory->inverse_1[8] * residual_xi1_2
+            + memory->inverse_1[9] * residual_n1_0 + memory->inverse_1[10] * residual_n1_1
+            + memory->inverse_1[11] * residual_n1_2;
+        const double change_xi1_2 = memory->inverse_1[12] * residual_xi1_0
+            + memory->inverse_1[13] * residual_xi1_1 + memory->inverse_1[14] * residual_xi1_2
+            + memory->inverse_1[15] * residual_n1_0 + memory->inverse_1[16] * residual_n1_1
+            + memory->inverse_1[17] * residual_n1_2;
+        const double change_n1_0 = memory->inverse_1[18] * residual_xi1_0
+            + memory->inverse_1[19] * residual_xi1_1 + memory->inverse_1[20] * residual_xi1_2
+            + memory->inverse_1[21] * residual_n1_0 + memory->inverse_1[22] * residual_n1_1
+            + memory->inverse_1[23] * residual_n1_2;
+        const double change_n1_1 = memory->inverse_1[24] * residual_xi1_0
+            + memory->inverse_1[25] * residual_xi1_1 + memory->inverse_1[26] * residual_xi1_2
+            + memory->inverse_1[27] * residual_n1_0 + memory->inverse_1[28] * residual_n1_1
+            + memory->inverse_1[29] * residual_n1_2;
+        const double change_n1_2 = memory->inverse_1[30] * residual_xi1_0
+            + memory->inverse_1[31] * residual_xi1_1 + memory->inverse_1[32] * residual_xi1_2
+            + memory->inverse_1[33] * residual_n1_0 + memory->inverse_1[34] * residual_n1_1
+            + memory->inverse_1[35] * residual_n1_2;
+        const double change = greater(greater(fabs(change_xi1_0), greater(fabs(change_xi1_1),
+            fabs(change_xi1_2))), greater(fabs(change_n1_0), greater(fabs(change_n1_1),
+            fabs(change_n1_2))));
+        const double scale = greater(greater(1.0, greater(fabs(xi1_0), fabs(xi1_1))),
+            greater(greater(fabs(xi1_2), fabs(n1_0)), greater(fabs(n1_1), fabs(n1_2))));
         const int still = previous_1 > 0.0 && change >= previous_1;
         const int close = change <= 3.552713678800501e-15 * scale
             && change * change <= 1.1102230246251565e-16 * scale * previous_1;
+        xi1_0 += change_xi1_0;
+        xi1_1 += change_xi1_1;
+        xi1_2 += change_xi1_2;
+        n1_0 += change_n1_0;
+        n1_1 += change_n1_1;
+        n1_2 += change_n1_2;
         if (close || (still && change <= 5.684341886080802e-14 * scale)) {
             count_sweeps(statistics, 0, sweep, 0);
             break;
@@ -284,51 +584,42 @@ static inline int advance(double state[static 12], double h,
             count_sweeps(statistics, 0, sweep, 1);
             return HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED;
         }
+        make_1 = 0.0625 * previous_1 > 0.0 && change > 0.0625 * previous_1;
         previous_1 = change;
-        xi1_0 = f1_0;
-        xi1_1 = f1_1;
-        xi1_2 = f1_2;
-        n1_0 = next_n1_0;
-        n1_1 = Q1_2;
-        n1_2 = next_n1_2;
     }
-    const double Y_1 = h * f1_1;
-    const double Y_0 = h * f1_0;
-    const double Y_2 = h * f1_2;
-    const double w26 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2;
-    double c1_2, c2_4;
-    stumpff_12(w26, &c1_2, &c2_4);
-    const double w28 = Y_1 * c2_4;
-    const double w29 = Y_1 * w28;
-    const double w30 = Y_2 * c2_4 * Y_2;
-    const double g_0 = 1.0 - (w29 + w30);
-    const double w31 = Y_0 * c2_4;
-    const double w32 = Y_1 * w31;
-    const double w34 = Y_2 * c1_2;
-    const double g_1 = w32 - w34;
-    const double w35 = Y_1 * c1_2;
-    const double w36 = Y_2 * w31;
-    const double g_2 = w35 + w36;
-    const double g_3 = w32 + w34;
-    const double w37 = Y_0 * w31;
-    const double g_4 = 1.0 - (w30 + w37);
-    const double w38 = Y_2 * w28;
-    const double w39 = Y_0 * c1_2;
-    const double g_5 = w38 - w39;
-    const double g_6 = w36 - w35;
-    const double g_7 = w38 + w39;
-    const double g_8 = 1.0 - (w29 + w37);
-    const double c1_3 = stumpff_1(w11);
-    const double w41 = z_2 * c1_3;
-    const double w42 = z_0 * w12;
-    const double w43 = z_1 * w42;
-    const double w44 = z_1 * w12;
-    const double w45 = z_2 * w12 * z_2;
+    const double w108 = Y_1 * w2;
+    const double w109 = Y_1 * w108;
+    const double w110 = Y_2 * w2 * Y_2;
+    const double g_0 = 1.0 - (w109 + w110);
+    const double w111 = Y_0 * w2;
+    const double w112 = Y_1 * w111;
+    const double c1_2 = stumpff_1(w1);
+    const double w114 = Y_2 * c1_2;
+    const double g_1 = w112 - w114;
+    const double w115 = Y_1 * c1_2;
+    const double w116 = Y_2 * w111;
+    const double g_2 = w115 + w116;
+    const double g_3 = w112 + w114;
+    const double w117 = Y_0 * w111;
+    const double g_4 = 1.0 - (w110 + w117);
+    const double w118 = Y_2 * w108;
+    const double w119 = Y_0 * c1_2;
+    const double g_5 = w118 - w119;
+    const double g_6 = w116 - w115;
+    const double g_7 = w118 + w119;
+    const double g_8 = 1.0 - (w109 + w117);
+    const double w120 = z_1 * w10;
+    const double w121 = z_2 * w10 * z_2;
+    const double c1_3 = stumpff_1(w9);
+    const double w123 = z_2 * c1_3;
+    const double w124 = z_0 * w10;
+    const double w125 = z_1 * w124;
     const double mu1_0 = mu0 * g_0 + mu1 * g_1 + mu2 * g_2
-        + h * (Q1_2 * (w41 + w43) - Q1_5 * (1.0 - (z_1 * w44 + w45)));
+        + h * (n1_0 * (1.0 - (z_1 * w120 + w121)) + n1_1 * (w123 + w125));
     const double mu1_1 = mu0 * g_3 + mu1 * g_4 + mu2 * g_5
-        + h * (Q1_2 * (1.0 - (w45 + z_0 * w42)) - Q1_5 * (w43 - w41));
-    const double w46 = h * (Q1_2 * (z_2 * w44 - z_0 * c1_3) - Q1_5 * (z_2 * w42 + z_1 * c1_3));
+        + h * (n1_0 * (w125 - w123) + n1_1 * (1.0 - (w121 + z_0 * w124)));
+    const double w126 = h
+        * (n1_0 * (z_2 * w124 + z_1 * c1_3) + n1_1 * (z_2 * w120 - z_0 * c1_3));
     const double new_g00 = g00 * g_0 + g10 * g_1 + g20 * g_2;
     const double new_g01 = g01 * g_0 + g11 * g_1 + g21 * g_2;
     const double new_g02 = g02 * g_0 + g12 * g_1 + g22 * g_2;
@@ -338,11 +629,21 @@ static inline int advance(double state[static 12], double h,
     const double new_g20 = g00 * g_6 + g10 * g_7 + g20 * g_8;
     const double new_g21 = g01 * g_6 + g11 * g_7 + g21 * g_8;
     const double new_g22 = g02 * g_6 + g12 * g_7 + g22 * g_8;
-    const double new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w46;
+    const double new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w126;
     if (!(isfinite(new_g00) && isfinite(new_g01) && isfinite(new_g02) && isfinite(new_g10)
         && isfinite(new_g11) && isfinite(new_g12) && isfinite(new_g20) && isfinite(new_g21)
         && isfinite(new_g22) && isfinite(mu1_0) && isfinite(mu1_1) && isfinite(new_mu2))) {
         return HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE;
+    }
+    memmove(memory->past[1], memory->past[0], 2 * sizeof memory->past[0]);
+    memory->past[0][0] = xi1_0;
+    memory->past[0][1] = xi1_1;
+    memory->past[0][2] = xi1_2;
+    memory->past[0][3] = n1_0;
+    memory->past[0][4] = n1_1;
+    memory->past[0][5] = n1_2;
+    if (memory->known < 3) {
+        memory->known++;
     }
     state[0] = new_g00;
     state[1] = new_g01;
@@ -362,7 +663,8 @@ static inline int advance(double state[static 12], double h,
 int heavy_top_slgi_midpoint_step(double state[static 12], double h,
     heavy_top_slgi_midpoint_statistics *statistics)
 {
-    return advance(state, h, statistics);
+    struct memory memory = {0};
+    return advance(state, h, &memory, statistics);
 }
 
 int heavy_top_slgi_midpoint_run(double state[static 12], double h, size_t steps,
@@ -371,12 +673,21 @@ int heavy_top_slgi_midpoint_run(double state[static 12], double h, size_t steps,
 {
     int status = HEAVY_TOP_SLGI_MIDPOINT_OK;
     size_t step = 0;
+    struct memory memory = {0};
     double *row = stride > 0 ? trajectory : NULL;
     if (row != NULL) {
         memcpy(row, state, 12 * sizeof *state);
     }
     while (step < steps) {
-        status = advance(state, h, statistics);
+        status = advance(state, h, &memory, statistics);
+        if (status != HEAVY_TOP_SLGI_MIDPOINT_OK && memory.known > 0) {
+            /* the solutions before may mislead where the motion changes: begin as the first step does */
+            memset(&memory, 0, sizeof memory);
+            if (statistics != NULL) {
+                statistics->failed = 0;
+            }
+            status = advance(state, h, &memory, statistics);
+        }
         if (status != HEAVY_TOP_SLGI_MIDPOINT_OK) {
             break;
         }

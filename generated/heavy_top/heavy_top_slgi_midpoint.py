@@ -5,11 +5,16 @@ source:     Table 3.2a of Bogfjellmo and Marthinsen
 order:      2, certificate: exact (every order condition up to it is zero in exact
             arithmetic)
 scene:      Heavy top as printed, T*SO(3) (thesis section 2.5), group SO(3)
+solved by:  the equations of xi1, n1: Newton's method, 6 unknowns (a fixed point
+            does not settle with steps 8 times as long)
 state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
 left out:   the time: the scene does not depend on it
-operations: 52 add, 80 mul, 1 stumpff_12, 1 stumpff_1 a step
-            45 add, 78 mul, 1 stumpff_12, 2 stumpff_23 a sweep of the equations of
+operations: 50 add, 71 mul, 2 stumpff_1 a step
+            3 mul a start, in steps that follow no other
+            105 add, 219 mul, 3 slope2, 2 slope3, 1 stumpff_3 a matrix of the
+            equations of xi1, n1
+            75 add, 114 mul, 1 stumpff_12, 2 stumpff_23 a sweep of the equations of
             xi1, n1
 made by:    orderconds emit heavy_top --method slgi:midpoint --target python -o .
 version:    orderconds 0.1.0
@@ -22,7 +27,7 @@ Use:
     print(heavy_top_slgi_midpoint.run(state, 0.01, 100))
 """
 
-from math import cos, isfinite, sin, sqrt
+from math import cos, fabs, isfinite, sin, sqrt
 
 OK = 0
 NOT_CONVERGED = 1
@@ -46,10 +51,11 @@ class StepFailed(ArithmeticError):
 
 
 class Statistics:
-    """Fixed-point sweeps, added up over all steps that are given this object.
+    """Sweeps over the equations, added up over all steps that are given this object.
 
     sweeps: by block; most: the most that one block took in one step; failed: 1 + the
-    block that failed, 0 if none has.
+    block that failed, 0 if none has; matrices: how often a matrix of Newton's method
+    was made.
     """
 
     labels = [
@@ -58,6 +64,7 @@ class Statistics:
 
     def __init__(self):
         self.sweeps, self.most, self.failed = [0] * 1, 0, 0
+        self.matrices = 0
 
     def count(self, block, sweeps):
         """Add the sweeps of one block in one step."""
@@ -72,6 +79,26 @@ def _failed(status, label, block, sweep, statistics):
         statistics.failed = block + 1
     reason = "met a number that is not finite" if status == NOT_FINITE else "did not converge"
     return StepFailed(status, f"{label} {reason} after {sweep} sweeps")
+
+
+class _Memory:
+    """What one step of a run leaves for the next.
+
+    past: solutions of its equations, the latest first; inverses: of Newton's matrices, by
+    block.
+    """
+
+    def __init__(self):
+        self.past = []
+        self.inverses = [None] * 1
+
+    def extrapolated(self):
+        """Return the polynomial through the last solutions, continued by a step."""
+        if len(self.past) == 1:
+            return self.past[0]
+        if len(self.past) == 2:
+            return [2.0 * a - b for a, b in zip(*self.past)]
+        return [3.0 * (a - b) + c for a, b, c in zip(*self.past)]
 
 
 def _stumpff_small_3(z):
@@ -142,6 +169,16 @@ def _stumpff_series_1(z):
     return 1.0 + z * (even + z * odd)
 
 
+def _stumpff_3(z):
+    """Return, for z >= 0 and s = sqrt(z): c_3 = (s - sin(s))/s^3."""
+    if z <= 0.0625:
+        return _stumpff_small_3(z)
+    if z <= 4.0:
+        return _stumpff_series_3(z)
+    s = sqrt(z if z <= 4503599627370496.0 else float("nan"))
+    return (1.0 - sin(s) / s) / z
+
+
 def _stumpff_23(z):
     """Return, for z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 0.0625:
@@ -175,93 +212,343 @@ def _stumpff_1(z):
     return sin(s) / s
 
 
-def _advance(state, h, statistics):
+def slope3(z):
+    """Return the derivative of c_3 for z >= 0."""
+    if z > 1.0:
+        before, c = _stumpff_23(z)
+        return 0.5 * (before - 3.0 * c) / z
+    total = 6.576508197299464e-17
+    total = -1.9680200780418645e-14 + z * total
+    total = 4.58829823909189e-12 + z * total
+    total = -8.029521918410807e-10 + z * total
+    total = 1.0020843354176688e-07 + z * total
+    total = -8.267195767195768e-06 + z * total
+    total = 0.0003968253968253968 + z * total
+    total = -0.008333333333333333 + z * total
+    return total
+
+
+def slope2(z):
+    """Return the derivative of c_2 for z >= 0."""
+    if z > 1.0:
+        before, c = _stumpff_12(z)
+        return 0.5 * (before - 2.0 * c) / z
+    total = 1.249536557486898e-15
+    total = -3.3456341326711696e-13 + z * total
+    total = 6.882447358637835e-11 + z * total
+    total = -1.043837849393405e-08 + z * total
+    total = 1.1022927689594355e-06 + z * total
+    total = -7.440476190476191e-05 + z * total
+    total = 0.002777777777777778 + z * total
+    total = -0.041666666666666664 + z * total
+    return total
+
+
+def invert(a):
+    """Return the inverse of a square matrix, a list of rows that is used up; None where it has none."""
+    n = len(a)
+    order = [0] * n
+    for k in range(n):
+        pivot = max(range(k, n), key=lambda i: fabs(a[i][k]))
+        if not fabs(a[pivot][k]) > 0.0:
+            return None
+        order[k] = pivot
+        a[k], a[pivot] = a[pivot], a[k]
+        factor = 1.0 / a[k][k]
+        a[k][k] = 1.0
+        a[k] = [x * factor for x in a[k]]
+        for i in range(n):
+            if i != k:
+                multiple, a[i][k] = a[i][k], 0.0
+                a[i] = [x - multiple * y for x, y in zip(a[i], a[k])]
+    for k in reversed(range(n)):
+        for row in a:
+            row[k], row[order[k]] = row[order[k]], row[k]
+    return a
+
+
+def _advance(state, h, memory, statistics):
     """Return the state after one step as a tuple."""
     g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
-    w10 = -0.5 * h
-    w17 = 0.5 * h
-    # the equations of xi1, n1: fixed point in xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2
-    xi1_0 = 0.001 * mu0
-    xi1_1 = 0.0002 * mu1
-    xi1_2 = 0.00016666666666666666 * mu2
-    n1_0 = -g12
-    n1_1 = g02
-    n1_2 = 0.0
+    if memory.past:
+        xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2 = memory.extrapolated()
+    else:
+        xi1_0 = 0.001 * mu0
+        xi1_1 = 0.0002 * mu1
+        xi1_2 = 0.00016666666666666666 * mu2
+        n1_0 = -g12
+        n1_1 = g02
+        n1_2 = 0.0
+    w8 = -0.5 * h
+    w16 = 0.5 * h
+    # the equations of xi1, n1: Newton's method in xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2
     previous_1 = 0.0
+    make_1 = memory.inverses[0] is None
     for sweep in range(1, 101):
-        w1 = h * xi1_0
-        w2 = h * xi1_1
-        w3 = h * xi1_2
-        w4 = w1 * w1 + w2 * w2 + w3 * w3
-        c2_1, c3_1 = _stumpff_23(w4)
-        w6 = mu1 * w3 - mu2 * w2
-        w8 = mu2 * w1 - mu0 * w3
-        w9 = mu0 * w2 - mu1 * w1
-        z_0 = xi1_0 * w10
-        z_1 = xi1_1 * w10
-        z_2 = xi1_2 * w10
-        w11 = z_0 * z_0 + z_1 * z_1 + z_2 * z_2
-        c2_2, c3_2 = _stumpff_23(w11)
-        w12 = c2_2
-        w13 = n1_2 * z_1 - n1_1 * z_2
-        w15 = n1_1 * z_0 - n1_0 * z_1
-        w16 = n1_0 * z_2 - n1_2 * z_0
-        M1_0 = (
-            mu0
-            - w6 * c2_1
-            + (w3 * w8 - w2 * w9) * c3_1
-            + w17 * (n1_0 - w12 * w13 + (z_1 * w15 - z_2 * w16) * c3_2)
-        )
-        f1_0 = 0.001 * M1_0
-        M1_1 = (
-            mu1
-            - w8 * c2_1
-            + (w1 * w9 - w3 * w6) * c3_1
-            + w17 * (n1_1 - w12 * w16 + (z_2 * w13 - z_0 * w15) * c3_2)
-        )
-        f1_1 = 0.0002 * M1_1
-        M1_2 = (
-            mu2
-            - w9 * c2_1
-            + (w2 * w6 - w1 * w8) * c3_1
-            + w17 * (n1_2 - w12 * w15 + (z_0 * w16 - z_1 * w13) * c3_2)
-        )
-        f1_2 = 0.00016666666666666666 * M1_2
-        X1_2 = xi1_2 * w17
-        X1_0 = xi1_0 * w17
-        X1_1 = xi1_1 * w17
-        w18 = X1_0 * X1_0 + X1_1 * X1_1 + X1_2 * X1_2
-        c1_1, c2_3 = _stumpff_12(w18)
-        w20 = X1_2 * c1_1
-        w22 = X1_0 * c2_3
-        w23 = X1_1 * w22
-        w24 = X1_2 * c2_3 * X1_2
-        w25 = X1_1 * c2_3
+        Y_0 = h * xi1_0
+        Y_1 = h * xi1_1
+        Y_2 = h * xi1_2
+        w1 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2
+        c2_1, c3_1 = _stumpff_23(w1)
+        w2 = c2_1
+        w3 = mu1 * Y_2 - mu2 * Y_1
+        w5 = mu2 * Y_0 - mu0 * Y_2
+        w6 = mu0 * Y_1 - mu1 * Y_0
+        w7 = Y_2 * w5 - Y_1 * w6
+        z_0 = xi1_0 * w8
+        z_1 = xi1_1 * w8
+        z_2 = xi1_2 * w8
+        w9 = z_0 * z_0 + z_1 * z_1 + z_2 * z_2
+        c2_2, c3_2 = _stumpff_23(w9)
+        w10 = c2_2
+        w11 = n1_2 * z_1 - n1_1 * z_2
+        w13 = n1_1 * z_0 - n1_0 * z_1
+        w14 = n1_0 * z_2 - n1_2 * z_0
+        w15 = z_1 * w13 - z_2 * w14
+        M1_0 = mu0 - w2 * w3 + w7 * c3_1 + w16 * (n1_0 - w10 * w11 + w15 * c3_2)
+        w17 = Y_0 * w6 - Y_2 * w3
+        w18 = z_2 * w11 - z_0 * w13
+        M1_1 = mu1 - w2 * w5 + w17 * c3_1 + w16 * (n1_1 - w10 * w14 + w18 * c3_2)
+        w19 = Y_1 * w3 - Y_0 * w5
+        w20 = z_0 * w14 - z_1 * w11
+        M1_2 = mu2 - w2 * w6 + w19 * c3_1 + w16 * (n1_2 - w10 * w13 + w20 * c3_2)
+        X1_2 = xi1_2 * w16
+        X1_0 = xi1_0 * w16
+        X1_1 = xi1_1 * w16
+        w21 = X1_2 * X1_2
+        w22 = X1_0 * X1_0 + X1_1 * X1_1 + w21
+        c1_1, c2_3 = _stumpff_12(w22)
+        w24 = X1_2 * c1_1
+        w26 = X1_0 * c2_3
+        w27 = X1_1 * w26
+        w28 = X1_2 * c2_3
+        w29 = X1_2 * w28
+        w30 = X1_1 * c2_3
         Q1_5 = (
-            g02 * (w20 + w23)
-            + g12 * (1.0 - (X1_0 * w22 + w24))
-            + g22 * (X1_2 * w25 - X1_0 * c1_1)
+            g02 * (w24 + w27)
+            + g12 * (1.0 - (X1_0 * w26 + w29))
+            + g22 * (X1_2 * w30 - X1_0 * c1_1)
         )
         Q1_2 = (
-            g12 * (w23 - w20)
-            + g02 * (1.0 - (w24 + X1_1 * w25))
-            + g22 * (X1_2 * w22 + X1_1 * c1_1)
+            g12 * (w27 - w24)
+            + g02 * (1.0 - (w29 + X1_1 * w30))
+            + g22 * (X1_2 * w26 + X1_1 * c1_1)
         )
+        next_xi1_0 = 0.001 * M1_0
+        next_xi1_1 = 0.0002 * M1_1
+        next_xi1_2 = 0.00016666666666666666 * M1_2
         next_n1_0 = -Q1_5
         next_n1_2 = 0.0
-        change_xi1_0 = abs(f1_0 - xi1_0)
-        change_xi1_1 = abs(f1_1 - xi1_1)
-        change_xi1_2 = abs(f1_2 - xi1_2)
-        change_n1_0 = abs(next_n1_0 - n1_0)
-        change_n1_1 = abs(Q1_2 - n1_1)
-        change_n1_2 = abs(next_n1_2 - n1_2)
+        residual_xi1_0 = next_xi1_0 - xi1_0
+        residual_xi1_1 = next_xi1_1 - xi1_1
+        residual_xi1_2 = next_xi1_2 - xi1_2
+        residual_n1_0 = next_n1_0 - n1_0
+        residual_n1_1 = Q1_2 - n1_1
+        residual_n1_2 = next_n1_2 - n1_2
+        total = (
+            residual_xi1_0
+            + residual_xi1_1
+            + residual_xi1_2
+            + residual_n1_0
+            + residual_n1_1
+            + residual_n1_2
+        )
+        if not isfinite(total):
+            raise _failed(NOT_FINITE, "the equations of xi1, n1", 0, sweep, statistics)
+        if make_1:
+            w31 = 0.001 * c3_1
+            w32 = Y_1 * w31
+            w33 = h * mu1
+            w34 = Y_2 * w31
+            w35 = h * mu2
+            w36 = slope3(w9)
+            w37 = 0.0005 * h
+            w38 = slope2(w9)
+            w39 = w15 * w37 * w36 - w11 * w37 * w38
+            w40 = 2.0 * z_0 * w8
+            w41 = slope3(w1)
+            w42 = slope2(w1)
+            w43 = 0.001 * w7 * w41 - 0.001 * w3 * w42
+            w44 = 2.0 * Y_0 * h
+            w45 = w37 * c3_2
+            w46 = z_1 * w45
+            w47 = n1_1 * w8
+            w48 = z_2 * w45
+            w49 = n1_2 * w8
+            w50 = w32 * w33 + w34 * w35 + w39 * w40 + w43 * w44 + w46 * w47 + w48 * w49
+            w51 = w10 * w37
+            w52 = h * mu0
+            w53 = -0.001 * w2
+            w54 = 2.0 * z_1 * w8
+            w55 = w13 * w45 * w8 - w6 * w31 * h - w32 * w52 - w35 * w53 + w39 * w54
+            w56 = 2.0 * Y_1 * h
+            w57 = n1_0 * w8
+            w58 = 2.0 * z_2 * w8
+            w59 = w5 * w31 * h - w14 * w45 * w8 - w34 * w52 + w33 * w53 + w39 * w58
+            w60 = 2.0 * Y_2 * h
+            w61 = 0.0002 * c3_1
+            w62 = 0.0001 * h
+            w63 = w62 * c3_2
+            w64 = Y_0 * w61
+            w65 = -0.0002 * w2
+            w66 = w18 * w62 * w36 - w14 * w62 * w38
+            w67 = w6 * w61 * h - w13 * w63 * w8 - w33 * w64 + w35 * w65 + w40 * w66
+            w68 = 0.0002 * w17 * w41 - 0.0002 * w5 * w42
+            w69 = z_0 * w63
+            w70 = w10 * w62
+            w71 = Y_2 * w61
+            w72 = z_2 * w63
+            w73 = w52 * w64 + w35 * w71 + w54 * w66 + w56 * w68 + w57 * w69 + w49 * w72
+            w74 = w11 * w63 * w8 - w3 * w61 * h - w52 * w65 - w33 * w71 + w58 * w66
+            w75 = 8.333333333333333e-05 * h
+            w76 = w75 * c3_2
+            w77 = z_0 * w76
+            w78 = 0.00016666666666666666 * c3_1
+            w79 = -0.00016666666666666666 * w2
+            w80 = Y_0 * w78
+            w81 = w20 * w75 * w36 - w13 * w75 * w38
+            w82 = w14 * w76 * w8 - w5 * w78 * h - w33 * w79 - w35 * w80 + w40 * w81
+            w83 = 0.00016666666666666666 * w19 * w41 - 0.00016666666666666666 * w6 * w42
+            w84 = w10 * w75
+            w85 = z_1 * w76
+            w86 = Y_1 * w78
+            w87 = w3 * w78 * h - w11 * w76 * w8 + w52 * w79 - w35 * w86 + w54 * w81
+            w88 = w52 * w80 + w33 * w86 + w58 * w81 + w60 * w83 + w57 * w77 + w47 * w85
+            w89 = g12 * w26
+            w90 = g22 * c1_1
+            w91 = w16 * c2_3
+            w92 = g02 * X1_1
+            w93 = g12 * X1_0 - w92
+            w94 = 2.0 * X1_0 * w16
+            c3_3 = _stumpff_3(w22)
+            w95 = 0.5 * (c3_3 - c2_3)
+            w96 = slope2(w22)
+            w97 = w21 * w96
+            w98 = g22 * X1_2
+            w99 = X1_1 * w96
+            w100 = X1_0 * w96
+            w101 = X1_2 * w95
+            w102 = g22 * X1_0 * w95 + g12 * w97 - w98 * w99 + w93 * w100 - g02 * w101
+            w103 = 2.0 * X1_1 * w16
+            w104 = 2.0 * w28
+            w105 = 2.0 * X1_2 * w16
+            w106 = w98 + g12 * X1_1
+            w107 = g22 * X1_1 * w95 - g02 * w97 - w92 * w99 + w100 * w106 - g12 * w101
+            row_1_1 = [
+                1.0 - w50,
+                w49 * w51 - (w55 + w43 * w56 - w46 * w57),
+                -(w59 + w43 * w60 - w48 * w57 + w47 * w51),
+                z_2 * w48 - (w37 - z_1 * w46),
+                -(z_0 * w46 + z_2 * w51),
+                z_1 * w51 - z_0 * w48,
+            ]
+            row_1_2 = [
+                -(w67 + w44 * w68 - w47 * w69 + w49 * w70),
+                1.0 - w73,
+                w47 * w72 - (w74 + w60 * w68 - w57 * w70),
+                z_2 * w70 - z_1 * w69,
+                z_2 * w72 - (w62 - z_0 * w69),
+                -(z_0 * w70 + z_1 * w72),
+            ]
+            row_1_3 = [
+                w49 * w77 - (w82 + w44 * w83 - w47 * w84),
+                w49 * w85 - (w87 + w56 * w83 + w57 * w84),
+                1.0 - w88,
+                -(z_1 * w84 + z_2 * w77),
+                z_0 * w84 - z_2 * w85,
+                z_1 * w85 - (w75 - z_0 * w77),
+            ]
+            row_1_4 = [
+                -(w16 * (w89 + w90) + w91 * w93 + w94 * w102),
+                w16 * (g02 * w26 + w98 * c2_3) - w102 * w103,
+                -(w102 * w105 + w16 * (g12 * w104 - g22 * w30 - g02 * c1_1)),
+                1.0,
+                0.0,
+                0.0,
+            ]
+            row_1_5 = [
+                -(w91 * w106 + w94 * w107),
+                -(w103 * w107 + w16 * (w90 - g02 * w30 + w89 - w92 * c2_3)),
+                -(w16 * (g22 * w26 - g02 * w104 - g12 * c1_1) + w105 * w107),
+                0.0,
+                1.0,
+                0.0,
+            ]
+            row_1_6 = [
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+                1.0,
+            ]
+            memory.inverses[0] = invert([row_1_1, row_1_2, row_1_3, row_1_4, row_1_5, row_1_6])
+            if statistics is not None:
+                statistics.matrices += 1
+            if memory.inverses[0] is None:
+                raise _failed(NOT_CONVERGED, "the equations of xi1, n1", 0, sweep, statistics)
+        row_1_1, row_1_2, row_1_3, row_1_4, row_1_5, row_1_6 = memory.inverses[0]
+        change_xi1_0 = (
+            row_1_1[0] * residual_xi1_0
+            + row_1_1[1] * residual_xi1_1
+            + row_1_1[2] * residual_xi1_2
+            + row_1_1[3] * residual_n1_0
+            + row_1_1[4] * residual_n1_1
+            + row_1_1[5] * residual_n1_2
+        )
+        change_xi1_1 = (
+            row_1_2[0] * residual_xi1_0
+            + row_1_2[1] * residual_xi1_1
+            + row_1_2[2] * residual_xi1_2
+            + row_1_2[3] * residual_n1_0
+            + row_1_2[4] * residual_n1_1
+            + row_1_2[5] * residual_n1_2
+        )
+        change_xi1_2 = (
+            row_1_3[0] * residual_xi1_0
+            + row_1_3[1] * residual_xi1_1
+            + row_1_3[2] * residual_xi1_2
+            + row_1_3[3] * residual_n1_0
+            + row_1_3[4] * residual_n1_1
+            + row_1_3[5] * residual_n1_2
+        )
+        change_n1_0 = (
+            row_1_4[0] * residual_xi1_0
+            + row_1_4[1] * residual_xi1_1
+            + row_1_4[2] * residual_xi1_2
+            + row_1_4[3] * residual_n1_0
+            + row_1_4[4] * residual_n1_1
+            + row_1_4[5] * residual_n1_2
+        )
+        change_n1_1 = (
+            row_1_5[0] * residual_xi1_0
+            + row_1_5[1] * residual_xi1_1
+            + row_1_5[2] * residual_xi1_2
+            + row_1_5[3] * residual_n1_0
+            + row_1_5[4] * residual_n1_1
+            + row_1_5[5] * residual_n1_2
+        )
+        change_n1_2 = (
+            row_1_6[0] * residual_xi1_0
+            + row_1_6[1] * residual_xi1_1
+            + row_1_6[2] * residual_xi1_2
+            + row_1_6[3] * residual_n1_0
+            + row_1_6[4] * residual_n1_1
+            + row_1_6[5] * residual_n1_2
+        )
+        xi1_0 += change_xi1_0
+        xi1_1 += change_xi1_1
+        xi1_2 += change_xi1_2
+        n1_0 += change_n1_0
+        n1_1 += change_n1_1
+        n1_2 += change_n1_2
         change = max(
-            change_xi1_0,
-            change_xi1_1,
-            change_xi1_2,
-            change_n1_0,
-            change_n1_1,
-            change_n1_2,
+            abs(change_xi1_0),
+            abs(change_xi1_1),
+            abs(change_xi1_2),
+            abs(change_n1_0),
+            abs(change_n1_1),
+            abs(change_n1_2),
         )
         scale = max(
             1.0,
@@ -272,75 +559,56 @@ def _advance(state, h, statistics):
             abs(n1_1),
             abs(n1_2),
         )
-        total = (
-            change_xi1_0
-            + change_xi1_1
-            + change_xi1_2
-            + change_n1_0
-            + change_n1_1
-            + change_n1_2
-        )
-        if not isfinite(total):
-            raise _failed(NOT_FINITE, "the equations of xi1, n1", 0, sweep, statistics)
         still = 0.0 < previous_1 <= change <= 5.684341886080802e-14 * scale
         close = change * change <= 1.1102230246251565e-16 * scale * previous_1
         if still or (close and change <= 3.552713678800501e-15 * scale):
             break
+        make_1 = 0.0 < 0.0625 * previous_1 < change
         previous_1 = change
-        xi1_0 = f1_0
-        xi1_1 = f1_1
-        xi1_2 = f1_2
-        n1_0 = next_n1_0
-        n1_1 = Q1_2
-        n1_2 = next_n1_2
     else:
         raise _failed(NOT_CONVERGED, "the equations of xi1, n1", 0, sweep, statistics)
     if statistics is not None:
         statistics.count(0, sweep)
-    Y_1 = h * f1_1
-    Y_0 = h * f1_0
-    Y_2 = h * f1_2
-    w26 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2
-    c1_2, c2_4 = _stumpff_12(w26)
-    w28 = Y_1 * c2_4
-    w29 = Y_1 * w28
-    w30 = Y_2 * c2_4 * Y_2
-    g_0 = 1.0 - (w29 + w30)
-    w31 = Y_0 * c2_4
-    w32 = Y_1 * w31
-    w34 = Y_2 * c1_2
-    g_1 = w32 - w34
-    w35 = Y_1 * c1_2
-    w36 = Y_2 * w31
-    g_2 = w35 + w36
-    g_3 = w32 + w34
-    w37 = Y_0 * w31
-    g_4 = 1.0 - (w30 + w37)
-    w38 = Y_2 * w28
-    w39 = Y_0 * c1_2
-    g_5 = w38 - w39
-    g_6 = w36 - w35
-    g_7 = w38 + w39
-    g_8 = 1.0 - (w29 + w37)
-    c1_3 = _stumpff_1(w11)
-    w41 = z_2 * c1_3
-    w42 = z_0 * w12
-    w43 = z_1 * w42
-    w44 = z_1 * w12
-    w45 = z_2 * w12 * z_2
+    w108 = Y_1 * w2
+    w109 = Y_1 * w108
+    w110 = Y_2 * w2 * Y_2
+    g_0 = 1.0 - (w109 + w110)
+    w111 = Y_0 * w2
+    w112 = Y_1 * w111
+    c1_2 = _stumpff_1(w1)
+    w114 = Y_2 * c1_2
+    g_1 = w112 - w114
+    w115 = Y_1 * c1_2
+    w116 = Y_2 * w111
+    g_2 = w115 + w116
+    g_3 = w112 + w114
+    w117 = Y_0 * w111
+    g_4 = 1.0 - (w110 + w117)
+    w118 = Y_2 * w108
+    w119 = Y_0 * c1_2
+    g_5 = w118 - w119
+    g_6 = w116 - w115
+    g_7 = w118 + w119
+    g_8 = 1.0 - (w109 + w117)
+    w120 = z_1 * w10
+    w121 = z_2 * w10 * z_2
+    c1_3 = _stumpff_1(w9)
+    w123 = z_2 * c1_3
+    w124 = z_0 * w10
+    w125 = z_1 * w124
     mu1_0 = (
         mu0 * g_0
         + mu1 * g_1
         + mu2 * g_2
-        + h * (Q1_2 * (w41 + w43) - Q1_5 * (1.0 - (z_1 * w44 + w45)))
+        + h * (n1_0 * (1.0 - (z_1 * w120 + w121)) + n1_1 * (w123 + w125))
     )
     mu1_1 = (
         mu0 * g_3
         + mu1 * g_4
         + mu2 * g_5
-        + h * (Q1_2 * (1.0 - (w45 + z_0 * w42)) - Q1_5 * (w43 - w41))
+        + h * (n1_0 * (w125 - w123) + n1_1 * (1.0 - (w121 + z_0 * w124)))
     )
-    w46 = h * (Q1_2 * (z_2 * w44 - z_0 * c1_3) - Q1_5 * (z_2 * w42 + z_1 * c1_3))
+    w126 = h * (n1_0 * (z_2 * w124 + z_1 * c1_3) + n1_1 * (z_2 * w120 - z_0 * c1_3))
     new_g00 = g00 * g_0 + g10 * g_1 + g20 * g_2
     new_g01 = g01 * g_0 + g11 * g_1 + g21 * g_2
     new_g02 = g02 * g_0 + g12 * g_1 + g22 * g_2
@@ -350,7 +618,9 @@ def _advance(state, h, statistics):
     new_g20 = g00 * g_6 + g10 * g_7 + g20 * g_8
     new_g21 = g01 * g_6 + g11 * g_7 + g21 * g_8
     new_g22 = g02 * g_6 + g12 * g_7 + g22 * g_8
-    new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w46
+    new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w126
+    found = xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2
+    memory.past = [found, *memory.past[:2]]
     return (
         new_g00,
         new_g01,
@@ -367,10 +637,10 @@ def _advance(state, h, statistics):
     )
 
 
-def _checked(state, h, statistics):
+def _checked(state, h, memory, statistics):
     """Return the state after one step, which is finite."""
     try:
-        new = _advance(state, h, statistics)
+        new = _advance(state, h, memory, statistics)
     except StepFailed:
         raise
     except (ArithmeticError, ValueError) as error:
@@ -399,12 +669,22 @@ def run(state, h, steps, *, stride=0, statistics=None):
     if len(state) != 12:
         raise ValueError(f"expected 12 numbers in state, found {len(state)}")
     rows = [list(state)]
+    memory = _Memory()
     made = 0
     try:
         if steps > 0 and not isfinite(h):
             raise StepFailed(BAD_STEP, f"the step size h = {h} is not finite")
         for made in range(steps):
-            state = _checked(state, h, statistics)
+            try:
+                state = _checked(state, h, memory, statistics)
+            except StepFailed:
+                if not memory.past:
+                    raise
+                # The solutions before may mislead where the motion changes.
+                memory = _Memory()
+                if statistics is not None:
+                    statistics.failed = 0
+                state = _checked(state, h, memory, statistics)
             if stride > 0 and (made + 1) % stride == 0:
                 rows.append(list(state))
     except StepFailed as failure:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Kernel, PutOff
+from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Kernel, PutOff, Start
 from codegen.printers.arrange import Arrangement, arrange
-from codegen.printers.c.statements import RESERVED, Statements, comment, fill, literal
+from codegen.printers.c.statements import RESERVED, Statements, literal
+from codegen.printers.c.text import comment, fill
 from codegen.printers.expression import spell
 from codegen.printers.interface import Interface
 from codegen.printers.layout import layout, register, times
@@ -32,11 +33,13 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     functions = {*arrangement.functions(), "isfinite"}
     if interface.blocks:
         functions |= {"fabs", "greater"}
-    held_more = 0
+    if interface.newton:
+        functions.add("invert")
+    held = names.count + len(kernel.samples) * len(kernel.inputs) + remembered(kernel)
     if kernel.estimate is not None:
         variables["order"] = kernel.estimate.order
-        held_more = 2 * interface.size
-    variables["put_off"], held = None, names.count + len(kernel.samples) * len(kernel.inputs) + held_more
+        held += 2 * interface.size
+    variables["put_off"] = None
     if kernel.put_off is not None:
         variables["put_off"], variables["advance_source"], more, held = put_off(
             kernel.put_off, arrangement, names, interface
@@ -146,7 +149,8 @@ def stack(numbers: int, interface: Interface) -> str:
     """
     size = {"double": 8, "float": 4}[interface.format.c_type]
     rounded = -(-size * numbers // 64) * 64
-    return f"at most {rounded + FRAMES} bytes, without what the mathematical library takes"
+    frames = FRAMES + FRAMES // 2 * interface.newton
+    return f"at most {rounded + frames} bytes, without what the mathematical library takes"
 
 
 def own_names(interface: Interface) -> frozenset[str]:
@@ -166,15 +170,17 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
     several = len(interface.inputs)
     sampled = [f"{interface.prefix}input input", "void *context"] if several else []
     constant = [f"const {real} inputs[{several}]"] if several else []
+    memory, start = memory_of(kernel), kernel.start
+    remembering = ["struct memory *memory"] if memory else []
     step = [*time, f"{real} h", *parameters, *constant, *statistics]
     estimate = [f"{real} *error"] if interface.adaptive else []
-    inner = [*time, f"{real} h", *parameters, *sampled, *statistics, *estimate]
+    inner = [*time, f"{real} h", *parameters, *sampled, *remembering, *statistics, *estimate]
     chosen = [f"{real} *t", f"{real} end", f"{real} *h", f"{real} rtol", f"{real} atol", "size_t limit"]
     chosen += [*parameters, *sampled, *statistics, "size_t *accepted", "size_t *rejected"]
     run = [*time, f"{real} h", "size_t steps", *parameters, *sampled, f"{real} *trajectory", "size_t stride"]
     run += [*statistics, "size_t *completed"]
     passed = ["h", *(names.spelled[p] for p in interface.parameters)]
-    given = ["statistics"] if interface.blocks else []
+    given = [*(["&memory"] if memory else []), *(["statistics"] if interface.blocks else [])]
     none = ["NULL"] if interface.adaptive else []
     called = ["input", "context"] if several else []
     return {
@@ -185,6 +191,12 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
         "real": real,
         "later": later(interface),
         "time": interface.time,
+        "newton": interface.newton,
+        "memory": memory,
+        "remembered": [names.spelled[u] for u in start.unknowns] if start else [],
+        "depth": Start.DEPTH,
+        "three": literal(interface.format, 3.0),
+        "two": literal(interface.format, 2.0),
         "blocks": [comment(label) for label in interface.blocks],
         "step_header": signature(f"int {interface.prefix}step", f"{real} state[{interface.size}]", step, ";"),
         "run_header": signature(f"int {interface.prefix}run", f"{real} state[{interface.size}]", run, ";"),
@@ -205,6 +217,23 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
     }
 
 
+def memory_of(kernel: Kernel) -> dict[str, object]:
+    """Return what a run remembers: ``past``, how many unknowns, and ``inverses``, loops and their sizes."""
+    start, inverses = kernel.start, inverses_of(kernel)
+    return {"past": len(start.unknowns) if start else 0, "inverses": inverses} if start or inverses else {}
+
+
+def inverses_of(kernel: Kernel) -> list[tuple[int, int]]:
+    """Return the loops that Newton's method solves, by number, with how many unknowns each has."""
+    return [(k, len(loop.unknowns)) for k, loop in enumerate(kernel.loops, 1) if loop.newton is not None]
+
+
+def remembered(kernel: Kernel) -> int:
+    """Return how many numbers a run remembers, and what inverting a matrix takes besides."""
+    memory, start = [n * n + 2 * n + 1 for _, n in inverses_of(kernel)], kernel.start
+    return sum(memory) + (Start.DEPTH * len(start.unknowns) + 1 if start else 0)
+
+
 def signature(start: str, state: str, arguments: list[str], end: str) -> list[str]:
     """Return the lines of a function's head."""
     pieces = [f"{argument}," for argument in arguments[:-1]] + [f"{arguments[-1]})"]
@@ -218,9 +247,9 @@ def prototypes(interface: Interface) -> str:
     time = f"{real} t, " if interface.time else ""
     parameters = "".join(f"{real} p{i}, " for i in range(len(interface.parameters)))
     statistics = f"{prefix}statistics *statistics, " if blocks else ""
-    record = (
-        f"typedef struct {{ size_t sweeps[{blocks}]; size_t most; size_t failed; }} {prefix}statistics;\n"
-    )
+    matrices = "size_t matrices; " if interface.newton else ""
+    fields = f"size_t sweeps[{blocks}]; size_t most; size_t failed; {matrices}"
+    record = f"typedef struct {{ {fields}}} {prefix}statistics;\n"
     callback = f"typedef void (*{prefix}input)({real} t, {real} *inputs, void *context);\n"
     sampled = f"{prefix}input input, void *context, " if interface.inputs else ""
     chosen = f"{real} *t, {real} end, {real} *h, {real} rtol, {real} atol, size_t limit, "

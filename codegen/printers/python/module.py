@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Kernel, PutOff
+from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Kernel, PutOff, Start
 from codegen.printers.arrange import Arrangement, arrange
 from codegen.printers.expression import spell
 from codegen.printers.interface import Interface
@@ -10,7 +10,8 @@ from codegen.printers.layout import layout, register, times
 from codegen.printers.names import Names
 from codegen.printers.operations import costs
 from codegen.printers.precision import DOUBLE
-from codegen.printers.python.statements import RESERVED, WIDTH, Statements, listed, quoted
+from codegen.printers.python.statements import RESERVED, Statements
+from codegen.printers.python.text import WIDTH, listed, quoted
 from codegen.printers.recipe import Recipe, header
 from codegen.snippets.graph import needed
 from codegen.templates import environment
@@ -30,13 +31,15 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     body = list(statements.lines())
     ends, new = statements.outputs(symbols)
     functions = {*arrangement.functions(), "isfinite"}
+    if interface.newton:
+        functions.add("invert")
     ending: dict[str, object] | None = None
     if kernel.put_off is not None:
         ending, more, constants = put_off(kernel.put_off, arrangement, names, interface)
         statements.constants |= constants
         functions |= more
     found = needed("python", sorted(functions), precision)
-    library = [name for name in found.library if name != "fabs"]
+    library = found.library
     imports = ["isfinite"] if single else library
     if kernel.estimate is not None:
         imports = sorted({*imports, "copysign", "inf", "sqrt"})
@@ -51,6 +54,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     inputs = ["inputs"] if interface.inputs else []
     held = ["lambda t: inputs"] if interface.inputs else []
     optional = [f"{s}=None" for s in statistics]
+    start = kernel.start
+    memory = ["memory"] if start or interface.newton else []
     adaptive: dict[str, object] | None = None
     if kernel.estimate is not None:
         order = kernel.estimate.order
@@ -59,7 +64,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
                 [*("state", "t", "end"), *inputs, "h=0.0", *keywords(LIMITS), *arguments, *optional]
             ),
             "floats": ["rtol", "atol", *parameters],
-            "passed": ", ".join([*parameters, *inputs, *statistics]),
+            "passed": ", ".join([*parameters, *inputs, *(["_Memory()"] if memory else []), *statistics]),
             "present": repr(-0.7 / order),
             "past": repr(0.4 / order),
             "alone": repr(-1.0 / order),
@@ -85,14 +90,20 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             time=interface.time,
             floats=[*time, "h", *parameters],
             state=unpacking([names.spelled[s] for s in symbols]),
-            inner=", ".join(["state", *time, "h", *parameters, *inputs, *statistics]),
+            newton=interface.newton,
+            memory=bool(memory),
+            depth=Start.DEPTH,
+            three="float32(3.0)" if single else "3.0",
+            two="float32(2.0)" if single else "2.0",
+            remembered=listed("found = ", [names.spelled[u] for u in start.unknowns], 1) if start else [],
+            inner=", ".join(["state", *time, "h", *parameters, *inputs, *memory, *statistics]),
             inputs=interface.inputs,
             step=", ".join(["state", *time, "h", *inputs, *arguments, *keywords(optional)]),
             run=", ".join(
                 ["state", *time, "h", "steps", *inputs, *arguments, *keywords(["stride=0", *optional])]
             ),
             once=", ".join(["state", *time, "h", "1", *held, *parameters, *(f"{n}={n}" for n in statistics)]),
-            passed=", ".join(["h", *parameters, *inputs, *statistics]),
+            passed=", ".join(["h", *parameters, *inputs, *memory, *statistics]),
             put_off=ending,
             again=", ".join(["state", *time, "h", "failure.step", *parameters]),
             body=[*body, *ends],

@@ -1,14 +1,16 @@
 from __future__ import annotations
 
+import math
 import random
 
 import pytest
 import sympy
 
-from codegen.ir.differentiate import gradient
-from codegen.ir.domain import PreciseDomain
+from codegen.ir.differentiate import NotDifferentiable, gradient
+from codegen.ir.domain import FloatDomain, PreciseDomain, SeriesDomain
 from codegen.ir.expr import Space, evaluate
 from codegen.ir.from_sympy import read
+from orderconds.ring import QQ
 
 x, y, z = sympy.symbols("x y z", real=True)
 
@@ -56,7 +58,45 @@ def test_a_shared_part_is_counted_for_each_use():
     assert evaluate([slope], PreciseDomain(0, 20), {"u": 2}) == [2 * 5 * 4 + 4]
 
 
-def test_run_time_functions_are_not_differentiated():
+@pytest.mark.parametrize("z", ["0", "1e-9", "0.3", "1", "1.7", "25"])
+@pytest.mark.parametrize("name", [f"stumpff{k}" for k in range(4)])
+def test_the_derivatives_of_stumpff_functions_are_limits_of_difference_quotients(name, z):
+    space, d = Space(), PreciseDomain(0, 60)
+    (slope,) = gradient(space.call(name, space.sym("u")), ["u"])
+    u, step = d.context.mpf(z), d.context.mpf("1e-20")
+    (found,) = evaluate([slope], d, {"u": u})
+    quotient = (d.call(name, u + step) - d.call(name, u)) / step
+    assert abs(found - quotient) < 1e-19
+
+
+@pytest.mark.parametrize("k", [2, 3])
+def test_slopes_in_doubles_and_over_power_series_are_those_of_many_digits(k):
+    d = PreciseDomain(0, 40)
+    for z in (0.0, 1e-12, 0.4, 1.0, 1.0000001, 3.0, 400.0):
+        exact = d.call(f"slope{k}", d.context.mpf(z))
+        assert abs(FloatDomain(0.0).call(f"slope{k}", z) - exact) <= 64 * 2.0**-53 * abs(d.call("slope2", 0))
+    series = SeriesDomain(QQ, 6)
+    h = series.h
+    direct = series.call(f"slope{k}", h * h)
+    by_terms = sum(
+        (
+            -(j + 1) * series.rational((-1) ** j, math.factorial(2 * j + 2 + k)) * (h * h) ** j
+            for j in range(4)
+        ),
+        series.ring.zero,
+    )
+    assert all(QQ.is_zero(a - b) for a, b in zip(direct.coefficients, by_terms.coefficients, strict=True))
+
+
+def test_a_quotient_is_differentiated_away_from_the_zeros_of_its_divisor():
+    space, d = Space(), PreciseDomain(0, 30)
+    a, b = space.sym("a"), space.sym("b")
+    slopes = gradient(space.call("quotient", a, b), ["a", "b"])
+    assert evaluate(slopes, d, {"a": 3, "b": 2}) == [d.rational(1, 2), d.rational(-3, 4)]
+
+
+@pytest.mark.parametrize("name", ["slope2", "slope3", "signed_stumpff1"])
+def test_functions_without_a_derivative_here_are_refused(name):
     space = Space()
-    with pytest.raises(ValueError, match="not differentiated"):
-        gradient(space.call("stumpff1", space.sym("u")), ["u"])
+    with pytest.raises(NotDifferentiable, match=name):
+        gradient(space.call(name, space.sym("u")), ["u"])

@@ -7,7 +7,8 @@ import pytest
 from codegen.ir.domain import FloatDomain, SeriesDomain
 from codegen.ir.expr import evaluate, walk
 from codegen.ir.interpret import interpret
-from codegen.ir.kernel import Let, Loop
+from codegen.ir.kernel import Let, Loop, Start
+from codegen.ir.program import Solve
 from codegen.lower.kernel import INLINE, to_kernel
 from codegen.passes import optimise
 from orderconds.ring import QQ
@@ -24,22 +25,49 @@ def carried_out(kernel, scene, domain, inputs):
         assert statement.name not in known or statement.name in inside
         (known[statement.name],) = evaluate([statement.value], domain, known)
 
-    inside = {x.name for s in kernel.body if isinstance(s, Loop) for x in s.body}
+    inside = {
+        x.name for loop in kernel.loops for x in (*loop.body, *(loop.newton.body if loop.newton else ()))
+    }
     for statement in kernel.body:
         if isinstance(statement, Let):
             let(statement)
             continue
-        known.update(zip(statement.unknowns, evaluate(statement.starts, domain, known), strict=True))
+        if isinstance(statement, Start):
+            for x in statement.body:
+                let(x)
+            known.update(zip(statement.unknowns, evaluate(statement.values, domain, known), strict=True))
+            continue
+        assert statement.starts == ()
         size = None
         while True:
             for x in statement.body:
                 let(x)
-            images = evaluate(statement.images, domain, known)
-            done, size = domain.settled([known[u] for u in statement.unknowns], images, size)
+            now = [known[u] for u in statement.unknowns]
+            new = evaluate(statement.images, domain, known)
+            if statement.newton is not None:
+                for x in statement.newton.body:
+                    let(x)
+                rows = [evaluate(row, domain, known) for row in statement.newton.matrix]
+                correction = eliminated(rows, [a - b for a, b in zip(new, now, strict=True)])
+                new = [a + b for a, b in zip(now, correction, strict=True)]
+            done, size = domain.settled(now, new, size)
+            if not done or statement.newton is not None:
+                known.update(zip(statement.unknowns, new, strict=True))
             if done:
                 break
-            known.update(zip(statement.unknowns, images, strict=True))
     return evaluate(kernel.outputs, domain, known)
+
+
+def eliminated(rows, right):
+    """Solve a linear system near the unit matrix: no rows are exchanged."""
+    rows = [[*row, r] for row, r in zip(rows, right, strict=True)]
+    n = len(rows)
+    for k in range(n):
+        rows[k] = [x / rows[k][k] for x in rows[k]]
+        for i in range(n):
+            if i != k:
+                rows[i] = [x - rows[i][k] * y for x, y in zip(rows[i], rows[k], strict=True)]
+    return [row[n] for row in rows]
 
 
 CASES = [
@@ -60,33 +88,38 @@ CASES = [
 ]
 
 
-@pytest.mark.parametrize("after", [False, True], ids=["as lowered", "after all passes"])
+@pytest.mark.parametrize("how", ["as lowered", "after all passes", "by Newton's method"])
 @pytest.mark.parametrize(("family", "tableau", "scene", "cutoff"), CASES)
 class TestAKernelMeansItsProgram:
-    def both(self, family, tableau, scene, cutoff, after, domain):
+    def both(self, family, tableau, scene, cutoff, how, domain):
         view, program = lowered(family, tableau, scene, cutoff)
-        if after:
+        if how != "as lowered":
             program, _ = optimise(program, view)
         inputs = starting(view, domain)
         state = interpret(program, view, domain, inputs)
         flat = [x for block in view.state for x in state[block.name]]
-        return carried_out(to_kernel(program, view), view, domain, inputs), flat
+        labels = [s.label for s in program.body if isinstance(s, Solve)]
+        if how == "by Newton's method" and not labels:
+            pytest.skip("nothing is implicit")
+        kernel = to_kernel(program, view, labels if how == "by Newton's method" else ())
+        return carried_out(kernel, view, domain, inputs), flat
 
-    def test_exactly(self, family, tableau, scene, cutoff, after):
+    def test_exactly(self, family, tableau, scene, cutoff, how):
         domain = SeriesDomain(QQ, 3)
-        found, expected = self.both(family, tableau, scene, cutoff, after, domain)
+        found, expected = self.both(family, tableau, scene, cutoff, how, domain)
         assert all(domain.ring.is_zero(a - b) is True for a, b in zip(found, expected, strict=True))
 
-    def test_in_doubles(self, family, tableau, scene, cutoff, after):
-        found, expected = self.both(family, tableau, scene, cutoff, after, FloatDomain(2.0**-8))
+    def test_in_doubles(self, family, tableau, scene, cutoff, how):
+        found, expected = self.both(family, tableau, scene, cutoff, how, FloatDomain(2.0**-8))
         assert max(abs(a - b) for a, b in zip(found, expected, strict=True)) < 1e-13
 
 
-@pytest.fixture
-def kernel():
+@pytest.fixture(params=["fixed point", "newton"])
+def kernel(request):
     view, program = lowered("vcg", "triple_jump", hamiltonian_scene("SO(3)"))
     program, _ = optimise(program, view)
-    return to_kernel(program, view)
+    labels = [s.label for s in program.body if isinstance(s, Solve)]
+    return to_kernel(program, view, labels if request.param == "newton" else ())
 
 
 def test_names_are_assigned_once_and_before_use(kernel):
@@ -104,12 +137,27 @@ def test_names_are_assigned_once_and_before_use(kernel):
         if isinstance(statement, Let):
             let(statement)
             continue
-        read(statement.starts)
-        assert not known & set(statement.unknowns)
-        known.update(statement.unknowns)
+        if isinstance(statement, Start):
+            outside = set(known)
+            for x in statement.body:
+                let(x)
+            read(statement.values)
+            assert not known & set(statement.unknowns)
+            known &= outside
+            known.update(statement.unknowns)
+            continue
         for x in statement.body:
             let(x)
         read(statement.images)
+        if statement.newton is not None:
+            outside = set(known)
+            for x in statement.newton.body:
+                let(x)
+            for row in statement.newton.matrix:
+                read(row)
+            known &= outside
+        if statement.read_anew:
+            known -= {x.name for x in statement.body}
     read(kernel.outputs)
 
 

@@ -1,0 +1,48 @@
+"""Text of Python: lines that are broken where they are too long."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+
+WIDTH = 88
+
+
+def quoted(text: str) -> str:
+    """Spell a string with double quotes."""
+    return json.dumps(text, ensure_ascii=False)
+
+
+def call(start: str, terms: list[str], depth: int) -> list[str]:
+    """Return a call of a function of several terms; of one term, the term itself."""
+    space = "    " * depth
+    if len(terms) == 1:
+        return [f"{space}{start.rpartition(' ')[0]} {terms[0]}"]
+    line = f"{space}{start}({', '.join(terms)})"
+    if len(line) <= WIDTH:
+        return [line]
+    return [f"{space}{start}(", *(f"{space}    {term}," for term in terms), f"{space})"]
+
+
+def indented(start: str, pieces: tuple[str, ...], depth: int) -> list[str]:
+    """Return start and pieces on one line, or in parentheses with a piece a line where that is too long.
+
+    >>> indented("x = ", ("a", "+ b"), 1)
+    ['    x = a + b']
+    """
+    space = "    " * depth
+    line = f"{space}{start}{' '.join(pieces)}"
+    if len(line) <= WIDTH or len(pieces) == 1:
+        return [line]
+    inner = f"{space}    {' '.join(pieces)}"
+    lines = [inner] if len(inner) <= WIDTH else [f"{space}    {piece}" for piece in pieces]
+    return [f"{space}{start}(", *lines, f"{space})"]
+
+
+def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
+    """Return start and a tuple of terms: bare on one line, else in parentheses with a term a line."""
+    space = "    " * depth
+    line = f"{space}{start}{', '.join(terms)}{',' if len(terms) == 1 else ''}"
+    if len(line) <= WIDTH:
+        return [line]
+    return [f"{space}{start}(", *(f"{space}    {term}," for term in terms), f"{space})"]

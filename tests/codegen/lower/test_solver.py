@@ -1,0 +1,61 @@
+"""Which solver a block gets: the cheaper one that settles, and any that is asked for."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+from codegen.emit import compile_method, emit
+from codegen.ir.kernel import FIXED_POINT, NEWTON
+from codegen.lower.solver import CHOICES
+from orderconds.errors import UnknownName
+
+
+@cache
+def compiled(scene, method, solver="auto"):
+    return compile_method(scene, method, solver=solver)
+
+
+def test_a_stiff_scene_is_solved_by_newtons_method():
+    (choice,) = compiled("stiff_driven_spin", "rkmk(0):gauss1").solvers
+    assert choice.solver == NEWTON
+    assert choice.reason == "a fixed point does not settle"
+
+
+def test_a_scene_near_the_limit_of_fixed_points_is_solved_by_newtons_method():
+    (choice,) = compiled("heavy_top", "vcg:midpoint").solvers
+    assert (choice.solver, choice.unknowns) == (NEWTON, 6)
+    assert "times as long" in choice.reason
+
+
+def test_many_unknowns_that_change_slowly_are_iterated():
+    (choice,) = compiled("linear_oscillator", "rk:gauss2").solvers
+    assert (choice.solver, choice.unknowns) == (FIXED_POINT, 16)
+    assert "operations a step, not" in choice.reason
+
+
+@pytest.mark.parametrize("solver", [NEWTON, FIXED_POINT])
+def test_what_is_asked_for_is_done_and_told(solver):
+    made = compiled("dipole", "vcg:triple_jump", solver)
+    assert {loop.solver for loop in made.kernel.loops} == {solver}
+    assert [c.reason for c in made.solvers] == ["asked for"] * 3
+    emission = emit("dipole", "vcg:triple_jump", solver=solver)
+    assert emission.manifest["interface"]["solvers"] == [solver] * 3
+    assert [c["solver"] for c in emission.manifest["solvers"]] == [solver] * 3
+    source = emission.files["dipole_vcg_triple_jump.c"]
+    assert f"--solver {solver}" in source
+    assert source.count(" * solved by:") == 3
+    assert ("invert" in source) == (solver == NEWTON)
+
+
+def test_explicit_methods_have_nothing_to_solve():
+    made = compiled("free_rigid_body", "cf4", NEWTON)
+    assert made.solvers == ()
+    assert "solved by" not in emit("free_rigid_body", "cf4", solver=NEWTON).files["free_rigid_body_cf4.c"]
+
+
+def test_an_unknown_solver_is_named_with_those_there_are():
+    with pytest.raises(UnknownName, match="unknown solver broyden") as failure:
+        compile_method("dipole", "vcg:midpoint", solver="broyden")
+    assert all(name in str(failure.value) for name in CHOICES)
