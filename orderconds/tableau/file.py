@@ -203,7 +203,8 @@ def _explained(message: str, kind: type[Struct], prefix: str, where: str) -> Tab
 
 
 def _verify_names(entry: Format, where: str) -> None:
-    for name in (entry.name, entry.bibtex, *entry.numbers):
+    inside = (name for key in ("parts", "elements") for name in getattr(entry, key, ()))
+    for name in (entry.name, entry.bibtex, *entry.numbers, *entry.claims, *inside):
         if len(name) > MAX_NAME:
             raise TableauError(
                 f"a name of {len(name)} characters, {name[:20]!r} ...",

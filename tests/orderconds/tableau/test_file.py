@@ -11,6 +11,8 @@ from hypothesis import strategies as st
 from orderconds.errors import TableauError
 from orderconds.ring import QQ
 from orderconds.tableau import CommutatorFree, RungeKutta, Tableau, dumps
+from orderconds.tableau.toml_text import toml_text
+from orderconds.tableau.write import written_out
 
 HEAD = 'name = "t"\nfamily = "rk"\n'
 EULER = HEAD + 'A = [[]]\nb = ["1"]\n'
@@ -45,14 +47,33 @@ def cf_files(draw: st.DrawFn) -> str:
             lines.append(f"from = {draw(st.integers(1, i))}")
         exponentials = draw(st.lists(st.lists(COEFFICIENTS, max_size=s), max_size=2))
         lines.append(f"exp = [{', '.join(map(row, exponentials))}]")
+    if draw(st.booleans()):
+        exponentials = draw(st.lists(st.lists(COEFFICIENTS, max_size=s), max_size=2))
+        lines += ["[embedded]", "order = 1", f"exp = [{', '.join(map(row, exponentials))}]"]
+        if draw(st.booleans()):
+            lines.append(f"from = {draw(st.integers(1, s))}")
     return "\n".join([*lines, NUMBERS])
+
+
+def read(text: str) -> Tableau | None:
+    """Return the tableau, None where its embedded row happens to be the main one."""
+    try:
+        return Tableau.loads(text)
+    except TableauError as problem:
+        if "its error estimate is identically zero" not in str(problem):
+            raise
+        return None
 
 
 @given(text=st.one_of(rk_files(), cf_files()))
 def test_a_written_tableau_reads_back_the_same(text: str) -> None:
-    tableau = Tableau.loads(text)
+    tableau = read(text)
+    if tableau is None:
+        return
     assert Tableau.loads(dumps(tableau)) == tableau
     assert dumps(Tableau.loads(dumps(tableau))) == dumps(tableau)
+    full = Tableau.loads(toml_text(written_out(tableau)))
+    assert (full.method, full.embedded) == (tableau.method, tableau.embedded)
 
 
 def test_claims_embedded_rows_and_sources_read_back_the_same() -> None:
@@ -135,6 +156,11 @@ MALFORMED = {
     "a number's name without end": (
         HEAD + f'A = [[]]\nb = [1]\nnumbers = {{ {"a" * 99} = "1" }}\n',
         "a name of 99 characters",
+        "at most 64",
+    ),
+    "a part's name without end": (
+        f'name = "t"\nfamily = "splitting"\nparts = ["{"a" * 70}", "b"]\nstep = [["b", "1"]]\n',
+        "a name of 70 characters",
         "at most 64",
     ),
     "bad name": ('name = "a b"\nfamily = "rk"\nA = [[]]\nb = ["1"]\n', "name = 'a b'", "letters"),
