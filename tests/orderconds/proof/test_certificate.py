@@ -154,6 +154,16 @@ def test_refining_what_solves_nothing_is_refused() -> None:
         refine(wrong)
 
 
+def test_a_solution_at_which_the_equations_are_singular_is_neither_proved_nor_refined() -> None:
+    """The eleven exponentials of order eight in print, listed in tableaux/DECIMAL for this reason."""
+    proof = '[proof]\nconditions = "cf_magnus"\norder = 8\nreduction = "symmetric"\n\n[claims]'
+    named = text("cf_magnus8_11").replace("[claims]", proof)
+    with pytest.raises(NotProved, match="5 of 22 equations depend on the others"):
+        refine(named)
+    with pytest.raises(NotProved):
+        certify(Tableau.loads(named))
+
+
 def random_low_storage(stages: int) -> Callable[[Residues, np.random.Generator], ExponentialsSeries]:
     def series(ring: Residues, generator: np.random.Generator) -> ExponentialsSeries:
         register, rows = [ring.zero] * stages, []
