@@ -437,12 +437,17 @@ def _norm(decimals: list[str]) -> float:
 
 
 def read(given: str | PathLike[str]) -> Tableau:
-    """Read a file, or the tableau of the library that has this name.
+    """Read a file of any format that :mod:`orderconds.exchange` reads, or the library's tableau of this name.
 
     >>> read("rk4").name
     'rk4'
     """
     path = Path(given)
+    if path.suffix and path.suffix != ".toml":
+        from orderconds.exchange import load_foreign
+
+        if (foreign := load_foreign(path)) is not None:
+            return foreign
     bare = path.name == str(given) and path.suffix != ".toml"
     return Tableau.load(find(path.name) if bare and not path.exists() else path)
 

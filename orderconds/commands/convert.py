@@ -9,10 +9,9 @@ from pathlib import Path
 import click
 
 from orderconds.commands.place import FILE, put
-from orderconds.errors import TableauError
-from orderconds.exchange import FORMATS, export, format_of, left_out, read_data
+from orderconds.exchange import FORMATS, export, format_of, left_out, name_of, read_data
 from orderconds.tableau import find
-from orderconds.tableau.file import MAX_BYTES, from_data
+from orderconds.tableau.file import bytes_of, from_data
 
 NAMES = click.Choice(list(FORMATS))
 
@@ -29,10 +28,10 @@ def command(source: str, of: str | None, to: str | None, name: str | None, outpu
     """
     bare = of is None and not os.path.exists(source) and "." not in os.path.basename(source)
     path = find(source) if bare else Path(source)
-    content = _content(path)
+    content = bytes_of(path)
     of = of or format_of(str(path))
     to = to or (format_of(output) if output else "toml")
-    data = read_data(content, of, str(path), name or path.stem)
+    data = read_data(content, of, str(path), name or name_of(path))
     if name is not None:
         data["name"] = name
     from_data(data, str(path))  # the grammar, shapes and numbers are sound
@@ -45,15 +44,3 @@ def command(source: str, of: str | None, to: str | None, name: str | None, outpu
         return 0
     put(output, converted)
     return 0
-
-
-def _content(path: Path) -> bytes:
-    try:
-        if path.stat().st_size > MAX_BYTES:
-            raise TableauError(
-                "a file too large for a tableau", where=str(path), expected=f"{MAX_BYTES} bytes"
-            )
-        return path.read_bytes()
-    except OSError as problem:
-        reason = (problem.strerror or "unreadable").lower()
-        raise TableauError(reason, where=str(path), expected="a file to read") from None

@@ -9,13 +9,15 @@ rounded (``~``), shorter ones at their word.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 from orderconds.errors import InputError
 from orderconds.tableau import Tableau
-from orderconds.tableau.file import from_data
+from orderconds.tableau.file import MAX_NAME, bytes_of, from_data
 from orderconds.tableau.write import as_data
 
 Data = Mapping[str, Any]
@@ -75,6 +77,30 @@ def _computed_order(tableau: Tableau) -> int:
     return max(1, family_order(lower, get("rk")).order) if lower else 1
 
 
+def load_foreign(path: str | Path) -> Tableau | None:
+    """Return the tableau of a file whose suffix names a format other than TOML, None for other suffixes.
+
+    Its name is the file's, where the file gives none.
+
+    >>> load_foreign("rk4.toml") is None
+    True
+    """
+    of = _format_of(str(path))
+    if of in (None, "toml"):
+        return None
+    data = read_data(bytes_of(path), of, str(path), name_of(path))
+    return from_data(data, str(path), str(path))
+
+
+def name_of(path: str | Path) -> str:
+    """Return a name for the tableau of a file that gives none.
+
+    >>> name_of("my files/my method (2).csv")
+    'my_method_2'
+    """
+    return re.sub(r"[^A-Za-z0-9.+-]+", "_", Path(path).stem).strip("_.+-")[:MAX_NAME] or "imported"
+
+
 def convert(tableau: Tableau) -> dict[str, Any]:
     """Return a tableau as the keys and values of its file, in which nothing is lost.
 
@@ -100,14 +126,20 @@ def format_of(path: str) -> str:
     >>> format_of("rk4.h")
     'c'
     """
-    for name, (_, suffix) in FORMATS.items():
-        if path.endswith(suffix) or (name == "c" and path.endswith(".h")):
-            return name
+    if (name := _format_of(path)) is not None:
+        return name
     raise InputError(
         f"a file of no known suffix: {path}",
         expected=f"one of {', '.join(suffix for _, suffix in FORMATS.values())}",
         hint="say --from or --to",
     )
+
+
+def _format_of(path: str) -> str | None:
+    for name, (_, suffix) in FORMATS.items():
+        if path.endswith(suffix) or (name == "c" and path.endswith(".h")):
+            return name
+    return None
 
 
 def _module(name: str) -> Any:

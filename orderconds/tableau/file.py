@@ -68,22 +68,32 @@ def text_of(path: str | Path) -> str:
     >>> text_of(find("kutta3")).splitlines()[0]
     'name = "kutta3"'
     """
-    file = Path(path)
     try:
-        with file.open("rb") as stream:  # devices and pipes tell no size beforehand
-            read = stream.read(MAX_BYTES + 1)
-        if len(read) > MAX_BYTES:
-            raise TableauError(
-                "a file too large for a tableau", where=str(path), expected=f"at most {MAX_BYTES} bytes"
-            )
-        return read.decode("utf-8")
-    except OSError as problem:
-        reason = (problem.strerror or "unreadable").lower()
-        raise TableauError(reason, where=str(path), expected="a tableau file (TOML)") from None
+        return bytes_of(path).decode("utf-8")
     except UnicodeDecodeError:
         raise TableauError(
             "bytes that are no UTF-8", where=str(path), expected="a tableau file (TOML)"
         ) from None
+
+
+def bytes_of(path: str | Path) -> bytes:
+    """Return what a file holds, refused where it is too large for a tableau, or has no end.
+
+    >>> from orderconds.tableau import find
+    >>> bytes_of(find("kutta3"))[:4]
+    b'name'
+    """
+    try:
+        with Path(path).open("rb") as stream:  # devices and pipes tell no size beforehand
+            read = stream.read(MAX_BYTES + 1)
+    except OSError as problem:
+        reason = (problem.strerror or "unreadable").lower()
+        raise TableauError(reason, where=str(path), expected="a tableau file") from None
+    if len(read) > MAX_BYTES:
+        raise TableauError(
+            "a file too large for a tableau", where=str(path), expected=f"at most {MAX_BYTES} bytes"
+        )
+    return read
 
 
 def meant_as_tableau(path: str | Path) -> bool:

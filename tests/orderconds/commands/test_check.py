@@ -12,7 +12,8 @@ import pytest
 from click.testing import CliRunner, Result
 
 from orderconds.cli import program
-from orderconds.tableau import available
+from orderconds.exchange import convert, export
+from orderconds.tableau import Tableau, available, find
 
 ROOT = Path(__file__).parents[3]
 
@@ -208,3 +209,23 @@ def test_other_toml_files_of_a_folder_are_left_alone_unless_named(tmp_path: Path
     assert run(str(other)).exit_code == 2
     (tmp_path / "euler.toml").unlink()
     assert "no tableau below this directory" in run(str(tmp_path)).output
+
+
+def test_files_of_other_formats_are_checked_as_they_are(tmp_path: Path) -> None:
+    plain = tmp_path / "my method.csv"
+    plain.write_text("0,0,0\n2/3,2/3,0\n,1/4,3/4\n", encoding="utf-8")
+    result = run(str(plain), "--family", "cg")
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert "my_method: holds" in result.stdout
+    for of, suffix in (("latex", "tex"), ("numpy", "npz"), ("c", "h"), ("json", "json"), ("sympy", "py")):
+        path = tmp_path / f"x.{suffix}"
+        path.write_bytes(export(convert(Tableau.load(find("cf43"))), of))
+        assert run(str(path)).exit_code == 0
+    assert "no such file" in run("missing.csv").stderr
+
+
+def test_a_file_without_end_is_refused() -> None:
+    for arguments in (["check", "/dev/zero"], ["convert", "/dev/zero", "--from", "csv"]):
+        result = CliRunner().invoke(program, arguments)
+        assert result.exit_code == 2
+        assert "too large for a tableau" in result.output
