@@ -36,6 +36,8 @@ def put(path: str, content: bytes) -> None:
     """Write a file under another name and rename it; devices and pipes are written to as they are.
 
     Raises :class:`~orderconds.errors.InputError` where that cannot be done.
+
+    >>> put(os.devnull, b"gone")
     """
     target = Path(path).resolve()  # a link stays a link
     try:
