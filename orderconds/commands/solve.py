@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from orderconds.commands import screen
+from orderconds.commands.place import FILE, put
 from orderconds.errors import InputError
 
 if TYPE_CHECKING:
@@ -43,8 +44,10 @@ if TYPE_CHECKING:
 @click.option("--processes", type=click.IntRange(1, 256), help="Local processes.  [one a processor]")
 @click.option("--dask", metavar="ADDRESS", help="Let the dask cluster at tcp://host:port work.")
 @click.option("--name", default="found", show_default=True, help="The tableau's name.")
-@click.option("--output", "-o", metavar="FILE", help="Write here instead of stdout.")
-@click.option("--checkpoint", metavar="FILE", help="Keep what is finished.  [FILE.search with -o FILE]")
+@click.option("--output", "-o", type=FILE, metavar="FILE", help="Write here instead of stdout.")
+@click.option(
+    "--checkpoint", type=FILE, metavar="FILE", help="Keep what is finished.  [FILE.search with -o FILE]"
+)
 @click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
 def command(family: str, output: str | None, as_json: bool, **options: Any) -> int:
     """Find a method of FAMILY with so many stages and an order, prove it, and write its tableau.
@@ -63,13 +66,12 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
         with screen.working(f"searching {family}") as report:
             outcome = solve(order, report)
     except KeyboardInterrupt:
-        kept = f"; what is finished is kept in {order.checkpoint}" if order.checkpoint else ""
+        path = order.checkpoint
+        kept = f"; what is finished is kept in {path}" if path is not None and path.exists() else ""
         click.echo(f"orderconds: interrupted{kept}", err=True)
         return 130
     if outcome.found is not None and output is not None:
-        from orderconds.solve.search import write_whole
-
-        write_whole(Path(output), outcome.found.text)
+        put(output, outcome.found.text.encode())
     if as_json:
         screen.print_json(_record(order, outcome, output))
     else:
@@ -86,7 +88,8 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
         **{key: options[key] for key in ("fix", "positive", "exponentials", "inner")},
         size=_size(options["size"]),
     )
-    path = options["checkpoint"] or (f"{output}.search" if output else None)
+    device = output is not None and Path(output).exists() and not Path(output).is_file()
+    path = options["checkpoint"] or (f"{output}.search" if output and not device else None)
     for given, option in ((output, "--output"), (path, "--checkpoint")):
         if given is not None and not Path(given).absolute().parent.is_dir():
             raise InputError(
@@ -140,7 +143,7 @@ def _print(order: Order, outcome: Outcome, output: str | None) -> None:
         _print_proof(order, outcome.none)
     elif outcome.found is None:
         click.echo(
-            f"orderconds: no {order.family} method of order {order.order} with {order.wishes.stages} stages "
+            f"orderconds: no {order.family} method of order {order.order} with {_stages(order)} "
             f"was found; best residual {outcome.best:.3g}",
             err=True,
         )
@@ -153,8 +156,12 @@ def _print(order: Order, outcome: Outcome, output: str | None) -> None:
         click.echo(f"{output}: {order.family} {order.order}, certificate {outcome.found.certificate}{error}")
 
 
+def _stages(order: Order) -> str:
+    return f"{order.wishes.stages} stage" + ("" if order.wishes.stages == 1 else "s")
+
+
 def _print_proof(order: Order, proof: Infeasible) -> None:
-    click.echo(f"no {order.family} method with {order.wishes.stages} stages has order {order.order}:")
+    click.echo(f"no {order.family} method with {_stages(order)} has order {order.order}:")
     for condition, equation, multiplier in zip(
         proof.conditions, proof.equations, proof.multipliers, strict=True
     ):

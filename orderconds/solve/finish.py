@@ -20,6 +20,7 @@ from orderconds.check import check
 from orderconds.proof.certificate import certify
 from orderconds.proof.krawczyk import NotProved, jets
 from orderconds.proof.refine import decimal_places
+from orderconds.ring import Ring
 from orderconds.ring.jets import Jets
 from orderconds.ring.precision import precision
 from orderconds.ring.traces import evaluate
@@ -30,7 +31,7 @@ from orderconds.solve.least_squares import least_squares
 from orderconds.solve.problem import Problem
 from orderconds.solve.search import CHEAP, POLISHED
 from orderconds.solve.tape import Floats
-from orderconds.tableau import Tableau, dumps
+from orderconds.tableau import CommutatorFree, Method, Stage, Tableau, dumps
 from orderconds.tableau.grammar import Constant
 from orderconds.tableau.indeterminates import radicals
 from orderconds.tableau.properties import properties
@@ -87,7 +88,7 @@ def finish(
     sharp = _newton(problem, rounded, pinned, solved)
     ansatz = renamed(problem.ansatz, name)
     spelled: dict[str, Spelling] | None = None
-    if not minimised or not pinned:
+    if not (minimised and pinned and solved):
         spelled = spellings({problem.ansatz.free[j]: sharp[j] for j in solved}, BITS, _square_roots(problem))
     exact = {problem.ansatz.free[j]: str(x) for j, x in pinned.items()}
     if spelled is not None:
@@ -145,6 +146,8 @@ def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
 
 def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
     """Say whether the unknowns are well determined: no singular value is tiny."""
+    if not solved:
+        return True
     _, slopes = problem.tape.jacobians(point[None])
     sizes = np.linalg.svd(slopes[0][:, solved], compute_uv=False)
     return bool(sizes[min(len(solved), len(sizes)) - 1] > 1e-5)
@@ -241,7 +244,21 @@ def _exact(problem: Problem, text: str, source: str) -> Found | None:
     report = check(tableau, label, problem.order)
     if report.verdict != "holds" or report.orders[0].certificate != "exact":
         return None
-    return _claimed(problem, replace(tableau, source=source, claims=Claims()), exact=True)
+    method = _without_zeros(tableau.method, tableau.ring)
+    return _claimed(problem, replace(tableau, method=method, source=source, claims=Claims()), exact=True)
+
+
+def _without_zeros(method: Method, ring: Ring) -> Method:
+    """Return a commutator-free method without the exponentials that turned out to be of zero."""
+    if not isinstance(method, CommutatorFree):
+        return method
+
+    def kept(stage: Stage) -> Stage:
+        rows = stage.exponentials
+        return Stage(stage.start, tuple(r for r in rows if not all(ring.is_zero(x) is True for x in r)))
+
+    found = CommutatorFree(tuple(map(kept, method.stages)), kept(method.update))
+    return method if found == method else found
 
 
 def _proved(

@@ -165,6 +165,8 @@ def write_whole(path: Path, text: str) -> None:
     ...     (Path(folder) / "x").read_text()
     'text'
     """
+    if path.exists() and not path.is_file():
+        raise InputError("no regular file", where=str(path), expected="a file that can be written")
     partial = path.with_name(f".{path.name}.partial")
     try:
         partial.write_text(text, encoding="utf-8")

@@ -51,7 +51,7 @@ class Tape:
         self.width, self.size = width, len(outputs)
         operations = outputs[0].ring.operations if outputs else []
         wanted = [x.placed() for x in outputs]  # constants are recorded here
-        rows = _order(operations, wanted, width)
+        rows = _order(operations, wanted, width) if outputs else []
         self._levels = _levels(operations, rows)
         place = {operation: row for row, operation in enumerate(rows)}
         self._inputs = [

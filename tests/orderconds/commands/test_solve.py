@@ -36,6 +36,8 @@ def record(*args: str, status: int = 0) -> Any:
         ("rk --stages 4 --order 4 --explicit", "rk", "exact"),
         ("rk --stages 6 --order 5 --explicit", "rk", "ball"),
         ("vcg --stages 4 --order 4", "vcg", "ball"),
+        ("vcg --stages 2 --order 2 --positive b --size 1", "vcg", "exact"),
+        ("vcf --stages 1 --order 2", "vcf", "exact"),
         ("sprk --stages 2 --order 4", "sprk", "exact"),
         ("vrkmk(2) --stages 2 --order 4", "vrkmk(2)", "exact"),
         ("composition --stages 5 --order 4", "composition", "exact"),
