@@ -380,3 +380,16 @@ def test_the_stated_stack_is_enough_and_not_far_too_much(compiler, scene, method
     assert used <= stated
     if level == "-O0" and precision == "double":
         assert stated <= 1.5 * used
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+@pytest.mark.parametrize("bad", [float("nan"), float("inf")])
+def test_a_coordinate_that_is_not_read_must_be_a_number_all_the_same(target, bad):
+    """A splitting on a top carries two columns of the rotation; the third follows from them."""
+    integrator = load(emit("fast_heavy_top", "splitting:strang", target))
+    state = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.1, 0.2, 0.3]
+    assert all(map(math.isfinite, integrator.step(state, 1e-3)))
+    for place in range(len(state)):
+        spoilt = [bad if i == place else x for i, x in enumerate(state)]
+        with pytest.raises(StepFailed):
+            integrator.step(spoilt, 1e-3)

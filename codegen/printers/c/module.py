@@ -74,7 +74,9 @@ def definition(
     ends, new = statements.outputs(symbols)
     read = arrangement.symbols()
     loads = [f"const {real} {names.spelled[s]} = state[{i}];" for i, s in enumerate(symbols) if s in read]
-    finite = (f"isfinite({new[0]})", *(f"&& isfinite({n})" for n in new[1:]))
+    # What is not read, as it follows from the rest of the state, must be a number all the same.
+    numbers = [*new, *(f"state[{i}]" for i, s in enumerate(symbols) if s not in read)]
+    finite = (f"isfinite({numbers[0]})", *(f"&& isfinite({n})" for n in numbers[1:]))
     return {
         "errors": statements.errors(),
         "body": [*samples(kernel, read, names, statements), *loads, *body, *ends],

@@ -96,6 +96,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             three="float32(3.0)" if single else "3.0",
             two="float32(2.0)" if single else "2.0",
             remembered=listed("found = ", [names.spelled[u] for u in start.unknowns], 1) if start else [],
+            unread=[i for i, s in enumerate(symbols) if s not in arrangement.symbols()],
             inner=", ".join(["state", *time, "h", *parameters, *inputs, *memory, *statistics]),
             inputs=interface.inputs,
             step=", ".join(["state", *time, "h", *inputs, *arguments, *keywords(optional)]),
