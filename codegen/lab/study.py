@@ -13,7 +13,7 @@ from codegen.lab.converge import Convergence, converge
 from codegen.lab.ladder import FIRST
 from codegen.lab.reference import Reference
 from codegen.lab.remembered import remembered
-from codegen.lab.runner import Emitted, Interpreted, Runner
+from codegen.lab.runner import Emitted, Interpreted, RunFailed, Runner
 from codegen.lab.timing import Timing, timings
 from codegen.lower import families_for
 from codegen.method import Method, parse
@@ -107,9 +107,16 @@ def _study(scene: Setting, method: Method, exact: Reference, tell: Tell) -> Meth
 
 
 def _spread(runners: Sequence[Runner], steps: Sequence[int]) -> float | None:
-    """Return how far the runners' ends are apart after the first of ``steps`` from COMPARED on."""
-    chosen = next((n for n in steps if n >= COMPARED), None)
-    if chosen is None:
-        return None
-    first, *others = (runner.final(chosen) for runner in runners)
-    return max(float(abs(x - y)) for other in others for x, y in zip(first, other, strict=True))
+    """Return how far the runners' ends are apart after the first of ``steps`` from COMPARED on that all make.
+
+    Steps that Newton's method makes in emitted code may be too long for the interpreter.
+    """
+    for n in steps:
+        if n < COMPARED:
+            continue
+        try:
+            first, *others = (runner.final(n) for runner in runners)
+        except RunFailed:
+            continue
+        return max(float(abs(x - y)) for other in others for x, y in zip(first, other, strict=True))
+    return None
