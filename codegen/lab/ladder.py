@@ -90,14 +90,17 @@ def slopes(rungs: Sequence[Rung]) -> tuple[float, ...]:
 def climb(run: Callable[[int], Rung], most: int, to_rounding: bool = False) -> Ladder:
     """Double the number of steps from :data:`FIRST` until slopes settle, rounding is met or ``most`` is.
 
-    With ``to_rounding`` the climb does not end where the slopes have settled.
+    With ``to_rounding`` the climb does not end where the slopes have settled. A run that failed ends nothing:
+    Newton's method may find some solution with a long step, none with half of it, and the right one beyond.
     """
     rungs: list[Rung] = []
     steps = FIRST
     while steps <= most:
         rungs.append(run(steps))
         ladder = Ladder(tuple(rungs))
-        if (ladder.settled and not to_rounding) or (ladder.clean and rungs[-1].excluded):
+        last = rungs[-1]
+        too_fine = bool(last.excluded) and math.isfinite(last.error)
+        if (ladder.settled and not to_rounding) or (ladder.clean and too_fine):
             break
         steps *= 2
     return Ladder(tuple(rungs))

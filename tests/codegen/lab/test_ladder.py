@@ -83,3 +83,13 @@ def test_a_climb_stops_where_rounding_begins_and_where_patience_ends() -> None:
 
     assert climb(run, 10**6).rungs[-1].steps <= 160
     assert [r.steps for r in climb(lambda n: Rung(n, 1 / n, math.exp(-n)), 50).rungs] == [5, 10, 20, 40]
+
+
+def test_a_run_that_failed_does_not_end_the_climb() -> None:
+    def run(n: int) -> Rung:
+        failed = 10 <= n < 40
+        return Rung(n, 1 / n, math.inf if failed else float(n) ** -2, "no run" if failed else "")
+
+    ladder = climb(run, 10**4)
+    assert [r.steps for r in ladder.clean] == [40, 80, 160, 320]
+    assert ladder.verdict(2) == "holds"
