@@ -37,6 +37,10 @@ CHEAP = 4
 """Up to this order the principal error is computed beside what is asked for."""
 
 
+SINGULAR = 1e6
+"""Added to the score of solutions at which the conditions' gradients are dependent: they come last."""
+
+
 @dataclass(frozen=True)
 class Search:
     """What is searched: everything that the result depends on."""
@@ -95,10 +99,11 @@ def run_batch(search: Search, number: int) -> Batch:
         i for i in solved if rank(problem.tape.jacobians(points[i : i + 1])[1][0]) == problem.tape.size
     ]
     # Where every solution is singular, a closed form may still prove one.
-    chosen = [(_score(problem, points[i]), points[i]) for i in regular or solved]
+    late = 0.0 if regular else SINGULAR
+    chosen = [(late + _score(problem, points[i]), points[i]) for i in regular or solved]
     if search.minimised:
         nearest = sorted(chosen, key=lambda found: found[0])[:KEPT]
-        chosen = [(size, x) for x, size in (minimise(problem, x) for _, x in nearest)]
+        chosen = [(late + size, x) for x, size in (minimise(problem, x) for _, x in nearest)]
     best = sorted(chosen, key=lambda found: found[0])[:KEPT]
     solutions = tuple((score, tuple(map(float, x))) for score, x in best)
     return Batch(number, float(norms.min()), solutions)
