@@ -50,6 +50,10 @@ class Rn(LieGroup):
         """Return x."""
         return x
 
+    def rate(self, d: Domain, v: Scalars, g: Scalars) -> Scalars:
+        """Return v."""
+        return v
+
     def symbols(self, name: str) -> list[Any]:
         """Return the symbols of a group element: ``name`` with an index."""
         return list(self.dual(name))

@@ -81,6 +81,10 @@ class Product(LieGroup):
         """Return x.g of each factor."""
         return self._each(lambda f, a, b: f.velocity(d, a, b), x, g)
 
+    def rate(self, d: Domain, v: Scalars, g: Scalars) -> Scalars:
+        """Return x where v = x.g, of each factor."""
+        return self._each(lambda f, a, b: f.rate(d, a, b), v, g)
+
     def laws(self, d: Domain, g: Scalars) -> tuple[tuple[str, Any], ...]:
         """Return the laws of every factor."""
         pairs = zip(self.factors, self.parts(g), strict=True)

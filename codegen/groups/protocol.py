@@ -80,6 +80,10 @@ class LieGroup:
         """Return x.g, the derivative of exp(eps x) g at eps = 0."""
         raise AttributeError(f"{self.name} has no velocity")
 
+    def rate(self, d: Domain, v: Scalars, g: Scalars) -> Scalars:
+        """Return x where v = x.g, for v that is such a derivative: the inverse of :meth:`velocity`."""
+        raise AttributeError(f"{self.name} has no rate")
+
     def laws(self, d: Domain, g: Scalars) -> tuple[tuple[str, Any], ...]:
         """Return the equations that coordinates of an element satisfy: a name, and what must be zero."""
         return ()

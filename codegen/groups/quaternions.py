@@ -75,6 +75,11 @@ class S3(LieGroup):
         pairs = zip(x, cross(x, g[1:]), strict=True)
         return (-dot(x, g[1:]), *(g[0] * a + b for a, b in pairs))
 
+    def rate(self, d: Domain, v: Scalars, g: Scalars) -> Scalars:
+        """Return x where v = x.g: the imaginary part of v times the conjugate of g."""
+        turned = cross(v[1:], g[1:])
+        return tuple(g[0] * a - v[0] * b - c for a, b, c in zip(v[1:], g[1:], turned, strict=True))
+
     def laws(self, d: Domain, g: Scalars) -> tuple[tuple[str, Any], ...]:
         """Return q.q = 1."""
         return (("|q|^2 = 1", dot(g, g) - d.rational(1)),)

@@ -166,6 +166,10 @@ class SO3(LieGroup):
         columns = [cross(x, g[j::3]) for j in range(3)]
         return tuple(columns[j][i] for i in range(3) for j in range(3))
 
+    def rate(self, d: Domain, v: Scalars, g: Scalars) -> Scalars:
+        """Return x where v = x.g: the entries below and above the diagonal of v g^T."""
+        return tuple(dot(v[3 * i : 3 * i + 3], g[3 * j : 3 * j + 3]) for i, j in ((2, 1), (0, 2), (1, 0)))
+
     def spin(self, d: Domain, g: Scalars, x: Scalars) -> Scalars:
         """Return g hat(x), the derivative of g exp(eps x) at eps = 0: every row cross x."""
         return tuple(a for i in (0, 3, 6) for a in cross(g[i : i + 3], x))

@@ -1,0 +1,36 @@
+"""Forward differentiation of expressions along one direction: a tangent costs a small multiple of the value."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from codegen.ir.differentiate import partials
+from codegen.ir.expr import Expr, walk
+
+
+def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ...]:
+    """Return the derivatives of roots where symbols change at the rates ``seeds``, all others stand still.
+
+    :class:`codegen.ir.differentiate.NotDifferentiable` where a function stands in the way.
+
+    >>> from codegen.ir.expr import Space
+    >>> s = Space(); x, y, dx = s.sym("x"), s.sym("y"), s.sym("dx")
+    >>> tangents([x * y, y], {"x": dx})
+    ((dx * y), 0)
+    """
+    known: dict[int, Expr] = {}
+    for node in walk(roots):
+        if node.op == "sym":
+            if node.payload in seeds:
+                known[node.id] = seeds[node.payload]
+            continue
+        moving = [(k, known[a.id]) for k, a in enumerate(node.args) if a.id in known]
+        if not moving:
+            continue
+        slopes = partials(node)
+        total = node.space.zero
+        for k, rate in moving:
+            total = total + slopes[k] * rate
+        if not total.is_zero:
+            known[node.id] = total
+    return tuple(known.get(root.id, root.space.zero) for root in roots)
