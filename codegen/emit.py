@@ -20,8 +20,10 @@ from codegen.ir.domain import FloatDomain
 from codegen.ir.kernel import Kernel, Loop
 from codegen.ir.program import Program
 from codegen.lower import families_for, lower, setting
+from codegen.lower.kernel import to_kernel
 from codegen.lower.solver import AUTO, Choice, known_solver, solved
 from codegen.lower.variants import fastest
+from codegen.lower.variation import Variations
 from codegen.method import Method, parse
 from codegen.passes import PassReport, optimise
 from codegen.printers import target as printer_of
@@ -89,6 +91,7 @@ def compile_method(
     adaptive: bool = False,
     *,
     solver: str = AUTO,
+    jacobian: bool = False,
 ) -> Compiled:
     """Return a method on a scene (or their names) lowered, optimised and made a kernel.
 
@@ -96,7 +99,8 @@ def compile_method(
     folded at the scene's values; ``inputs`` are signals to be taken at run time, ``frame`` that of
     momenta (:meth:`codegen.scene.Setting.with_frame`); ``solver`` is for implicit blocks
     (:mod:`codegen.lower.solver`). SceneError, MethodError, UnknownName or TableauError for what cannot be
-    read or does not fit. ``adaptive`` asks for the estimate of an embedded row.
+    read or does not fit. ``adaptive`` asks for the estimate of an embedded row, ``jacobian`` for the
+    derivative of a step.
     """
     if isinstance(scene, str):
         scene = scenes.load(scene)
@@ -120,6 +124,9 @@ def compile_method(
     if known_solver(solver) and best.kernel.loops:
         kernel, choices = solved(best.program, view, start_of(scene), solver)
         best = replace(best, kernel=kernel, solvers=choices, asked=solver)
+    if jacobian:
+        vary = to_kernel(best.program, view, variations=Variations.of(view))
+        best = replace(best, kernel=replace(best.kernel, vary=vary))
     embedded, estimate = method.embedded(), best.kernel.estimate
     if embedded is None or estimate is None:
         return best
@@ -148,13 +155,15 @@ def emit(
     frame: str = "space",
     adaptive: bool = False,
     solver: str = AUTO,
+    jacobian: bool = False,
 ) -> Emission:
     """Return the integrator of a method on a scene as a module of a target.
 
     ``scene`` is a name of the gallery, the path of a Python file, or a setting; ``method`` is spelled
     ``FAMILY:TABLEAU`` or ``TABLEAU``; ``prefix`` starts every external name, by default scene and method;
     ``precision`` is ``double`` or ``single``; ``inputs`` are signals of the scene that are taken at run time,
-    ``frame`` is that of momenta, ``space`` or ``body``; ``adaptive`` adds a run that chooses its steps;
+    ``frame`` is that of momenta, ``space`` or ``body``; ``adaptive`` adds a run that chooses its steps,
+    ``jacobian`` the derivative of a step;
     ``solver``, for implicit blocks, is ``newton``, ``fixed-point`` or ``auto``, which takes the cheaper one.
     Errors as :func:`compile_method`, UnknownName for a target, InputError for a prefix that C cannot take.
     """
@@ -162,7 +171,9 @@ def emit(
     known_precision(precision)
     named = {"scene": bare(scene) if isinstance(scene, str) else scene.name}
     named["method"] = bare(method) if isinstance(method, str) else method.label
-    made = compile_method(scene, method, parameters, inputs, frame, adaptive, solver=solver)
+    made = compile_method(
+        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian
+    )
     return emit_compiled(made, target, prefix, named, precision=precision)
 
 
@@ -191,6 +202,7 @@ def emit_compiled(
     options = [f"--prefix {chosen}"] if prefix else []
     options += ["--frame body"] if body else []
     options += ["--adaptive"] if method.adaptive else []
+    options += ["--jacobian"] if compiled.kernel.vary is not None else []
     options += [f"--precision {precision}"] if single else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]

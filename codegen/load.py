@@ -158,6 +158,26 @@ class Integrator(ABC):
         )
         return replace(found, state=like(state, found.state))
 
+    def jacobian(
+        self,
+        state: State,
+        h: float,
+        t: float = 0.0,
+        inputs: Sequence[float] | None = None,
+        **parameters: float,
+    ) -> State:
+        """Return the derivative of one step, rows of the variations that the module's head names.
+
+        TypeError for a module without it (``emit --jacobian``); StepFailed as :meth:`step`.
+        """
+        if not self.interface.variations:
+            raise TypeError("this module has no derivative of its step; emit it with --jacobian")
+        if bool(self.interface.inputs) != (inputs is not None):
+            raise TypeError(f"expected values for {', '.join(self.interface.inputs) or 'no inputs'}")
+        held = None if inputs is None else [float(x) for x in inputs]
+        rows = self._derive(self._numbers(state), t, h, self._values(parameters), held, state)
+        return like(state, rows)
+
     def _checked_count(self, steps: int) -> int:
         count = operator.index(steps)
         if count < 0:
@@ -209,6 +229,18 @@ class Integrator(ABC):
         inputs: Signals | None,
     ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
         """Run and return the final state and the rows."""
+
+    @abstractmethod
+    def _derive(
+        self,
+        numbers: list[float],
+        t: float,
+        h: float,
+        values: list[float],
+        inputs: list[float] | None,
+        like_state: State,
+    ) -> list[list[float]]:
+        """Return the rows of the Jacobian."""
 
     @abstractmethod
     def _adapt(
@@ -301,6 +333,25 @@ class CompiledIntegrator(Integrator):
             raise StepFailed(status, accepted[0], like(like_state, final), reason(status, block, span[2]))
         return Arrival(final, t[0], h[0], accepted[0], rejected[0])
 
+    def _derive(
+        self,
+        numbers: list[float],
+        t: float,
+        h: float,
+        values: list[float],
+        inputs: list[float] | None,
+        like_state: State,
+    ) -> list[list[float]]:
+        real, size = self.interface.format.c_type, self.interface.variations
+        found = self._ffi.new(f"{real}[]", size * size)
+        time, held = [t] if self.interface.time else [], [] if inputs is None else [inputs]
+        derive = getattr(self._library, f"{self.interface.prefix}jacobian")
+        status = Status(derive(numbers, *time, h, *values, *held, found))
+        if status != Status.OK:
+            raise StepFailed(status, 0, like(like_state, numbers), reason(status, "an implicit block", h))
+        flat = self._ffi.unpack(found, size * size)
+        return [flat[i : i + size] for i in range(0, size * size, size)]
+
 
 class _Callback:
     """A function of time that C may call; what it raises is kept, and the step that asked for it fails."""
@@ -388,6 +439,22 @@ class InterpretedIntegrator(Integrator):
             raise StepFailed(Status(failure.status), failure.step, state, failure.reason) from None
         finally:
             self._count(counts, statistics)
+
+    def _derive(
+        self,
+        numbers: list[float],
+        t: float,
+        h: float,
+        values: list[float],
+        inputs: list[float] | None,
+        like_state: State,
+    ) -> list[list[float]]:
+        time, held = [t] if self.interface.time else [], [] if inputs is None else [inputs]
+        try:
+            return list(self.module.jacobian(numbers, *time, h, *held, *values))
+        except self.module.StepFailed as failure:
+            state = like(like_state, numbers)
+            raise StepFailed(Status(failure.status), 0, state, failure.reason) from None
 
 
 def reason(status: Status, block: str, h: float) -> str:

@@ -27,6 +27,7 @@ from orderconds.commands.place import FOLDER
 )
 @click.option("--input", "inputs", multiple=True, help="A signal of the scene to take at run time.")
 @click.option("--frame", default="space", help="Momenta of the space (the default) or of the body.")
+@click.option("--jacobian", is_flag=True, help="Add the derivative of a step by the state.")
 @click.option("--adaptive", is_flag=True, help="Add a run that chooses its steps by the embedded row.")
 @click.option("--precision", default="double", help="double (the default) or single.")
 @click.option(
@@ -43,6 +44,7 @@ def command(
     parameters: tuple[str, ...],
     inputs: tuple[str, ...],
     frame: str,
+    jacobian: bool,
     adaptive: bool,
     precision: str,
     solver: str,
@@ -62,7 +64,9 @@ def command(
     for name in targets:
         known_target(name)
     known_precision(precision)
-    compiled = compile_method(scene, method, parameters, inputs, frame, adaptive, solver=solver)
+    compiled = compile_method(
+        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian
+    )
     named = {"scene": bare(scene), "method": bare(method)}
     records: list[dict[str, Any]] = []
     if explain and not as_json:

@@ -162,6 +162,8 @@ class Kernel:
     """One step: state fields, scalar inputs (h, t, run-time parameters), body, new state in field order.
 
     ``inputs`` names functions of time that the caller supplies, ``samples`` are the times they are read at.
+    ``vary`` carries a variation along: its state is this one's and then the variation, its outputs are the
+    variation of the new state.
     """
 
     name: str
@@ -173,6 +175,7 @@ class Kernel:
     inputs: tuple[str, ...] = ()
     samples: tuple[Sample, ...] = ()
     estimate: Estimate | None = None
+    vary: Kernel | None = None
 
     @property
     def loops(self) -> tuple[Loop, ...]:

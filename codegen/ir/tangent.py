@@ -1,4 +1,4 @@
-"""Forward differentiation of expressions along one direction: a tangent costs a small multiple of the value."""
+"""Forward differentiation along one direction: a tangent costs a small multiple of the value."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x, y, dx = s.sym("x"), s.sym("y"), s.sym("dx")
     >>> tangents([x * y, y], {"x": dx})
-    ((dx * y), 0)
+    ((y * dx), 0)
     """
     known: dict[int, Expr] = {}
     for node in walk(roots):

@@ -24,7 +24,9 @@ from codegen.ir.interpret import apply, flatten
 from codegen.ir.jacobian import jacobian
 from codegen.ir.kernel import ELAPSED, LEAD, Estimate, Field, Kernel, Let, Loop, Newton, Sample, Start
 from codegen.ir.program import EMBEDDED, FLOWS, FLOWS_FOR, Assign, Kind, Program, Solve, Var
+from codegen.ir.tangent import tangents
 from codegen.lower import late
+from codegen.lower.variation import Variations
 from codegen.scene import TIME, Setting
 
 INLINE = 10
@@ -46,10 +48,13 @@ class _Block:
     matrix: tuple[tuple[Expr, ...], ...] = ()
 
 
-def to_kernel(program: Program, scene: Setting, newton: Collection[str] = ()) -> Kernel:
+def to_kernel(
+    program: Program, scene: Setting, newton: Collection[str] = (), variations: Variations | None = None
+) -> Kernel:
     """Return the kernel of a program in its setting (:func:`codegen.lower.setting`).
 
-    ``newton`` are the labels of the blocks to be solved by Newton's method, the others are iterated.
+    ``newton`` are the labels of the blocks to be solved by Newton's method, the others are iterated. With
+    ``variations`` it is the kernel that carries one of the state along (``Kernel.vary``).
     :class:`codegen.errors.SceneError` where an operation of the group has no closed form,
     :class:`codegen.ir.differentiate.NotDifferentiable` where Newton's method has no matrix.
     """
@@ -113,11 +118,18 @@ def to_kernel(program: Program, scene: Setting, newton: Collection[str] = ()) ->
     composed = any(name in FLOWS | FLOWS_FOR for name in program.counts())
     if composed:
         outputs = late.run(outputs, frozenset({"h", *scene.runtime}))
+    if variations is not None:
+        seeds = variations.seeds(domain)
+        blocks = [b for block in blocks for b in (block, _varied(block, seeds, space, name))]
+        outputs = variations.ends(domain, outputs, tangents(outputs, seeds))
+        lower = ()
     errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
-    schedule = _Schedule(blocks, (*outputs, *errors), hints, name)
+    schedule = _Schedule(blocks, (*outputs, *errors), hints, name, variations is None)
     state = tuple(Field(b.name, b.symbols, _meaning(b.kind, scene)) for b in scene.state)
     if scene.body_group is not None:
         state = _body_fields(scene)
+    if variations is not None:
+        state = (*state, Field("variation", variations.names, variations.text()))
     durations = [v.name for v in program.inputs if v.name in (LEAD, ELAPSED)]
     scalars = (TIME, "h", *scene.runtime, *durations)
     body = schedule.run()
@@ -127,6 +139,14 @@ def to_kernel(program: Program, scene: Setting, newton: Collection[str] = ()) ->
     if errors:
         made = replace(made, estimate=Estimate(schedule.outputs[len(outputs) :], 0))
     return _sampled(made, scene, domain)
+
+
+def _varied(block: _Block, seeds: dict[str, Expr], space: Space, name: Callable[[str], str]) -> _Block:
+    """Return the linear equations for the variations of a block's unknowns, which ``seeds`` receives."""
+    own = [name(f"d_{u}") for u in block.unknowns]
+    seeds |= {u: space.sym(d) for u, d in zip(block.unknowns, own, strict=True)}
+    starts = (space.zero,) * len(own)
+    return _Block(f"the variation of {block.label}", tuple(own), starts, tangents(block.images, seeds))
 
 
 def _sampled(kernel: Kernel, scene: Setting, domain: ExprDomain) -> Kernel:
@@ -242,6 +262,7 @@ class _Schedule:
     roots: Sequence[Expr]
     hints: dict[int, str]
     name: Callable[[str], str]
+    remembers: bool = True
     body: list[Let | Start | Loop] = field(default_factory=list)
     outputs: tuple[Expr, ...] = ()
     count: int = 0
@@ -249,16 +270,20 @@ class _Schedule:
     def run(self) -> tuple[Let | Start | Loop, ...]:
         """Return the kernel's body and set ``outputs``."""
         self._prepare()
-        if self.blocks:
+        if self.blocks and self.remembers:
             self.body.append(self._start())
         for k, block in enumerate(self.blocks):
             inside: list[Let] = []
+            own = () if self.remembers else block.starts
+            starts = tuple(self._place(x, self.body, [], -1) for x in own)
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
             newton = self._newton(block)
             anew = newton is not None and self._is_short(k)
             if anew:
                 self._forget(k)
-            loop = Loop(block.label, block.unknowns, (), tuple(inside), images, newton=newton, read_anew=anew)
+            loop = Loop(
+                block.label, block.unknowns, starts, tuple(inside), images, newton=newton, read_anew=anew
+            )
             self.body.append(loop)
         self.outputs = tuple(self._place(x, self.body, [], -1) for x in self.roots)
         return tuple(self.body)

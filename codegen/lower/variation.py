@@ -12,6 +12,7 @@ from typing import Any
 from codegen.errors import SceneError
 from codegen.groups.actions import LeftMultiplication
 from codegen.groups.cotangent import Cotangent
+from codegen.groups.protocol import LieGroup
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr
 from codegen.ir.program import Kind
@@ -38,7 +39,7 @@ class Variations:
             else:
                 parts.append((None, block.symbols))
         for group, _ in parts:
-            if group is not None and "rate" not in dir(type(group)):
+            if group is not None and type(group).rate is LieGroup.rate:
                 raise SceneError(f"a Jacobian on {group.name}", where=scene.name, expected="another group")
         return cls(tuple(parts))
 
@@ -64,9 +65,7 @@ class Variations:
             found |= dict(zip(symbols, rates, strict=True))
         return found
 
-    def ends(
-        self, domain: ExprDomain, state: tuple[Expr, ...], rates: tuple[Expr, ...]
-    ) -> tuple[Expr, ...]:
+    def ends(self, domain: ExprDomain, state: tuple[Expr, ...], rates: tuple[Expr, ...]) -> tuple[Expr, ...]:
         """Return the variation of the new state from the rates of its coordinates."""
         found: list[Expr] = []
         for group, symbols in self.parts:
@@ -81,7 +80,9 @@ class Variations:
         first = 0
         for group, symbols in self.parts:
             count = len(symbols) if group is None else group.dim
-            what = f"d({symbols[0]}..{symbols[-1]})" if group is None else f"xi, where dq = xi.q on {group.name}"
+            what = (
+                f"d({symbols[0]}..{symbols[-1]})" if group is None else f"xi, where dq = xi.q on {group.name}"
+            )
             words.append(f"[{first}..{first + count - 1}] {what}")
             first += count
         return "; ".join(words)

@@ -25,6 +25,7 @@ class Interface:
     of all numbers (:mod:`codegen.printers.precision`); ``inputs`` are the functions of time that are taken at
     run time, in order; ``adaptive`` says that there is a run that chooses its steps; ``solvers`` are the
     methods that solve the blocks.
+    ``variations`` is the size of the Jacobian, 0 where there is none.
     """
 
     prefix: str
@@ -35,6 +36,7 @@ class Interface:
     precision: str = DOUBLE.name
     inputs: tuple[str, ...] = ()
     adaptive: bool = False
+    variations: int = 0
     solvers: tuple[str, ...] = ()
 
     @classmethod
@@ -51,6 +53,7 @@ class Interface:
             precision=precision,
             inputs=kernel.inputs,
             adaptive=kernel.estimate is not None,
+            variations=0 if kernel.vary is None else len(kernel.vary.outputs),
             solvers=tuple(loop.solver for loop in kernel.loops),
         )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Kernel, PutOff, Start
 from codegen.printers.arrange import Arrangement, arrange
+from codegen.printers.c.jacobian import varying
 from codegen.printers.c.statements import RESERVED, Statements, literal
 from codegen.printers.c.text import comment, fill
 from codegen.printers.expression import spell
@@ -39,6 +40,13 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     if kernel.estimate is not None:
         variables["order"] = kernel.estimate.order
         held += 2 * interface.size
+    variables["vary"] = None
+    if kernel.vary is not None:
+        own = Names(RESERVED | own_names(interface))
+        variables["vary"], varied, spelled = varying(kernel.vary, interface, own)
+        variables["vary_inputs"] = samples(kernel.vary, varied.symbols(), own, spelled)
+        functions |= set(varied.functions())
+        held = max(held, own.count) + 3 * interface.variations
     variables["put_off"] = None
     if kernel.put_off is not None:
         variables["put_off"], variables["advance_source"], more, held = put_off(
@@ -54,6 +62,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             )
         ],
         "usage": usage(interface, recipe),
+        "variation": kernel.vary.state[-1].meaning if kernel.vary is not None else "",
         "snippets": found.texts,
     }
     env = environment("c")
@@ -158,7 +167,9 @@ def stack(numbers: int, interface: Interface) -> str:
 def own_names(interface: Interface) -> frozenset[str]:
     """Return what a module itself declares or defines, which no variable may hide."""
     prefix, upper = interface.prefix, interface.prefix.upper()
-    functions = {f"{prefix}{name}" for name in ("step", "run", "run_adaptive", "statistics", "input")}
+    functions = {
+        f"{prefix}{name}" for name in ("step", "run", "run_adaptive", "jacobian", "statistics", "input")
+    }
     return frozenset(functions | {f"{upper}{name}" for name in (*STATUSES, "H")})
 
 
@@ -181,6 +192,10 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
     chosen += [*parameters, *sampled, *statistics, "size_t *accepted", "size_t *rejected"]
     run = [*time, f"{real} h", "size_t steps", *parameters, *sampled, f"{real} *trajectory", "size_t stride"]
     run += [*statistics, "size_t *completed"]
+    size = interface.variations
+    point = f"const {real} state[static {interface.size}]"
+    varied = [f"{real} vector[static {size}]", *time, f"{real} h", *parameters, *sampled]
+    derived = [*time, f"{real} h", *parameters, *constant, f"{real} jacobian[{size * size}]"]
     passed = ["h", *(names.spelled[p] for p in interface.parameters)]
     given = [*(["&memory"] if memory else []), *(["statistics"] if interface.blocks else [])]
     none = ["NULL"] if interface.adaptive else []
@@ -208,6 +223,13 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
         "run_source": signature(f"int {interface.prefix}run", state, run, ""),
         "passed": ", ".join([*passed, *called, *given, *none]),
         "passed_once": ", ".join([*passed, *(["hold", "held"] if several else []), *given, *none]),
+        "variations": size,
+        "vary_source": signature("static int vary", point, varied, ""),
+        "jacobian_header": signature(
+            f"int {interface.prefix}jacobian", f"const {real} state[{interface.size}]", derived, ";"
+        ),
+        "jacobian_source": signature(f"int {interface.prefix}jacobian", point, derived, ""),
+        "passed_vary": ", ".join([*passed, *(["hold", "held"] if several else [])]),
         "adaptive": interface.adaptive,
         "adaptive_header": signature(
             f"int {interface.prefix}run_adaptive", f"{real} state[{interface.size}]", chosen, ";"
@@ -263,6 +285,11 @@ def prototypes(interface: Interface) -> str:
         f"int {prefix}run({real} *state, {time}{real} h, size_t steps, {parameters}{sampled}"
         f"{real} *trajectory, size_t stride, {statistics}size_t *completed);\n"
     )
+    held = f"const {real} *inputs, " if interface.inputs else ""
+    derived = (
+        f"int {prefix}jacobian(const {real} *state, {time}{real} h, {parameters}{held}{real} *jacobian);\n"
+    )
+    run += derived if interface.variations else ""
     known = ((record, bool(blocks)), (callback, bool(interface.inputs)), (adaptive, interface.adaptive))
     return "".join(text for text, there in known if there) + run
 

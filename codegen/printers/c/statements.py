@@ -33,7 +33,7 @@ _WORDS = """
     state statistics steps step stride trajectory completed status advance row sweep change scale still close
     count_sweeps count_matrix input inputs context held hold memory remember extrapolated invert slope2 slope3
     weighted between error rtol atol limit accepted rejected end now size left last taken then trial norm wish
-    factor trend shrunk refused made before next total ratio
+    factor trend shrunk refused made before next total ratio vector vary jacobian column
 """
 RESERVED = frozenset(_WORDS.split()) | {f"stumpff_{''.join(map(str, orders))}" for orders in SETS}
 """Words that no variable may take.

@@ -38,6 +38,11 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         ending, more, constants = put_off(kernel.put_off, arrangement, names, interface)
         statements.constants |= constants
         functions |= more
+    derivative: dict[str, object] | None = None
+    if kernel.vary is not None:
+        derivative, more, constants = jacobian(kernel.vary, interface)
+        statements.constants |= constants
+        functions |= more
     found = needed("python", sorted(functions), precision)
     library = found.library
     imports = ["isfinite"] if single else library
@@ -110,9 +115,38 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             body=[*body, *ends],
             new=listed("return ", (*new, *statements.errors()), 1),
             adaptive=adaptive,
+            jacobian=None
+            if derivative is None
+            else derivative
+            | {
+                "inner": ", ".join(["state", "vector", *time, "h", *parameters, *inputs]),
+                "arguments": ", ".join(["state", *time, "h", *inputs, *arguments]),
+                "passed": ", ".join(["state", "vector", *time, "h", *parameters, *held]),
+            },
         )
     )
     return {f"{interface.module}.py": text}
+
+
+def jacobian(kernel: Kernel, interface: Interface) -> tuple[dict[str, object], set[str], dict[str, str]]:
+    """Return what the template needs of the kernel of variations, and its functions and constants."""
+    arrangement = arrange(kernel)
+    names = register(kernel, arrangement, Names(RESERVED))
+    symbols = tuple(s for f in kernel.state for s in f.symbols)
+    statements = Statements(arrangement, names, interface.format, "D")
+    body = list(statements.lines())
+    ends, new = statements.outputs(symbols[interface.size :])
+    asked = samples(kernel, arrangement.symbols(), names, statements)
+    spelled = [names.spelled[s] for s in symbols]
+    vector = unpacking(spelled[interface.size :])
+    found: dict[str, object] = {
+        "dim": interface.variations,
+        "state": unpacking(spelled[: interface.size]),
+        "vector": [*vector[:-1], vector[-1].replace(" = state", " = vector")],
+        "body": [*asked, *body, *ends],
+        "new": listed("return ", new, 1),
+    }
+    return found, set(arrangement.functions()), statements.constants
 
 
 def put_off(
