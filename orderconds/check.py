@@ -17,6 +17,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Context, Decimal
+from itertools import chain, islice
 from math import factorial
 from os import PathLike
 from pathlib import Path
@@ -392,10 +393,11 @@ def _search(
     limit = max(_limit(family), (claimed or 0) + 1, (required or 0) + 1)
     certificate = "exact"
     for n in range(1, limit + 1):
-        conditions = _conditions(family, n)
         failing: tuple[Failure, ...] = ()
         verdicts: set[str] = set()
-        for batch in _batches(conditions):
+        whole = True
+        for batch, every in _batches(family, n):
+            whole = every
             residuals = families.residuals(family, method, ring, batch)
             judged = [_judge(ring, residual, n) for residual in residuals]
             verdicts.update(judged)
@@ -409,7 +411,7 @@ def _search(
         if failing or "undecided" in verdicts:
             decided, norm = bool(failing), None
             certificate = certificate if decided else "none"
-            if failing and len(conditions) <= EXHAUSTIVE:
+            if failing and whole:
                 norm = _norm([failure.decimal for failure in failing])
             return FamilyOrder(family.label(), n - 1, certificate, decided, failing, norm, claimed, required)
         if "supported" in verdicts:
@@ -419,12 +421,28 @@ def _search(
     return FamilyOrder(family.label(), limit, certificate, True, (), None, claimed, required, limit)
 
 
-def _batches(conditions: tuple[OrderCondition, ...]) -> Iterator[tuple[OrderCondition, ...]]:
-    """Yield all conditions at once, or very many of them in batches that double, since engines share work."""
-    start, size = 0, len(conditions) if len(conditions) <= EXHAUSTIVE else EXHAUSTIVE // 10
-    while start < len(conditions):
-        yield conditions[start : start + size]
-        start, size = start + size, 2 * size
+def _batches(family: Family, n: int) -> Iterator[tuple[tuple[OrderCondition, ...], bool]]:
+    """Yield the conditions that decide order n at once (True), or very many in batches that double.
+
+    An independent set, or every condition where a set costs more. Batches share the work of an engine.
+    """
+    conditions = _in_turn(family, n)
+    first = tuple(islice(conditions, EXHAUSTIVE + 1))
+    if len(first) <= EXHAUSTIVE:
+        yield first, True
+        return
+    conditions, size = chain(first, conditions), EXHAUSTIVE // 10
+    while batch := tuple(islice(conditions, size)):
+        yield batch, False
+        size *= 2
+
+
+def _in_turn(family: Family, n: int) -> Iterator[OrderCondition]:
+    if hasattr(family, "decisive_in_turn"):
+        lazy: Iterator[OrderCondition] = family.decisive_in_turn(n)
+        return lazy
+    found: tuple[OrderCondition, ...] = getattr(family, "decisive_conditions", family.conditions)(n)
+    return iter(found)
 
 
 def _norm(decimals: list[str]) -> float:
@@ -495,13 +513,6 @@ def _method(tableau: Tableau, family: Family) -> Any:
             expected=f"format {' or '.join(family.formats)}",
         )
     return method
-
-
-def _conditions(family: Family, n: int) -> tuple[OrderCondition, ...]:
-    """Return the conditions that decide order n: an independent set, or every one where a set costs more."""
-    decisive = getattr(family, "decisive_conditions", family.conditions)
-    found: tuple[OrderCondition, ...] = decisive(n)
-    return found
 
 
 def _broken_claims(

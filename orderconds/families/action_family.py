@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cache, partial
 from math import prod
@@ -13,7 +13,7 @@ from orderconds.conditions import OrderCondition
 from orderconds.families.action_formula import ActionFormula, multiplier
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series import action_exact
-from orderconds.series.action_switching import representatives
+from orderconds.series.action_switching import classes_in_turn, representatives
 from orderconds.series.action_trees import Velocity, hamiltonian, velocities
 
 if TYPE_CHECKING:
@@ -85,6 +85,10 @@ class ActionFamily(ABC):
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return conditions that imply all of this order: the simplest of each root-switching class."""
         return tuple(map(self._condition, representatives(order)))
+
+    def decisive_in_turn(self, order: int) -> Iterator[OrderCondition]:
+        """Yield the decisive conditions, each made when it is asked for."""
+        return (self._condition(of_class[0]) for of_class in classes_in_turn(order))
 
     def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
         """Return the left-hand sides, as printed, for a method with coefficients in ``ring``."""

@@ -247,6 +247,8 @@ class Algebraic:
         return None
 
     def __add__(self, other: Any) -> Algebraic:
+        if type(other) is Algebraic and other.field is self.field:  # in almost every sum
+            return Algebraic(self.field, self.polynomial + other.polynomial)
         if (pair := self._pair(other)) is None:
             return NotImplemented
         x, y = pair
@@ -267,6 +269,8 @@ class Algebraic:
         return Algebraic(self.field, -self.polynomial)
 
     def __mul__(self, other: Any) -> Algebraic:
+        if type(other) is Algebraic and other.field is self.field:
+            return Algebraic(self.field, self.polynomial * other.polynomial % self.field.modulus)
         if isinstance(other, int | fmpq):
             return Algebraic(self.field, self.polynomial * other)
         if (pair := self._pair(other)) is None:

@@ -44,6 +44,7 @@ class MuntheKaasActionSeries(ActionSeries):
         self._powers: dict[tuple[int, int, Letters], Element] = {}
         self._summands: dict[tuple[int, Letters], Element] = {}
         self._exponentials: dict[tuple[int, Letters], Element] = {}
+        self._rationals: dict[Fraction, Element] = {}
 
     def coefficient(self, row: int, word: Word) -> Element:
         """Return the coefficient of a word in exp(X_i), or exp(Y)."""
@@ -93,15 +94,23 @@ class MuntheKaasActionSeries(ActionSeries):
                 before, behind = word[:place], word[place + 1 :]
                 inner = self._sum(
                     # In a word the first letter acts first: X^(k-m) xi X^m reads the word of X^m first.
-                    self.ring.rational(q.numerator, q.denominator)
-                    * self._power(j, m, before)
-                    * self._power(j, n, behind)
+                    self._times(self._times(self._rational(q), j, m, before), j, n, behind)
                     for q, m, n in terms
+                    # A power of X has a word's coefficient only if the word is empty where the power is 1.
+                    if bool(m) is bool(before) and bool(n) is bool(behind)
                     if m <= len(before) and n <= len(behind)
                 )
                 total = total + (inner if isinstance(letter, int) else inner * self.tau(letter)[j])
             self._summands[key] = total
         return self._summands[key]
+
+    def _times(self, factor: Element, row: int, n: int, word: Letters) -> Element:
+        return factor * self._power(row, n, word) if n else factor
+
+    def _rational(self, q: Fraction) -> Element:
+        if q not in self._rationals:
+            self._rationals[q] = self.ring.rational(q.numerator, q.denominator)
+        return self._rationals[q]
 
     def _terms(self, most: int) -> Terms:
         """Return (coefficient, m, n) for the terms X^n xi X^m with m + n <= ``most``."""

@@ -35,8 +35,16 @@ def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
     >>> classes(2)
     ((o(o), o(|f(*))), (o(|L(o)),))
     """
+    return tuple(classes_in_turn(vertices))
+
+
+def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
+    """Yield the classes one after the other, that of the simplest tree first.
+
+    >>> next(classes_in_turn(7))[0]
+    o(o o o o o o)
+    """
     seen: set[Velocity] = set()
-    found = []
     for tree in velocities(vertices):
         if tree not in seen:
             members = [tree]
@@ -46,8 +54,7 @@ def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
                     if other not in seen:
                         seen.add(other)
                         members.append(other)
-            found.append(tuple(members))
-    return tuple(found)
+            yield tuple(members)
 
 
 def representatives(vertices: int) -> tuple[Velocity, ...]:
