@@ -6,6 +6,7 @@ An archive without spellings is read by its floats, as decimals of all their dig
 from __future__ import annotations
 
 import io
+import re
 import struct
 import zipfile
 import zlib
@@ -71,7 +72,7 @@ def floats(value: Any, roots: str = "{}") -> Any:
     return nearest(value, roots)
 
 
-@lru_cache(maxsize=1024)
+@lru_cache(maxsize=4096)
 def nearest(spelled: str, roots: str = "{}") -> float:
     """Return the double nearest to a spelled coefficient.
 
@@ -80,11 +81,14 @@ def nearest(spelled: str, roots: str = "{}") -> float:
     >>> nearest("x/2", '{"x": {"minpoly": ["-2", "0", "0", "1"], "near": "1.26"}}')
     0.6299605249474366
     """
-    data = {"name": "x", "family": "rk", "A": [[]], "b": [spelled], "numbers": table(roots, "numbers")}
-    tableau = from_data(data)
-    (weight,) = tableau.abelian().b
-    ring: Any = tableau.ring
+    fraction = re.fullmatch(r"(-?[0-9]{1,300})(?:/([1-9][0-9]{0,299}))?", spelled)
     try:
+        if fraction:  # most are; integers divide with one rounding
+            return int(fraction[1]) / int(fraction[2] or 1)
+        data = {"name": "x", "family": "rk", "A": [[]], "b": [spelled], "numbers": table(roots, "numbers")}
+        tableau = from_data(data)
+        (weight,) = tableau.abelian().b
+        ring: Any = tableau.ring
         return float(ring.nearest_float(weight))
     except OverflowError:
         raise TableauError(
