@@ -16,6 +16,9 @@ from codegen.groups.protocol import Scalars, dot
 from codegen.ir.domain import Domain
 from codegen.ir.expr import Expr, evaluate
 
+Field = tuple[Scalars, Scalars]
+"""xi and n."""
+
 
 class Flow(Protocol):
     """The exact flow of one part. ``timed`` says that the part depends on t, which stands still meanwhile."""
@@ -28,6 +31,9 @@ class Flow(Protocol):
         self, d: Domain, group: Any, values: Mapping[str, Any], tau: Any, q: Scalars, mu: Scalars
     ) -> tuple[Scalars, Scalars]:
         """Return (q, mu) after the time tau; ``values`` are those of all symbols at the start."""
+
+    def field(self, d: Domain, group: Any, values: Mapping[str, Any], q: Scalars, mu: Scalars) -> Field:
+        """Return (xi, n), what the flow is the motion of."""
 
     def text(self) -> str:
         """Say what the motion is."""
@@ -46,6 +52,10 @@ class Kick:
         """Return (q, mu + tau n)."""
         n = evaluate(self.force, d, dict(values))
         return q, tuple(m + tau * x for m, x in zip(mu, n, strict=True))
+
+    def field(self, d: Domain, group: Any, values: Mapping[str, Any], q: Scalars, mu: Scalars) -> Field:
+        """Return (0, n)."""
+        return _zero(d, group), tuple(evaluate(self.force, d, dict(values)))
 
     def text(self) -> str:
         """Name it."""
@@ -66,6 +76,10 @@ class Drift:
         xi = evaluate(self.velocity, d, dict(values))
         return group.mul(d, group.exp(d, tuple(tau * x for x in xi)), q), mu
 
+    def field(self, d: Domain, group: Any, values: Mapping[str, Any], q: Scalars, mu: Scalars) -> Field:
+        """Return (xi, 0)."""
+        return tuple(evaluate(self.velocity, d, dict(values))), _zero(d, group)
+
     def text(self) -> str:
         """Name it."""
         return "drift"
@@ -84,6 +98,11 @@ class Isotropic:
         """Return (exp(tau rate mu) q, mu)."""
         step = tau * _rational(d, self.rate)
         return group.left(d, tuple(step * m for m in mu), q), mu
+
+    def field(self, d: Domain, group: Any, values: Mapping[str, Any], q: Scalars, mu: Scalars) -> Field:
+        """Return (rate mu, 0)."""
+        rate = _rational(d, self.rate)
+        return tuple(rate * m for m in mu), _zero(d, group)
 
     def text(self) -> str:
         """Name it."""
@@ -109,15 +128,27 @@ class Turn:
     ) -> tuple[Scalars, Scalars]:
         """Return (q exp(angle e), mu) in the body, (g q, Ad*_{g^-1} mu) with g = exp(angle e) in space."""
         axis = tuple(_rational(d, x) for x in self.axis)
-        component = dot(mu, group.Ad(d, q, axis) if self.body else axis)
-        speed = _rational(d, self.rate) * component
-        if self.offset:
-            speed = speed + _rational(d, self.offset)
-        angle = tau * speed
+        angle = tau * self._speed(d, self._axis(d, group, q), mu)
         if self.body:
             return group.right(d, q, axis, angle), mu
         g = group.exp(d, tuple(angle * x for x in axis))
         return group.mul(d, g, q), group.Adtinv(d, g, mu)
+
+    def field(self, d: Domain, group: Any, values: Mapping[str, Any], q: Scalars, mu: Scalars) -> Field:
+        """Return ((rate e.P + offset) e, 0) in space, e turned with the body and mu kept by n in the body."""
+        axis = self._axis(d, group, q)
+        speed = self._speed(d, axis, mu)
+        n = group.adt(d, axis, mu) if self.body else _zero(d, group)
+        return tuple(speed * e for e in axis), tuple(speed * x if self.body else x for x in n)
+
+    def _axis(self, d: Domain, group: Any, q: Scalars) -> Scalars:
+        """Return the axis in space."""
+        axis = tuple(_rational(d, x) for x in self.axis)
+        return tuple(group.Ad(d, q, axis)) if self.body else axis
+
+    def _speed(self, d: Domain, axis: Scalars, mu: Scalars) -> Any:
+        speed = _rational(d, self.rate) * dot(mu, axis)
+        return speed + _rational(d, self.offset) if self.offset else speed
 
     def text(self) -> str:
         """Name it."""
@@ -156,6 +187,13 @@ class Linear:
             new.append(total)
         return tuple(new[: len(q)]), tuple(new[len(q) :])
 
+    def field(self, d: Domain, group: Any, values: Mapping[str, Any], q: Scalars, mu: Scalars) -> Field:
+        """Return L z + c."""
+        z = (*q, *mu)
+        rows = [_applied(d, row, z, c) for row, c in zip(self.matrix, self.constant, strict=True)]
+        rates = tuple(d.rational(0) if rate is None else rate for rate in rows)
+        return rates[: len(q)], rates[len(q) :]
+
     def text(self) -> str:
         """Name it."""
         return "linear flow"
@@ -163,6 +201,10 @@ class Linear:
 
 def _rational(d: Domain, x: Fraction) -> Any:
     return d.rational(x.numerator, x.denominator)
+
+
+def _zero(d: Domain, group: Any) -> Scalars:
+    return (d.rational(0),) * int(group.dim)
 
 
 def _stumpff(d: Domain, k: int, argument: Any) -> Any:

@@ -31,7 +31,7 @@ static inline void turn_column(double x, double y, double z, double c1, double c
 }
 
 /* turn by exp(x), kick by mu += g gX x -e3, and make x = k mu for the turn that follows */
-static inline void turn_and_kick(struct top *s, double x[static 3], double g, double k)
+static inline __attribute__((always_inline)) void turn_and_kick(struct top *s, double x[static 3], double g, double k)
 {
     const double *d = s->d, a = x[0], b = x[1], c = x[2];
     const double u = b * d[2] - c * d[1], v = c * d[0] - a * d[2], w = a * d[1] - b * d[0];

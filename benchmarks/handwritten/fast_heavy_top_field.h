@@ -29,7 +29,7 @@ static inline void cross(const double a[static 3], const double b[static 3], dou
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-static inline void field(const struct place *s, struct rate *f)
+static inline __attribute__((always_inline)) void field(const struct place *s, struct rate *f)
 {
     const double *d = s->d, *m = s->m;
     const double speed = excess * (m[0] * d[0] + m[1] * d[1] + m[2] * d[2]);
@@ -55,24 +55,42 @@ static inline void turn(const double x[static 3], double c1, double c2, const do
     }
 }
 
+/* sin(s)/s, (1 - cos(s))/s^2 and (s - sin(s))/s^3 of z = s^2, by one branch where z is small */
+static inline void sinc_cosc_defect(double z, double *c1, double *c2, double *c3)
+{
+    if (z <= 0.0625) {
+        const double w = z * z;
+        const double w2 = w * w;
+        *c1 = (1.0 - z * (1.0 / 6.0)) + w * (1.0 / 120.0 - z * (1.0 / 5040.0))
+            + w2 * (1.0 / 362880.0 - z * (1.0 / 39916800.0));
+        *c2 = (0.5 - z * (1.0 / 24.0)) + w * (1.0 / 720.0 - z * (1.0 / 40320.0))
+            + w2 * (1.0 / 3628800.0 - z * (1.0 / 479001600.0));
+        *c3 = (1.0 / 6.0 - z * (1.0 / 120.0)) + w * (1.0 / 5040.0 - z * (1.0 / 362880.0))
+            + w2 * (1.0 / 39916800.0 - z * (1.0 / 6227020800.0));
+        return;
+    }
+    sinc_cosc(z, c1, c2);
+    *c3 = sinc_defect(z);
+}
+
 /*
  * exp(u) acting on d and mu: mu' = exp(x) mu + dexp_x n, all cross products made while c1, c2 and c3 are on their way
  */
-static inline void move(const struct rate *u, const struct place *s, struct place *y, double c[static 2])
+static inline __attribute__((always_inline)) void move(const struct rate *u, const struct place *s, struct place *y, double c[static 2])
 {
-    const double *x = u->x, *n = u->n, *m = s->m;
-    double c1, c2, p[3], q[3], v[3], w[3];
-    const double z = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
-    sinc_cosc(z, &c1, &c2);
-    const double c3 = sinc_defect(z);
-    cross(x, m, p);
-    cross(x, n, v);
-    cross(x, p, q);
-    cross(x, v, w);
-    turn(x, c1, c2, s->d, y->d);
-    for (int i = 0; i < 3; i++) {
-        y->m[i] = (m[i] + n[i]) + ((c1 * p[i] + c2 * (q[i] + v[i])) + c3 * w[i]);
-    }
+    const double a = u->x[0], b = u->x[1], e = u->x[2], k = u->n[0], l = u->n[1], m = u->n[2];
+    const double d0 = s->d[0], d1 = s->d[1], d2 = s->d[2], m0 = s->m[0], m1 = s->m[1], m2 = s->m[2];
+    const double p0 = b * m2 - e * m1, p1 = e * m0 - a * m2, p2 = a * m1 - b * m0;
+    const double v0 = b * m - e * l, v1 = e * k - a * m, v2 = a * l - b * k;
+    const double q0 = b * d2 - e * d1, q1 = e * d0 - a * d2, q2 = a * d1 - b * d0;
+    double c1, c2, c3;
+    sinc_cosc_defect(a * a + b * b + e * e, &c1, &c2, &c3);
+    y->d[0] = d0 + (c1 * q0 + c2 * (b * q2 - e * q1));
+    y->d[1] = d1 + (c1 * q1 + c2 * (e * q0 - a * q2));
+    y->d[2] = d2 + (c1 * q2 + c2 * (a * q1 - b * q0));
+    y->m[0] = (m0 + k) + ((c1 * p0 + c2 * ((b * p2 - e * p1) + v0)) + c3 * (b * v2 - e * v1));
+    y->m[1] = (m1 + l) + ((c1 * p1 + c2 * ((e * p0 - a * p2) + v1)) + c3 * (e * v0 - a * v2));
+    y->m[2] = (m2 + m) + ((c1 * p2 + c2 * ((a * p1 - b * p0) + v2)) + c3 * (a * v1 - b * v0));
     c[0] = c1;
     c[1] = c2;
 }

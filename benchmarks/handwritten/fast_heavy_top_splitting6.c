@@ -16,12 +16,19 @@ void handwritten_run(double state[static 12], double h, size_t steps)
     begin(&s, state);
     double x[3] = {A[0] * k * s.m[0], A[0] * k * s.m[1], A[0] * k * s.m[2]};
     for (size_t n = 1; n <= steps; n++) {
-        for (int i = 0; i < 7; i++) {
-            turn_and_kick(&s, x, B[i] * g, A[i + 1] * k);
-        }
-        for (int i = 6; i > 0; i--) {
-            turn_and_kick(&s, x, B[i] * g, A[i] * k);
-        }
+        turn_and_kick(&s, x, B[0] * g, A[1] * k);
+        turn_and_kick(&s, x, B[1] * g, A[2] * k);
+        turn_and_kick(&s, x, B[2] * g, A[3] * k);
+        turn_and_kick(&s, x, B[3] * g, A[4] * k);
+        turn_and_kick(&s, x, B[4] * g, A[5] * k);
+        turn_and_kick(&s, x, B[5] * g, A[6] * k);
+        turn_and_kick(&s, x, B[6] * g, A[7] * k);
+        turn_and_kick(&s, x, B[6] * g, A[6] * k);
+        turn_and_kick(&s, x, B[5] * g, A[5] * k);
+        turn_and_kick(&s, x, B[4] * g, A[4] * k);
+        turn_and_kick(&s, x, B[3] * g, A[3] * k);
+        turn_and_kick(&s, x, B[2] * g, A[2] * k);
+        turn_and_kick(&s, x, B[1] * g, A[1] * k);
         turn_and_kick(&s, x, B[0] * g, n < steps ? 2.0 * A[0] * k : A[0] * k);
     }
     turn(&s, x);

@@ -19,7 +19,7 @@ class LeftMultiplication:
 
     def actexp(self, d: Domain, group: Any, x: Scalars, y: Scalars) -> Scalars:
         """Return exp(x) y."""
-        return tuple(group.mul(d, group.exp(d, x), y))
+        return tuple(group.left(d, x, y))
 
     def velocity(self, d: Domain, group: Any, x: Scalars, y: Scalars) -> Scalars:
         """Return x.y, the derivative of exp(eps x).y at eps = 0."""

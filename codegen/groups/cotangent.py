@@ -47,6 +47,16 @@ class Cotangent(LieGroup):
         product: Scalars = self.base.mul(d, a, b)
         return product + tuple(x + y for x, y in zip(mu, moved, strict=True))
 
+    def left(self, d: Domain, x: Scalars, g: Scalars) -> Scalars:
+        """Return exp(x) g."""
+        (xi, n), (q, mu) = self._split(x), self._split(g)
+        element: Scalars = self.base.left(d, xi, q)
+        return element + tuple(self.base.moved(d, xi, n, mu))
+
+    def variants(self) -> tuple[Cotangent, ...]:
+        """Return the bundles over the variants of the base."""
+        return tuple(Cotangent(base) for base in self.base.variants())
+
     def ad(self, d: Domain, x: Scalars, y: Scalars) -> Scalars:
         """Return ([x, y], ad*_y m - ad*_x n)."""
         (a, m), (b, n) = self._split(x), self._split(y)

@@ -137,6 +137,13 @@ class LieGroup:
         """Return exp(x) g."""
         return self.mul(d, self.exp(d, x), g)
 
+    def moved(self, d: Domain, x: Scalars, n: Scalars, mu: Scalars) -> Scalars:
+        """Return Ad*_{exp(-x)} mu + dexp*_{-x} n, the momentum after exp(x, n) on T*G."""
+        group: Any = self  # with a coadjoint action, which not every group has
+        turned = group.Adtinv(d, self.exp(d, x), mu)
+        pushed = group.dexpt(d, tuple(-a for a in x), n)
+        return tuple(a + b for a, b in zip(pushed, turned, strict=True))
+
     def right(self, d: Domain, g: Scalars, axis: Scalars, angle: Any) -> Scalars:
         """Return g exp(angle axis)."""
         return self.mul(d, g, self.exp(d, tuple(angle * e for e in axis)))

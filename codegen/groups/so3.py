@@ -201,6 +201,16 @@ class SO3(LieGroup):
         columns[self.spare] = cross(columns[j], columns[k])
         return tuple(columns[i % 3][i // 3] for i in range(9))
 
+    def moved(self, d: Domain, x: Scalars, n: Scalars, mu: Scalars) -> Scalars:
+        """Return exp(x) mu + dexp_x n; with a column to spare without the matrix exp(x)."""
+        if self.spare is None:
+            return super().moved(d, x, n, mu)
+        z = dot(x, x)
+        c1, c2, c3 = (d.call(f"stumpff{k}", z) for k in (1, 2, 3))
+        v, w = cross(x, mu), cross(x, n)
+        p, q = cross(x, v), cross(x, w)
+        return tuple((mu[i] + n[i]) + ((c1 * v[i] + c2 * (p[i] + w[i])) + c3 * q[i]) for i in range(3))
+
     def laws(self, d: Domain, g: Scalars) -> tuple[tuple[str, Any], ...]:
         """Return g^T g = 1 and det g = 1."""
         one, columns = d.rational(1), [g[j::3] for j in range(3)]

@@ -16,10 +16,10 @@ from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
 
 LEAD = "lead.h"
-"""How long the first flow of a step lasts; no name that a user can give."""
+"""How long the last flow of a step lasts; no name that a user can give."""
 
 ELAPSED = "elapsed.h"
-"""How long the steps lasted whose end is put off."""
+"""How long the steps lasted for which something was put off."""
 
 LONGEST = 256
 """After how many steps a run makes what commutes with all of them: the angles in it shall stay moderate."""
@@ -128,16 +128,22 @@ class Field:
 
 @dataclass(frozen=True)
 class PutOff:
-    """What a run does once and not in each step.
+    """What a run does not do in each step.
 
-    A step is the kernel with :data:`LEAD` = ``first`` h, and ``finish`` after it. Made n times, that equals
-    the kernel n times, with LEAD = ``later`` h from the second on, and ``finish`` once with :data:`ELAPSED` =
-    n h and the t of the last step.
+    A step is ``begin``, the kernel with :data:`LEAD` = ``last`` h, and ``finish`` with :data:`ELAPSED` = h.
+    Steps one after the other are ``begin`` once, the kernel as often, with LEAD = ``later`` h in all but the
+    last, and ``finish`` once, with ELAPSED as long as all of them.
     """
 
-    finish: Kernel
-    first: Number
+    begin: Kernel | None
+    finish: Kernel | None
+    last: Number
     later: Number
+
+    @property
+    def kernels(self) -> tuple[Kernel, ...]:
+        """Those that there are."""
+        return tuple(kernel for kernel in (self.begin, self.finish) if kernel is not None)
 
 
 @dataclass(frozen=True)
@@ -224,5 +230,5 @@ class Kernel:
         """Return those of ``scalars`` that some expression reads, in order; what is put off reads too."""
         read = {n.payload for n in walk(self.expressions()) if n.op == "sym"}
         if self.put_off is not None:
-            read |= set(self.put_off.finish.used_scalars())
+            read |= {s for kernel in self.put_off.kernels for s in kernel.used_scalars()}
         return tuple(s for s in self.scalars if s in read)

@@ -8,6 +8,7 @@ from typing import Any
 from codegen.errors import MethodError
 from codegen.ir.program import Program
 from codegen.lower.discrete_gradient import keeps_energy
+from codegen.lower.simplify import simplified
 from codegen.lower.splitting import setting as with_flows
 from codegen.method import Method
 from codegen.scene import Setting
@@ -68,7 +69,7 @@ def setting(scene: Setting, method: Method) -> Setting:
         return with_flows(scene, method) if family in OF_PARTS else scene
     if family == "ambient":
         return scene.as_ambient()
-    view = scene.as_field()
+    view = simplified(scene).as_field()
     if family == "rk" and not view.group.abelian:
         group = view.group.name
         raise MethodError(

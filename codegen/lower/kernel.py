@@ -23,7 +23,7 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.interpret import apply, flatten
 from codegen.ir.jacobian import jacobian
 from codegen.ir.kernel import ELAPSED, LEAD, Estimate, Field, Kernel, Let, Loop, Newton, Sample, Start
-from codegen.ir.program import EMBEDDED, FLOWS, FLOWS_FOR, Assign, Kind, Program, Solve, Var
+from codegen.ir.program import EMBEDDED, Assign, Kind, Program, Solve, Var
 from codegen.ir.tangent import tangents
 from codegen.lower import late
 from codegen.lower.variation import Variations
@@ -48,13 +48,22 @@ class _Block:
     matrix: tuple[tuple[Expr, ...], ...] = ()
 
 
+AS_WRITTEN, ORDERED, SHORTENED = range(3)
+"""What is done about long chains: nothing, assignments in order, all of :mod:`codegen.lower.late`."""
+
+
 def to_kernel(
-    program: Program, scene: Setting, newton: Collection[str] = (), variations: Variations | None = None
+    program: Program,
+    scene: Setting,
+    newton: Collection[str] = (),
+    variations: Variations | None = None,
+    chains: int = AS_WRITTEN,
 ) -> Kernel:
     """Return the kernel of a program in its setting (:func:`codegen.lower.setting`).
 
     ``newton`` are the labels of the blocks to be solved by Newton's method, the others are iterated. With
     ``variations`` it is the kernel that carries one of the state along (``Kernel.vary``).
+    ``chains`` other than :data:`AS_WRITTEN` is for programs without blocks.
     :class:`codegen.errors.SceneError` where an operation of the group has no closed form,
     :class:`codegen.ir.differentiate.NotDifferentiable` where Newton's method has no matrix.
     """
@@ -115,8 +124,7 @@ def to_kernel(
     if scene.body_group is not None:
         outputs = _framed(scene, outputs, lambda q, mu: scene.body_group.Adt(domain, q, mu))
         lower = lower and _framed(scene, lower, lambda q, mu: scene.body_group.Adt(domain, q, mu))
-    composed = any(name in FLOWS | FLOWS_FOR for name in program.counts())
-    if composed:
+    if chains == SHORTENED:
         outputs = late.run(outputs, frozenset({"h", *scene.runtime}))
     if variations is not None:
         seeds = variations.seeds(domain)
@@ -133,7 +141,7 @@ def to_kernel(
     durations = [v.name for v in program.inputs if v.name in (LEAD, ELAPSED)]
     scalars = (TIME, "h", *scene.runtime, *durations)
     body = schedule.run()
-    if composed:
+    if chains != AS_WRITTEN:
         body = late.ordered([let for let in body if isinstance(let, Let)])
     made = Kernel(program.name, state, scalars, body, outputs=schedule.outputs[: len(outputs)])
     if errors:

@@ -24,8 +24,8 @@ ATOMS = frozenset({"call", "div"})
 SLACK = 1
 """How far from the longest chain an expression may be that is rewritten."""
 
-Sum = dict[Expr | None, tuple[Expr, Expr]]
-"""A sum over late values (None: no such factor) of what multiplies them: (steps and constants, the rest)."""
+Sum = dict[Expr | None, tuple[int, Expr, Expr]]
+"""A sum over late values (None: no such factor), each multiplied by sign, steps and constants, the rest."""
 
 
 def chain(kernel: Kernel) -> int:
@@ -100,7 +100,7 @@ class _Chains:
         for node in self.nodes:
             args = [self.new[a.id] for a in node.args]
             plain = node.space._make(node.op, tuple(args), node.payload) if args else node
-            self._known(plain)
+            plain = self._combined(self._known(plain))
             self.new[node.id] = plain
             if node.id in ends and node.op in ("add", "sub", "mul"):
                 short = self._spelled(self._sum(node, self.level[node.id]), node.space)
@@ -126,20 +126,16 @@ class _Chains:
 
     def _sum(self, node: Expr, level: int) -> Sum:
         """Return an expression as a sum over the late values of a level."""
-        space = node.space
+        one = node.space.one
         if self.level[node.id] < level:
-            return {None: (space.one, self.new[node.id])}
+            return {None: (1, one, self.new[node.id])}
         if node.op == "neg":
-            return _scaled(self._sum(node.args[0], level), -space.one, space.one)
+            return _scaled(self._sum(node.args[0], level), -1, one, one)
         if node.op in ("add", "sub"):
             total = dict(self._sum(node.args[0], level))
-            sign = space.one if node.op == "add" else -space.one
-            for atom, (steps, rest) in _scaled(self._sum(node.args[1], level), sign, space.one).items():
-                if atom in total:
-                    before = self._product(*total[atom])
-                    total[atom] = (space.one, before + self._product(steps, rest))
-                else:
-                    total[atom] = (steps, rest)
+            sign = 1 if node.op == "add" else -1
+            for atom, term in _scaled(self._sum(node.args[1], level), sign, one, one).items():
+                total[atom] = self._joined(total[atom], term) if atom in total else term
             return total
         if node.op == "mul":
             a, b = node.args
@@ -147,23 +143,43 @@ class _Chains:
                 a, b = b, a
             if self.level[a.id] < level:
                 factor = self.new[a.id]
-                one = space.one
-                return _scaled(self._sum(b, level), *((factor, one) if self.fixed[a.id] else (one, factor)))
-        return {self.new[node.id]: (space.one, space.one)}
+                return _scaled(
+                    self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
+                )
+        return {self.new[node.id]: (1, one, one)}
+
+    def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
+        """Return the sum of two factors of one late value."""
+        x, y = self._product(*a[1:]), self._product(*b[1:])
+        return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)
 
     def _product(self, steps: Expr, rest: Expr) -> Expr:
         return self._known(self._known(steps) * rest)
 
     def _spelled(self, total: Sum, space: Space) -> Expr:
         """Return the sum of products, what is ready first added first."""
-        terms: list[Expr] = []
-        for atom, (steps, rest) in total.items():
+        terms: list[tuple[int, Expr]] = []
+        for atom, (sign, steps, rest) in total.items():
             product = self._product(steps, rest)
-            terms.append(product if atom is None else self._known(atom * product))
+            terms.append((sign, product if atom is None else self._known(atom * product)))
         while len(terms) > 1:
-            terms.sort(key=lambda t: self.ready[t.id])
-            terms = [self._known(terms[0] + terms[1]), *terms[2:]]
-        return terms[0] if terms else space.zero
+            terms.sort(key=lambda term: self.ready[term[1].id])
+            (p, x), (q, y), *others = terms
+            both = x + y if p == q else x - y if p > 0 else y - x
+            terms = [(p if p == q else 1, self._known(both)), *others]
+        sign, value = terms[0]
+        return value if sign > 0 else self._known(-value)
+
+    def _combined(self, node: Expr) -> Expr:
+        """Return a product with its steps and constants multiplied first: they are the same in every step."""
+        if node.op != "mul":
+            return node
+        for a, b in (node.args, node.args[::-1]):
+            if self.fixed[a.id] and b.op == "mul":
+                for c, d in (b.args, b.args[::-1]):
+                    if self.fixed[c.id] and not self.fixed[d.id]:
+                        return self._product(a * c, d)
+        return node
 
     def _known(self, node: Expr) -> Expr:
         """Measure a node that was made on the way, with what it is made of."""
@@ -173,5 +189,5 @@ class _Chains:
         return node
 
 
-def _scaled(total: Sum, steps: Expr, rest: Expr) -> Sum:
-    return {atom: (s * steps, r * rest) for atom, (s, r) in total.items()}
+def _scaled(total: Sum, sign: int, steps: Expr, rest: Expr) -> Sum:
+    return {atom: (sign * p, s * steps, r * rest) for atom, (p, s, r) in total.items()}

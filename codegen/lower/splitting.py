@@ -50,10 +50,6 @@ def read(scene: Setting, method: Method) -> Reading:
             expected="named summands of H",
             hint='write parts={"T": T, "V": V} in the scene',
         )
-    if scene.inputs:
-        raise MethodError(
-            f"the run-time input {', '.join(scene.inputs)}", where=where, expected="a scene without inputs"
-        )
     assert scene.hamiltonian is not None
     rest = scene.hamiltonian
     for summand in scene.parts.values():

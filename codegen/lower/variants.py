@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from codegen.groups.cotangent import Cotangent
 from codegen.ir.expr import walk
 from codegen.ir.kernel import Kernel
-from codegen.ir.program import FLOWS, Program
-from codegen.lower.kernel import to_kernel
+from codegen.ir.program import FLOWS, Assign, Program
+from codegen.lower.kernel import AS_WRITTEN, ORDERED, SHORTENED, to_kernel
 from codegen.lower.late import chain
 from codegen.lower.put_off import with_put_off
 from codegen.scene import Setting
@@ -24,13 +25,17 @@ WIDTH = 10
 
 
 def fastest(program: Program, scene: Setting) -> Kernel:
-    """Return the kernel of a program in that variant of the group which promises the shortest step."""
-    composed = any(name in FLOWS for name in program.counts())
-    groups = scene.group.variants() if composed else (scene.group,)
+    """Return the kernel of a program in that variant of the group which promises the shortest step.
+
+    Only explicit programs of flows, and fields on T*G, have variants.
+    """
+    explicit = all(isinstance(statement, Assign) for statement in program.body)
+    varied = explicit and (isinstance(scene.group, Cotangent) or not FLOWS.isdisjoint(program.counts()))
     found = []
-    for group in groups:
-        view = replace(scene, group=group)
-        found.append(with_put_off(to_kernel(program, view), program, view))
+    for group in scene.group.variants() if varied else (scene.group,):
+        for chains in (ORDERED, SHORTENED) if varied else (AS_WRITTEN,):
+            view = replace(scene, group=group)
+            found.append(with_put_off(to_kernel(program, view, chains=chains), program, view, chains))
     return min(found, key=time)
 
 

@@ -68,9 +68,9 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
 def costs(kernel: Kernel) -> list[str]:
     """Spell what a step, each sweep of its blocks and the end of a run cost."""
     lines = sentences(operations(arrange(kernel)))
-    if kernel.put_off is not None:
-        (end,) = sentences(operations(arrange(kernel.put_off.finish)))
-        lines.append(f"{end.removesuffix(' a step')} at the end of a run")
+    for made in kernel.put_off.kernels if kernel.put_off is not None else ():
+        (once,) = sentences(operations(arrange(made)))
+        lines.append(f"{once.removesuffix(' a step')} once in a run of steps")
     return lines
 
 

@@ -48,7 +48,6 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
         if precision is DOUBLE:
             short = {"k": k, "short": stumpff.constants(k, stumpff.SMALL)}
             found.append(Snippet(f"stumpff_small_{k}", "stumpff_small", (), short))
-    small = float(stumpff.SMALL) if precision is DOUBLE else ""
     for orders in stumpff.SETS:
         name = "stumpff_" + "".join(map(str, orders))
         library = ["sqrt"]
@@ -56,11 +55,16 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
             library.append("sin")
         if orders not in ((1,), (2,), (3,), (1, 3)):
             library.append("cos")
-        branches = ("small", "series") if precision is DOUBLE else ("series",)
-        calls = (*library, *(f"stumpff_{branch}_{k}" for k in orders for branch in branches))
+        series = (*library, *(f"stumpff_series_{k}" for k in orders))
         values = {"name": name, "orders": orders, "switch": switch, "limit": stumpff.limit(precision)}
-        values["small"] = small
-        found.append(Snippet(name, "stumpff", calls, values))
+        if precision is not DOUBLE:
+            found.append(Snippet(name, "stumpff", series, values | {"small": ""}))
+            continue
+        # What is small enough to be inlined everywhere stands alone; the rest is called seldom.
+        far, small = f"{name}_far", float(stumpff.SMALL)
+        found.append(Snippet(far, "stumpff", series, values | {"name": far, "small": small}))
+        calls = (*(f"stumpff_small_{k}" for k in orders), far)
+        found.append(Snippet(name, "stumpff_near", calls, values | {"small": small, "far": far}))
     return tuple(found)
 
 

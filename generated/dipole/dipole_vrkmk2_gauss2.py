@@ -182,10 +182,8 @@ def _stumpff_series_1(z):
     return 1.0 + z * (even + z * odd)
 
 
-def _stumpff_23(z):
-    """Return, for z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
-    if z <= 0.0625:
-        return _stumpff_small_2(z), _stumpff_small_3(z)
+def _stumpff_23_far(z):
+    """Return, for z > 1/16 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 1.0:
         return _stumpff_series_2(z), _stumpff_series_3(z)
     half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
@@ -194,10 +192,32 @@ def _stumpff_23(z):
     return 0.5 * (ratio * ratio), c3
 
 
-def _stumpff_123(z):
-    """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
+def _stumpff_23(z):
+    """Return, for z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 0.0625:
-        return _stumpff_small_1(z), _stumpff_small_2(z), _stumpff_small_3(z)
+        return _stumpff_small_2(z), _stumpff_small_3(z)
+    return _stumpff_23_far(z)
+
+
+def _stumpff_1_far(z):
+    """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s."""
+    if z <= 1.0:
+        return _stumpff_series_1(z)
+    s = sqrt(z if z <= 4503599627370496.0 else float("nan"))
+    return sin(s) / s
+
+
+def _stumpff_12_far(z):
+    """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
+    if z <= 1.0:
+        return _stumpff_series_1(z), _stumpff_series_2(z)
+    half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
+    ratio = sin(half) / half
+    return ratio * cos(half), 0.5 * (ratio * ratio)
+
+
+def _stumpff_123_far(z):
+    """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z), _stumpff_series_3(z)
     half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
@@ -206,25 +226,25 @@ def _stumpff_123(z):
     return ratio * cos(half), 0.5 * (ratio * ratio), c3
 
 
+def _stumpff_123(z):
+    """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
+    if z <= 0.0625:
+        return _stumpff_small_1(z), _stumpff_small_2(z), _stumpff_small_3(z)
+    return _stumpff_123_far(z)
+
+
 def _stumpff_12(z):
     """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
     if z <= 0.0625:
         return _stumpff_small_1(z), _stumpff_small_2(z)
-    if z <= 1.0:
-        return _stumpff_series_1(z), _stumpff_series_2(z)
-    half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
-    ratio = sin(half) / half
-    return ratio * cos(half), 0.5 * (ratio * ratio)
+    return _stumpff_12_far(z)
 
 
 def _stumpff_1(z):
     """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s."""
     if z <= 0.0625:
         return _stumpff_small_1(z)
-    if z <= 1.0:
-        return _stumpff_series_1(z)
-    s = sqrt(z if z <= 4503599627370496.0 else float("nan"))
-    return sin(s) / s
+    return _stumpff_1_far(z)
 
 
 def slope3(z):

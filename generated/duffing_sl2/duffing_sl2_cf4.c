@@ -89,12 +89,9 @@ static inline double stumpff_series_0(double z)
     return 1.0 + z * (even + z * odd);
 }
 
-/* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s */
-static inline double stumpff_1(double z)
+/* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s */
+static double stumpff_1_far(double z)
 {
-    if (z <= 0.0625) {
-        return stumpff_small_1(z);
-    }
     if (z <= 1.0) {
         return stumpff_series_1(z);
     }
@@ -102,17 +99,26 @@ static inline double stumpff_1(double z)
     return sin(s) / s;
 }
 
-/* For z >= 0 and s = sqrt(z): c_0 = cos(s) */
-static inline double stumpff_0(double z)
+/* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s */
+static inline double stumpff_1(double z)
 {
-    if (z <= 0.0625) {
-        return stumpff_small_0(z);
-    }
+    return z <= 0.0625 ? stumpff_small_1(z) : stumpff_1_far(z);
+}
+
+/* For z > 1/16 and s = sqrt(z): c_0 = cos(s) */
+static double stumpff_0_far(double z)
+{
     if (z <= 1.0) {
         return stumpff_series_0(z);
     }
     const double s = sqrt(z <= 4503599627370496.0 ? z : NAN);
     return cos(s);
+}
+
+/* For z >= 0 and s = sqrt(z): c_0 = cos(s) */
+static inline double stumpff_0(double z)
+{
+    return z <= 0.0625 ? stumpff_small_0(z) : stumpff_0_far(z);
 }
 
 /* For z of either sign, s = sqrt(z) and r = sqrt(-z): c_1 = sin(s)/s or sinh(r)/r */

@@ -93,24 +93,34 @@ def _stumpff_series_0(z):
     return 1.0 + z * (even + z * odd)
 
 
-def _stumpff_1(z):
-    """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s."""
-    if z <= 0.0625:
-        return _stumpff_small_1(z)
+def _stumpff_1_far(z):
+    """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s."""
     if z <= 1.0:
         return _stumpff_series_1(z)
     s = sqrt(z if z <= 4503599627370496.0 else float("nan"))
     return sin(s) / s
 
 
-def _stumpff_0(z):
-    """Return, for z >= 0 and s = sqrt(z): c_0 = cos(s)."""
+def _stumpff_1(z):
+    """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s."""
     if z <= 0.0625:
-        return _stumpff_small_0(z)
+        return _stumpff_small_1(z)
+    return _stumpff_1_far(z)
+
+
+def _stumpff_0_far(z):
+    """Return, for z > 1/16 and s = sqrt(z): c_0 = cos(s)."""
     if z <= 1.0:
         return _stumpff_series_0(z)
     s = sqrt(z if z <= 4503599627370496.0 else float("nan"))
     return cos(s)
+
+
+def _stumpff_0(z):
+    """Return, for z >= 0 and s = sqrt(z): c_0 = cos(s)."""
+    if z <= 0.0625:
+        return _stumpff_small_0(z)
+    return _stumpff_0_far(z)
 
 
 def signed_stumpff1(z):

@@ -141,14 +141,9 @@ static inline double stumpff_series_0(double z)
     return 1.0 + z * (even + z * odd);
 }
 
-/* For z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
-static inline void stumpff_23(double z, double *c2, double *c3)
+/* For z > 1/16 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
+static void stumpff_23_far(double z, double *c2, double *c3)
 {
-    if (z <= 0.0625) {
-        *c2 = stumpff_small_2(z);
-        *c3 = stumpff_small_3(z);
-        return;
-    }
     if (z <= 1.0) {
         *c2 = stumpff_series_2(z);
         *c3 = stumpff_series_3(z);
@@ -162,14 +157,20 @@ static inline void stumpff_23(double z, double *c2, double *c3)
     *c3 = z <= 4.0 ? stumpff_series_3(z) : (1.0 - ratio * cosine) / z;
 }
 
-/* For z >= 0 and s = sqrt(z): c_0 = cos(s), c_1 = sin(s)/s */
-static inline void stumpff_01(double z, double *c0, double *c1)
+/* For z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
+static inline void stumpff_23(double z, double *c2, double *c3)
 {
     if (z <= 0.0625) {
-        *c0 = stumpff_small_0(z);
-        *c1 = stumpff_small_1(z);
-        return;
+        *c2 = stumpff_small_2(z);
+        *c3 = stumpff_small_3(z);
+    } else {
+        stumpff_23_far(z, c2, c3);
     }
+}
+
+/* For z > 1/16 and s = sqrt(z): c_0 = cos(s), c_1 = sin(s)/s */
+static void stumpff_01_far(double z, double *c0, double *c1)
+{
     if (z <= 1.0) {
         *c0 = stumpff_series_0(z);
         *c1 = stumpff_series_1(z);
@@ -179,6 +180,17 @@ static inline void stumpff_01(double z, double *c0, double *c1)
     const double ratio = sin(s) / s;
     *c0 = cos(s);
     *c1 = ratio;
+}
+
+/* For z >= 0 and s = sqrt(z): c_0 = cos(s), c_1 = sin(s)/s */
+static inline void stumpff_01(double z, double *c0, double *c1)
+{
+    if (z <= 0.0625) {
+        *c0 = stumpff_small_0(z);
+        *c1 = stumpff_small_1(z);
+    } else {
+        stumpff_01_far(z, c0, c1);
+    }
 }
 
 /* a/b, and 0 where b = 0, which is the limit there */

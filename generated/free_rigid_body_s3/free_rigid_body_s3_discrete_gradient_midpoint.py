@@ -198,10 +198,8 @@ def _stumpff_series_0(z):
     return 1.0 + z * (even + z * odd)
 
 
-def _stumpff_23(z):
-    """Return, for z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
-    if z <= 0.0625:
-        return _stumpff_small_2(z), _stumpff_small_3(z)
+def _stumpff_23_far(z):
+    """Return, for z > 1/16 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 1.0:
         return _stumpff_series_2(z), _stumpff_series_3(z)
     half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
@@ -210,15 +208,27 @@ def _stumpff_23(z):
     return 0.5 * (ratio * ratio), c3
 
 
-def _stumpff_01(z):
-    """Return, for z >= 0 and s = sqrt(z): c_0 = cos(s), c_1 = sin(s)/s."""
+def _stumpff_23(z):
+    """Return, for z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 0.0625:
-        return _stumpff_small_0(z), _stumpff_small_1(z)
+        return _stumpff_small_2(z), _stumpff_small_3(z)
+    return _stumpff_23_far(z)
+
+
+def _stumpff_01_far(z):
+    """Return, for z > 1/16 and s = sqrt(z): c_0 = cos(s), c_1 = sin(s)/s."""
     if z <= 1.0:
         return _stumpff_series_0(z), _stumpff_series_1(z)
     s = sqrt(z if z <= 4503599627370496.0 else float("nan"))
     ratio = sin(s) / s
     return cos(s), ratio
+
+
+def _stumpff_01(z):
+    """Return, for z >= 0 and s = sqrt(z): c_0 = cos(s), c_1 = sin(s)/s."""
+    if z <= 0.0625:
+        return _stumpff_small_0(z), _stumpff_small_1(z)
+    return _stumpff_01_far(z)
 
 
 def quotient(a, b):

@@ -114,12 +114,9 @@ static inline double stumpff_series_1(double z)
     return 1.0 + z * (even + z * odd);
 }
 
-/* For z >= 0 and s = sqrt(z): c_3 = (s - sin(s))/s^3 */
-static inline double stumpff_3(double z)
+/* For z > 1/16 and s = sqrt(z): c_3 = (s - sin(s))/s^3 */
+static double stumpff_3_far(double z)
 {
-    if (z <= 0.0625) {
-        return stumpff_small_3(z);
-    }
     if (z <= 4.0) {
         return stumpff_series_3(z);
     }
@@ -127,14 +124,15 @@ static inline double stumpff_3(double z)
     return (1.0 - sin(s) / s) / z;
 }
 
-/* For z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
-static inline void stumpff_23(double z, double *c2, double *c3)
+/* For z >= 0 and s = sqrt(z): c_3 = (s - sin(s))/s^3 */
+static inline double stumpff_3(double z)
 {
-    if (z <= 0.0625) {
-        *c2 = stumpff_small_2(z);
-        *c3 = stumpff_small_3(z);
-        return;
-    }
+    return z <= 0.0625 ? stumpff_small_3(z) : stumpff_3_far(z);
+}
+
+/* For z > 1/16 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
+static void stumpff_23_far(double z, double *c2, double *c3)
+{
     if (z <= 1.0) {
         *c2 = stumpff_series_2(z);
         *c3 = stumpff_series_3(z);
@@ -148,14 +146,30 @@ static inline void stumpff_23(double z, double *c2, double *c3)
     *c3 = z <= 4.0 ? stumpff_series_3(z) : (1.0 - ratio * cosine) / z;
 }
 
-/* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
-static inline void stumpff_12(double z, double *c1, double *c2)
+/* For z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
+static inline void stumpff_23(double z, double *c2, double *c3)
 {
     if (z <= 0.0625) {
-        *c1 = stumpff_small_1(z);
         *c2 = stumpff_small_2(z);
-        return;
+        *c3 = stumpff_small_3(z);
+    } else {
+        stumpff_23_far(z, c2, c3);
     }
+}
+
+/* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s */
+static double stumpff_1_far(double z)
+{
+    if (z <= 1.0) {
+        return stumpff_series_1(z);
+    }
+    const double s = sqrt(z <= 4503599627370496.0 ? z : NAN);
+    return sin(s) / s;
+}
+
+/* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
+static void stumpff_12_far(double z, double *c1, double *c2)
+{
     if (z <= 1.0) {
         *c1 = stumpff_series_1(z);
         *c2 = stumpff_series_2(z);
@@ -169,17 +183,21 @@ static inline void stumpff_12(double z, double *c1, double *c2)
     *c2 = 0.5 * (ratio * ratio);
 }
 
+/* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
+static inline void stumpff_12(double z, double *c1, double *c2)
+{
+    if (z <= 0.0625) {
+        *c1 = stumpff_small_1(z);
+        *c2 = stumpff_small_2(z);
+    } else {
+        stumpff_12_far(z, c1, c2);
+    }
+}
+
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s */
 static inline double stumpff_1(double z)
 {
-    if (z <= 0.0625) {
-        return stumpff_small_1(z);
-    }
-    if (z <= 1.0) {
-        return stumpff_series_1(z);
-    }
-    const double s = sqrt(z <= 4503599627370496.0 ? z : NAN);
-    return sin(s) / s;
+    return z <= 0.0625 ? stumpff_small_1(z) : stumpff_1_far(z);
 }
 
 /* The derivative of c_3 for z >= 0 */

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Kernel, PutOff, Start
 from codegen.printers.arrange import Arrangement, arrange
 from codegen.printers.c.jacobian import varying
@@ -49,9 +51,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         held = max(held, own.count) + 3 * interface.variations
     variables["put_off"] = None
     if kernel.put_off is not None:
-        variables["put_off"], variables["advance_source"], more, held = put_off(
-            kernel.put_off, arrangement, names, interface
-        )
+        variables["put_off"], more, held = put_off(kernel.put_off, arrangement, names, interface)
         functions |= more
     found = needed("c", sorted(functions), interface.format)
     variables |= {
@@ -96,44 +96,52 @@ def definition(
 
 def put_off(
     what: PutOff, arrangement: Arrangement, names: Names, interface: Interface
-) -> tuple[dict[str, object], list[str], set[str], int]:
-    """Return what the template needs of an end that is put off, the head of ``advance``, functions, numbers.
+) -> tuple[dict[str, object], set[str], int]:
+    """Return what the template needs of what is put off, the functions called, and how many numbers.
 
-    The numbers are those that both functions and their caller hold, for :func:`stack`.
+    The numbers are those that all functions and their caller hold, for :func:`stack`.
     """
-    ending = arrange(what.finish)
-    own = register(what.finish, ending, Names(RESERVED | own_names(interface)))
-    real, scalars = interface.format, (TIME, "h", *interface.parameters, LEAD, ELAPSED)
-    read = [[s for s in scalars if s in a.symbols() | {"h"}] for a in (arrangement, ending)]
-    read[1] = [s for s in scalars if s in ending.symbols()]
-    wide = "" if real is DOUBLE else f"({real.c_type})"
-    product = "(double)late * h" if real is DOUBLE else f"{wide}((double)late * (double)h)"
-    before = later(interface).replace("(double)step", "(double)(step - 1)")
+    real, state = interface.format, f"{interface.format.c_type} state[static {interface.size}]"
+    scalars = (TIME, "h", *interface.parameters, LEAD, ELAPSED)
+    product = "(double)late * h"
+    if real is not DOUBLE:
+        product = f"({real.c_type})((double)late * (double)h)"
 
-    def passed(read: list[str], t: str, elapsed: str) -> str:
-        values = {TIME: t, LEAD: "lead", ELAPSED: elapsed}
-        return ", ".join(values.get(s, names.spelled.get(s, s)) for s in read)
+    def head(name: str, own: Names, read: Sequence[str]) -> list[str]:
+        more = [f"{real.c_type} {own.spelled[s]}" for s in read]
+        return signature(f"static inline void {name}", state, more, "")
 
-    heads = []
-    for name, spelled, arguments in (("advance", names, read[0]), ("finish", own, read[1])):
-        state = f"{real.c_type} state[static {interface.size}]"
-        more = [f"{real.c_type} {spelled.spelled[s]}" for s in arguments]
-        heads.append(signature(f"static inline int {name}", state, more, ""))
-    found = definition(what.finish, ending, own, interface)
-    found |= {
-        "finish_source": heads[1],
-        "leads": LEAD in read[0],
-        "counts": ELAPSED in read[1],
+    def passed(read: Sequence[str], t: str = "t", elapsed: str = "h") -> str:
+        given = {TIME: t, LEAD: "lead", ELAPSED: elapsed}
+        return ", ".join(given.get(s, names.spelled.get(s, s)) for s in read)
+
+    def function(name: str, kernel: Kernel) -> dict[str, object]:
+        arranged = arrange(kernel)
+        own = register(kernel, arranged, Names(RESERVED | own_names(interface)))
+        read = [s for s in scalars if s in arranged.symbols()]
+        functions.update(arranged.functions())
+        found = definition(kernel, arranged, own, interface)
+        held.append(own.count)
+        return found | {
+            "source": head(name, own, read),
+            "once": passed(read),
+            "each": passed(read, later(interface), product),
+        }
+
+    read = [s for s in scalars if s in arrangement.symbols()]
+    functions: set[str] = set()
+    held = [names.count, 2 * interface.size]
+    found: dict[str, object] = {
+        "begin": None if what.begin is None else function("begin", what.begin),
+        "finish": None if what.finish is None else function("finish", what.finish),
         "longest": LONGEST,
-        "first": literal(real, real.round(what.first)),
+        "last": literal(real, real.round(what.last)),
         "later": literal(real, real.round(what.later)),
-        "one_step": passed(read[0], "t", "h"),
-        "one_end": passed(read[1], "t", "h"),
-        "each_step": passed(read[0], later(interface), ""),
-        "each_end": passed(read[1], before, product),
+        "once": passed(read),
+        "each": passed(read, later(interface)),
     }
-    held = names.count + own.count + 2 * interface.size
-    return found, heads[0], set(ending.functions()), held
+    found["source"] = head("advance", names, read)
+    return found, functions, sum(held)
 
 
 def samples(kernel: Kernel, read: frozenset[str], names: Names, statements: Statements) -> list[str]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Kernel, PutOff, Start
 from codegen.printers.arrange import Arrangement, arrange
 from codegen.printers.expression import spell
@@ -111,7 +113,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             once=", ".join(["state", *time, "h", "1", *held, *parameters, *(f"{n}={n}" for n in statistics)]),
             passed=", ".join(["h", *parameters, *inputs, *memory, *statistics]),
             put_off=ending,
-            again=", ".join(["state", *time, "h", "failure.step", *parameters]),
+            again=", ".join(["state", *time, "h", "made", *parameters]),
             body=[*body, *ends],
             new=listed("return ", (*new, *statements.errors()), 1),
             adaptive=adaptive,
@@ -152,40 +154,49 @@ def jacobian(kernel: Kernel, interface: Interface) -> tuple[dict[str, object], s
 def put_off(
     what: PutOff, arrangement: Arrangement, names: Names, interface: Interface
 ) -> tuple[dict[str, object], set[str], dict[str, str]]:
-    """Return what the template needs of an end that is put off, and its functions and constants."""
+    """Return what the template needs of what is put off, and its functions and constants."""
     precision = interface.format
-    ending = arrange(what.finish)
-    own = register(what.finish, ending, Names(RESERVED))
-    symbols = tuple(s for f in what.finish.state for s in f.symbols)
-    statements = Statements(ending, own, precision, "E")
-    body = list(statements.lines())
-    ends, new = statements.outputs(symbols)
-    scalars = ("t", "h", *interface.parameters, LEAD, ELAPSED)
-    read = [[s for s in scalars if s in a.symbols()] for a in (arrangement, ending)]
     single = precision is not DOUBLE
+    scalars = ("t", "h", *interface.parameters, LEAD, ELAPSED)
     elapsed = "float32(late * float(h))" if single else "late * h"
-    time = "float32(float(t) + {} * float(h))" if single else "t + {} * h"
+    time = "float32(float(t) + made * float(h))" if single else "t + made * h"
+    functions: set[str] = set()
+    constants: dict[str, str] = {}
 
-    def passed(read: list[str], made: str) -> str:
-        values = {"t": time.format(made), LEAD: "lead", ELAPSED: elapsed}
-        return ", ".join(values.get(s, names.spelled.get(s, s)) for s in read)
+    def passed(read: Sequence[str]) -> str:
+        values = {"t": time, LEAD: "lead", ELAPSED: elapsed}
+        return ", ".join(["moving", *(values.get(s, names.spelled.get(s, s)) for s in read)])
+
+    def function(letter: str, kernel: Kernel) -> dict[str, object]:
+        arranged = arrange(kernel)
+        own = register(kernel, arranged, Names(RESERVED))
+        symbols = tuple(s for f in kernel.state for s in f.symbols)
+        statements = Statements(arranged, own, precision, letter)
+        body = list(statements.lines())
+        ends, new = statements.outputs(symbols)
+        read = [s for s in scalars if s in arranged.symbols()]
+        functions.update(arranged.functions())
+        constants.update(statements.constants)
+        return {
+            "head": ", ".join(["state", *(own.spelled[s] for s in read)]),
+            "each": passed(read),
+            "state": unpacking([own.spelled[s] for s in symbols]),
+            "body": [*body, *ends],
+            "new": listed("return ", new, 1),
+        }
 
     number = "float32({})" if single else "{}"
+    read = [s for s in scalars if s in arrangement.symbols()]
     found: dict[str, object] = {
-        "leads": LEAD in read[0],
-        "counts": ELAPSED in read[1],
+        "begin": None if what.begin is None else function("B", what.begin),
+        "finish": None if what.finish is None else function("E", what.finish),
         "longest": LONGEST,
-        "first": number.format(precision.text(precision.round(what.first))),
+        "last": number.format(precision.text(precision.round(what.last))),
         "later": number.format(precision.text(precision.round(what.later))),
-        "step": ", ".join(["state", *(names.spelled[s] for s in read[0])]),
-        "end": ", ".join(["state", *(own.spelled[s] for s in read[1])]),
-        "each_step": passed(read[0], "made"),
-        "each_end": passed(read[1], "(made - 1)"),
-        "state": unpacking([own.spelled[s] for s in symbols]),
-        "body": [*body, *ends],
-        "new": listed("return ", new, 1),
+        "head": ", ".join(["state", *(names.spelled[s] for s in read)]),
+        "each": passed(read),
     }
-    return found, set(ending.functions()), statements.constants
+    return found, functions, constants
 
 
 def samples(kernel: Kernel, read: frozenset[str], names: Names, statements: Statements) -> list[str]:

@@ -31,7 +31,7 @@ def test_the_edges_are_the_calls_in_the_text(target, snippet):
 def test_callees_come_first():
     for target in TARGETS:
         texts = needed(target, ["stumpff_123"]).texts
-        assert len(texts) == 7
+        assert len(texts) == 8
         assert "stumpff_123" in texts[-1]
 
 
