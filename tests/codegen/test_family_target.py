@@ -45,7 +45,7 @@ EXPLICIT_ULPS = 8
 """How far emitted code may be from the interpreter: only Stumpff functions are rounded otherwise there."""
 
 FLOWS_ULPS = 32
-"""The same for some thirty flows one after the other, whose sums are put together anew (codegen.lower.late)."""
+"""The same for some thirty flows one after the other, whose sums are written anew (codegen.lower.late)."""
 
 IMPLICIT_ULPS = 32
 """The same where equations are solved: their solutions are as sharp as the stopping rule, 2^-44."""
