@@ -163,8 +163,8 @@ def emit(
     ``FAMILY:TABLEAU`` or ``TABLEAU``; ``prefix`` starts every external name, by default scene and method;
     ``precision`` is ``double`` or ``single``; ``inputs`` are signals of the scene that are taken at run time,
     ``frame`` is that of momenta, ``space`` or ``body``; ``adaptive`` adds a run that chooses its steps,
-    ``jacobian`` the derivative of a step;
-    ``solver``, for implicit blocks, is ``newton``, ``fixed-point`` or ``auto``, which takes the cheaper one.
+    ``jacobian`` the derivative of a step; ``solver``, for implicit blocks, is ``newton``, ``chord``,
+    ``fixed-point`` or ``auto``, the cheapest.
     Errors as :func:`compile_method`, UnknownName for a target, InputError for a prefix that C cannot take.
     """
     printer_of(target)

@@ -31,7 +31,7 @@ from orderconds.commands.place import FOLDER
 @click.option("--adaptive", is_flag=True, help="Add a run that chooses its steps by the embedded row.")
 @click.option("--precision", default="double", help="double (the default) or single.")
 @click.option(
-    "--solver", default="auto", help="newton, fixed-point or auto (the default), which takes the cheaper."
+    "--solver", default="auto", help="newton, chord, fixed-point or auto (the default), the cheapest."
 )
 @click.option("--explain", is_flag=True, help="Print the program after each pass, and what was left out.")
 @click.option("--json", "as_json", is_flag=True, help="One record a module on stdout, nothing else.")

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import comb
 from typing import ClassVar
 
 from codegen.ir.expr import Expr, walk
@@ -24,8 +25,11 @@ ELAPSED = "elapsed.h"
 LONGEST = 256
 """After how many steps a run makes what commutes with all of them: the angles in it shall stay moderate."""
 
-FIXED_POINT, NEWTON = "fixed-point", "newton"
+FIXED_POINT, NEWTON, CHORD = "fixed-point", "newton", "chord"
 """The methods that a block may be solved by."""
+
+SLOWEST = 2.0**-12
+"""No rate of convergence is taken to be smaller: one that is measured near rounding says little."""
 
 UNIT = 2.0**-53
 """Half a unit in the last place of one."""
@@ -43,14 +47,18 @@ class Let:
 class Newton:
     """The matrix of Newton's method for u = g(u): ``matrix`` is 1 - g'(u), ``body`` computes its entries.
 
-    The matrix is inverted in the first sweep of all, and kept from sweep to sweep and from step to step until
-    a correction is not smaller than ``CONTRACTION`` times the one before it; it is then made anew.
+    It is inverted in the first sweep of all, and kept from sweep to sweep and from step to step until a
+    correction is not smaller than ``CONTRACTION`` times the one before it; it is then made anew. A matrix to
+    ``leading`` order in h is made and inverted before the sweeps of each step instead. Entries that are
+    ``inverted`` are those of the inverse already.
     """
 
     body: tuple[Let, ...]
     matrix: tuple[tuple[Expr, ...], ...]
+    leading: bool = False
+    inverted: bool = False
 
-    CONTRACTION: ClassVar[float] = 2.0**-4
+    CONTRACTION: ClassVar[float] = 2.0**-6
 
 
 @dataclass(frozen=True)
@@ -64,7 +72,9 @@ class Loop:
 
     With the largest change d and its predecessor e, both in units of max(1, largest unknown), the iteration
     has converged when d <= ``tolerance`` and d >= e (it stands still), or d <= ``close`` and
-    d^2/e <= ``UNIT`` (the next change would be below rounding); after ``limit`` sweeps without that it has
+    r d <= ``UNIT`` with the rate r = d/e (the next change would be below rounding). In the first sweep r is
+    the last rate of the step before, where the kernel has a :class:`Start`, doubled for each step that has
+    ended in its first sweep since; after ``limit`` sweeps without that it has
     failed, and so has a change that is not finite. ``read_anew`` says that nothing but the unknowns is read
     after the loop, so that the last change may be larger.
     """
@@ -81,13 +91,21 @@ class Loop:
 
     @property
     def solver(self) -> str:
-        """The name of the method: ``newton`` or ``fixed-point``."""
-        return FIXED_POINT if self.newton is None else NEWTON
+        """The name of the method."""
+        if self.newton is None:
+            return FIXED_POINT
+        return CHORD if self.newton.leading else NEWTON
 
     @property
     def close(self) -> float:
-        """The largest change after which a contraction is trusted to finish."""
-        return self.tolerance * (16 if self.read_anew else 1 / 16)
+        """The largest change after which a contraction is trusted to finish.
+
+        What is read after the loop was computed before the last change. Chords contract by (h L)^2 where that
+        moves by h L, so that a rate that ends the loop bounds it.
+        """
+        if self.read_anew:
+            return 16 * self.tolerance
+        return self.tolerance if self.solver == CHORD else self.tolerance / 16
 
     def settled(self, change: float, previous: float, scale: float) -> bool:
         """Return whether a change ends the iteration; ``previous`` is 0 in the first sweep.
@@ -105,16 +123,28 @@ class Loop:
 class Start:
     """unknowns = values over body, unless solutions of earlier steps are known.
 
-    With the last solutions u1, u2, ... (the latest first) the unknowns begin at u1 after one step, at
-    2 u1 - u2 after two, and at the quadratic extrapolation 3 (u1 - u2) + u3 from then on. They are of all
-    loops of the kernel, in order.
+    The unknowns then begin at the polynomial through the last solutions, at most ``depth`` of them, continued
+    by a step: with u1, u2, ... (the latest first) at u1, 2 u1 - u2, 3 u1 - 3 u2 + u3 and so on. Where the
+    first change of a step is larger than ``ROUGH`` times the scale, only u1 is kept for the next one. The
+    unknowns are those of all loops of the kernel, in order.
     """
 
     unknowns: tuple[str, ...]
     body: tuple[Let, ...]
     values: tuple[Expr, ...]
+    depth: int = 9
 
-    DEPTH: ClassVar[int] = 3
+    ROUGH: ClassVar[float] = 2.0**-6
+
+    @property
+    def weights(self) -> tuple[tuple[int, ...], ...]:
+        """The factors of u1, u2, ... where one, two, ... solutions are known.
+
+        >>> Start((), (), (), depth=3).weights
+        ((1,), (2, -1), (3, -3, 1))
+        """
+        rows = range(1, self.depth + 1)
+        return tuple(tuple((-1) ** k * comb(n, k + 1) for k in range(n)) for n in rows)
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,9 @@ than half a sweep.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 from typing import Any
 
 from codegen.errors import SceneError
@@ -21,11 +22,23 @@ from codegen.groups.actions import LeftMultiplication
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.interpret import apply, flatten
-from codegen.ir.jacobian import jacobian
-from codegen.ir.kernel import ELAPSED, LEAD, Estimate, Field, Kernel, Let, Loop, Newton, Sample, Start
+from codegen.ir.kernel import (
+    CHORD,
+    ELAPSED,
+    FIXED_POINT,
+    LEAD,
+    Estimate,
+    Field,
+    Kernel,
+    Let,
+    Loop,
+    Newton,
+    Sample,
+    Start,
+)
 from codegen.ir.program import EMBEDDED, Assign, Kind, Program, Solve, Var
 from codegen.ir.tangent import tangents
-from codegen.lower import late
+from codegen.lower import late, newton
 from codegen.lower.variation import Variations
 from codegen.scene import TIME, Setting
 
@@ -46,6 +59,8 @@ class _Block:
     starts: tuple[Expr, ...]
     images: tuple[Expr, ...]
     matrix: tuple[tuple[Expr, ...], ...] = ()
+    leading: bool = False
+    inverted: bool = False
 
 
 AS_WRITTEN, ORDERED, SHORTENED = range(3)
@@ -55,17 +70,18 @@ AS_WRITTEN, ORDERED, SHORTENED = range(3)
 def to_kernel(
     program: Program,
     scene: Setting,
-    newton: Collection[str] = (),
+    solvers: Mapping[str, str] = MappingProxyType({}),
     variations: Variations | None = None,
     chains: int = AS_WRITTEN,
 ) -> Kernel:
     """Return the kernel of a program in its setting (:func:`codegen.lower.setting`).
 
-    ``newton`` are the labels of the blocks to be solved by Newton's method, the others are iterated. With
-    ``variations`` it is the kernel that carries one of the state along (``Kernel.vary``).
-    ``chains`` other than :data:`AS_WRITTEN` is for programs without blocks.
+    ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or CHORD, the others are iterated.
+    With ``variations`` it is the kernel that carries one of the state along (``Kernel.vary``). ``chains``
+    other than :data:`AS_WRITTEN` is for programs without blocks.
     :class:`codegen.errors.SceneError` where an operation of the group has no closed form,
-    :class:`codegen.ir.differentiate.NotDifferentiable` where Newton's method has no matrix.
+    :class:`codegen.ir.differentiate.NotDifferentiable` where Newton's method has no matrix, ZeroDivisionError
+    where it has none to first order.
     """
     domain = ExprDomain()
     space = domain.space
@@ -112,8 +128,8 @@ def to_kernel(
             run(statement)
             continue
         entered = _enter(statement, env, domain, name, run)
-        if statement.label in newton:
-            entered = replace(entered, matrix=_matrix(entered))
+        if solvers.get(statement.label, FIXED_POINT) != FIXED_POINT:
+            entered = _with_matrix(entered, solvers[statement.label])
             solved = _Solved(entered)
             for var in env:
                 env[var] = solved.value(env[var])
@@ -221,12 +237,14 @@ def _enter(
     return _Block(block.label, tuple(names), tuple(starts), tuple(images))
 
 
-def _matrix(block: _Block) -> tuple[tuple[Expr, ...], ...]:
-    """Return 1 - g' for the images g, a row for each."""
-    space = block.images[0].space
-    rows = jacobian(block.images, block.unknowns)
-    units = [[space.one if i == j else space.zero for j in range(len(rows))] for i in range(len(rows))]
-    return tuple(tuple(e - x for e, x in zip(*pair, strict=True)) for pair in zip(units, rows, strict=True))
+def _with_matrix(block: _Block, solver: str) -> _Block:
+    """Return the block with the matrix of Newton's method, or of chords."""
+    leading = solver == CHORD
+    rows = (newton.leading_matrix if leading else newton.matrix)(block.images, block.unknowns)
+    inverted = len(rows) <= newton.SMALL
+    return replace(
+        block, matrix=newton.inverse(rows) if inverted else rows, leading=leading, inverted=inverted
+    )
 
 
 class _Solved:
@@ -284,13 +302,14 @@ class _Schedule:
             inside: list[Let] = []
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
+            before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
-            newton = self._newton(block)
-            anew = newton is not None and self._is_short(k)
+            made = self._newton(block) if block.matrix and not block.leading else before
+            anew = made is not None and self._is_short(k)
             if anew:
                 self._forget(k)
             loop = Loop(
-                block.label, block.unknowns, starts, tuple(inside), images, newton=newton, read_anew=anew
+                block.label, block.unknowns, starts, tuple(inside), images, newton=made, read_anew=anew
             )
             self.body.append(loop)
         self.outputs = tuple(self._place(x, self.body, [], -1) for x in self.roots)
@@ -328,14 +347,12 @@ class _Schedule:
         self.done = {n: x for n, x in self.done.items() if n in later}
         return Start(tuple(u for b in self.blocks for u in b.unknowns), tuple(own), placed)
 
-    def _newton(self, block: _Block) -> Newton | None:
-        """Return Newton's matrix; what nothing else needs is assigned where it is made."""
-        if not block.matrix:
-            return None
+    def _newton(self, block: _Block) -> Newton:
+        """Return Newton's matrix; what is not assigned yet is assigned where it is made."""
         before, own = dict(self.done), list[Let]()
         rows = tuple(tuple(self._place(x, own, [], -1) for x in row) for row in block.matrix)
         self.done = before
-        return Newton(tuple(own), rows)
+        return Newton(tuple(own), rows, block.leading, block.inverted)
 
     def _is_short(self, k: int) -> bool:
         """Whether what is read of block k after it costs less than half of a sweep."""

@@ -1,23 +1,27 @@
-"""How each block of equations is solved: by fixed point or by Newton's method, whichever does less work.
+"""How each block of equations is solved: by a fixed point, Newton's method or chords, whichever is cheapest.
 
-Both are tried: the step is printed as Python and makes a few steps from the initial state, of the length that
-the usage example takes. Sweeps and matrices are counted and weighed by their operations. A fixed point must
-also settle with steps :data:`LONGER` times as long, if Newton's method does: where it is near its limit, a
-user's next step size is beyond it.
+Newton's method keeps an exact matrix as long as it serves; chords make one, to first order in h, each step. A
+fixed point needs none. Its sweeps gain one power of h each, those of the thesis' (3.19) too, because momenta
+are computed within a sweep; were they unknowns beside the velocities, two sweeps would gain one.
+
+All are tried: the step is printed as Python and makes a few steps from the initial state, of the length that
+the usage example takes. Sweeps and matrices are counted and weighed by their operations. What settles with
+steps :data:`LONGER` times as long too, soon, is preferred: near its limit a method fails at a user's next
+step size.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
 from codegen.errors import MethodError
 from codegen.ir.differentiate import NotDifferentiable
-from codegen.ir.kernel import FIXED_POINT, NEWTON, Kernel
+from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Kernel, Loop
 from codegen.ir.program import Program
 from codegen.lower.kernel import to_kernel
-from codegen.printers.arrange import arrange
+from codegen.printers.arrange import METHODS, arrange
 from codegen.printers.interface import Interface
 from codegen.printers.operations import matrix_of, operations
 from codegen.printers.python.module import print_module
@@ -26,15 +30,21 @@ from codegen.scene import Setting
 from orderconds.errors import UnknownName
 
 AUTO = "auto"
-CHOICES = (AUTO, NEWTON, FIXED_POINT)
+CHOICES = (AUTO, NEWTON, CHORD, FIXED_POINT)
 """What a caller may ask for."""
 
-STEPS, LONGER, PARTS = 8, 8, 100
+STEPS, LONGER, PARTS = 20, 8, 100
 """Steps of a trial; how much longer steps of the second trial are; how many steps make the scene's span."""
+
+SWEEPS = 20
+"""The most sweeps that a longer step may take."""
 
 WEIGHTS = {"add": 1, "mul": 1, "div": 4}
 """What operations cost; calls cost :data:`CALL`."""
 CALL = 15
+
+RELIABLE = {NEWTON: 0.8}
+"""How much less a solver must cost: how long a matrix serves depends on where the motion is."""
 
 
 @dataclass(frozen=True)
@@ -48,8 +58,7 @@ class Choice:
 
     def text(self) -> str:
         """Say it in words."""
-        how = {NEWTON: "Newton's method", FIXED_POINT: "fixed point"}[self.solver]
-        return f"{self.label}: {how}, {self.unknowns} unknowns ({self.reason})"
+        return f"{self.label}: {METHODS[self.solver]}, {self.unknowns} unknowns ({self.reason})"
 
 
 @dataclass(frozen=True)
@@ -78,28 +87,31 @@ def solved(
     function of the scene or group has no derivative here.
     """
     known_solver(asked)
-    iterated = to_kernel(program, scene)
-    labels = [loop.label for loop in iterated.loops]
+    kernels = {FIXED_POINT: to_kernel(program, scene)}
+    labels = [loop.label for loop in kernels[FIXED_POINT].loops]
     if not labels:
-        return iterated, ()
-    if asked == FIXED_POINT:
-        return iterated, _choices(iterated, dict.fromkeys(labels, "asked for"))
-    try:
-        corrected = to_kernel(program, scene, labels)
-    except NotDifferentiable as error:
-        if asked == NEWTON:
-            raise MethodError(
-                f"Newton's method for {program.name}: {error}",
-                where=scene.name,
-                expected="functions whose derivatives are known",
-                hint=f"ask for --solver {FIXED_POINT}",
-            ) from None
-        return iterated, _choices(iterated, dict.fromkeys(labels, str(error)))
-    if asked == NEWTON:
-        return corrected, _choices(corrected, dict.fromkeys(labels, "asked for"))
-    chosen, reasons = _compared(iterated, corrected, scene, initial)
-    mixed = 0 < len(chosen) < len(labels)
-    kernel = to_kernel(program, scene, chosen) if mixed else corrected if chosen else iterated
+        return kernels[FIXED_POINT], ()
+    refused: dict[str, str] = {}
+    for solver in (NEWTON, CHORD):
+        if asked in (AUTO, solver):
+            try:
+                kernels[solver] = to_kernel(program, scene, dict.fromkeys(labels, solver))
+            except (NotDifferentiable, ZeroDivisionError) as error:
+                refused[solver] = str(error)
+    if asked in refused:
+        raise MethodError(
+            f"{METHODS[asked]} for {program.name}: {refused[asked]}",
+            where=scene.name,
+            expected="functions whose derivatives are known",
+            hint=f"ask for --solver {FIXED_POINT}",
+        )
+    if asked != AUTO:
+        return kernels[asked], _choices(kernels[asked], dict.fromkeys(labels, "asked for"))
+    if len(kernels) == 1:
+        return kernels[FIXED_POINT], _choices(kernels[FIXED_POINT], dict.fromkeys(labels, refused[NEWTON]))
+    chosen, reasons = _compared(kernels, scene, initial)
+    alike = set(chosen.values())
+    kernel = kernels[alike.pop()] if len(alike) == 1 else to_kernel(program, scene, chosen)
     return kernel, _choices(kernel, reasons)
 
 
@@ -110,57 +122,77 @@ def _choices(kernel: Kernel, reasons: Mapping[str, str]) -> tuple[Choice, ...]:
 
 
 def _compared(
-    iterated: Kernel, corrected: Kernel, scene: Setting, initial: tuple[float, ...]
-) -> tuple[Collection[str], dict[str, str]]:
-    """Return the blocks that Newton's method serves better, and the reason for each block."""
-    kernels = (iterated, corrected)
-    usual = [_trial(kernel, scene, initial, 1) for kernel in kernels]
-    far = [_trial(kernel, scene, initial, LONGER).good for kernel in kernels]
-    work = [operations(arrange(kernel)) for kernel in kernels]
-    chosen, reasons = [], {}
-    for k, loop in enumerate(corrected.loops):
-        label = loop.label
-        sweeps = [trial.sweeps[k] for trial in usual]
-        each = [_weight(counts[label]) for counts in work]
-        matrix = _weight(work[1][matrix_of(label)]) + 2 * len(loop.unknowns) ** 3
-        costs = [sweeps[0] * each[0], sweeps[1] * each[1] + usual[1].matrices * matrix]
-        if not usual[0].good:
-            reasons[label], newton = "a fixed point does not settle", True
-        elif not usual[1].good:
-            reasons[label], newton = "Newton's method does not settle", False
-        elif far[1] and not far[0]:
-            reasons[label], newton = f"a fixed point does not settle with steps {LONGER} times as long", True
-        else:
-            newton = costs[1] < costs[0]
-            spelled = [f"{sweeps[i]:.1f} sweeps of {each[i]:.0f} operations" for i in range(2)]
-            spelled[1] += f" and {usual[1].matrices:.2f} matrices of {matrix:.0f}"
-            here, there = (spelled[1], spelled[0]) if newton else spelled
-            reasons[label] = f"{here} a step, not {there}"
-        if newton:
-            chosen.append(label)
+    kernels: Mapping[str, Kernel], scene: Setting, initial: tuple[float, ...]
+) -> tuple[dict[str, str], dict[str, str]]:
+    """Return the solver that serves each block best, and the reason for each block."""
+    trials = {solver: _Trials(kernel, scene, initial) for solver, kernel in kernels.items()}
+    usual = {solver: trial.run(1) for solver, trial in trials.items()}
+    far = {solver: trial.run(LONGER) for solver, trial in trials.items()}
+    able = [s for s in kernels if usual[s].good]
+    sure = [s for s in able if far[s].good and max(far[s].sweeps) <= SWEEPS] or able
+    work = {solver: operations(arrange(kernel)) for solver, kernel in kernels.items()}
+    chosen, reasons = {}, {}
+    for k, loop in enumerate(kernels[FIXED_POINT].loops):
+        cost, spelled = {}, {}
+        for solver in kernels:
+            each, trial = _weight(work[solver][loop.label]), usual[solver]
+            cost[solver] = trial.sweeps[k] * each
+            spelled[solver] = f"{trial.sweeps[k]:.1f} sweeps of {each} operations"
+            if solver != FIXED_POINT:
+                matrix = _matrix(kernels[solver].loops[k], work[solver])
+                made = trial.matrices if solver == NEWTON else 1.0
+                cost[solver] += made * matrix
+                spelled[solver] += f" and {made:.2f} matrices of {matrix}"
+            if solver not in sure:
+                lasting = (
+                    f"takes {max(far[solver].sweeps):.0f} sweeps" if far[solver].good else "does not settle"
+                )
+                spelled[solver] = (
+                    f"{lasting} with steps {LONGER} times as long" if solver in able else "does not settle"
+                )
+        best = min(sure, key=lambda s: cost[s] / RELIABLE.get(s, 1.0)) if sure else NEWTON
+        others = [f"{METHODS[s]}: {text}" for s, text in spelled.items() if s != best]
+        chosen[loop.label] = best
+        reasons[loop.label] = "; ".join([f"{spelled[best]} a step", *others])
     return chosen, reasons
+
+
+def _matrix(loop: Loop, work: Mapping[str, Mapping[str, int]]) -> int:
+    """Return what a matrix costs with its inversion."""
+    assert loop.newton is not None
+    inversion = 0 if loop.newton.inverted else 2 * len(loop.unknowns) ** 3
+    return _weight(work[matrix_of(loop.label)]) + inversion
 
 
 def _weight(counts: Mapping[str, int]) -> int:
     return sum(n * WEIGHTS.get(name, CALL) for name, n in counts.items())
 
 
-def _trial(kernel: Kernel, scene: Setting, initial: tuple[float, ...], longer: int) -> _Trial:
-    """Make steps from the initial state with the kernel printed as Python, without an error estimate."""
-    kernel = replace(kernel, estimate=None)
-    interface = Interface.of(kernel, "trial_")
-    defaults = {name: float(scene.parameters[name]) for name in scene.runtime}
-    text = print_module(kernel, interface, Recipe("trial", (), initial, defaults=defaults))["trial.py"]
-    module: dict[str, Any] = {"__name__": "trial"}
-    exec(compile(text, "trial.py", "exec"), module)
-    first, last = scene.span
-    counts, good = module["Statistics"](), True
-    time = [float(first)] if interface.time else []
-    signals = [lambda t: (0.0,) * len(interface.inputs)] if interface.inputs else []
-    steps, h = STEPS if longer == 1 else 1, float(longer * (last - first) / PARTS)
-    try:
-        module["run"](initial, *time, h, steps, *signals, statistics=counts)
-    except module["StepFailed"]:
-        good = False
-    matrices = counts.matrices / steps / len(interface.blocks) if interface.newton else 0.0
-    return _Trial(tuple(n / steps for n in counts.sweeps), matrices, good)
+class _Trials:
+    """A kernel printed as Python, without an error estimate, and run from the initial state."""
+
+    def __init__(self, kernel: Kernel, scene: Setting, initial: tuple[float, ...]) -> None:
+        kernel = replace(kernel, estimate=None)
+        self.interface = Interface.of(kernel, "trial_")
+        self.initial, self.span = initial, scene.span
+        defaults = {name: float(scene.parameters[name]) for name in scene.runtime}
+        recipe = Recipe("trial", (), initial, defaults=defaults)
+        text = print_module(kernel, self.interface, recipe)["trial.py"]
+        self.module: dict[str, Any] = {"__name__": "trial"}
+        exec(compile(text, "trial.py", "exec"), self.module)
+
+    def run(self, longer: int) -> _Trial:
+        """Make steps, so many times as long as usual: several where they are not."""
+        first, last = self.span
+        counts, good = self.module["Statistics"](), True
+        time = [float(first)] if self.interface.time else []
+        number = len(self.interface.inputs)
+        signals = [lambda t: (0.0,) * number] if number else []
+        steps, h = STEPS if longer == 1 else 1, float(longer * (last - first) / PARTS)
+        try:
+            self.module["run"](self.initial, *time, h, steps, *signals, statistics=counts)
+        except self.module["StepFailed"]:
+            good = False
+        newton = self.interface.newton
+        matrices = counts.matrices / steps / len(self.interface.blocks) if newton else 0.0
+        return _Trial(tuple(n / steps for n in counts.sweeps), matrices, good)

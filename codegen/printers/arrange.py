@@ -10,7 +10,14 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from codegen.ir.expr import Expr, walk
-from codegen.ir.kernel import Kernel, Let, Loop, Start
+from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Kernel, Let, Loop, Start
+
+METHODS = {
+    FIXED_POINT: "fixed point",
+    NEWTON: "Newton's method",
+    CHORD: "Newton's method with the matrix to first order in h",
+}
+"""What solvers are called."""
 
 STUMPFF = {f"stumpff{k}": k for k in range(4)}
 
@@ -154,7 +161,7 @@ def _iteration(
     matrix: tuple[Expr, ...] = ()
     if loop.newton is not None:
         entries = tuple(x for row in loop.newton.matrix for x in row)
-        made, matrix = inner.nested(loop.newton.body, entries)
+        made, matrix = (scope if loop.newton.leading else inner).nested(loop.newton.body, entries)
     return Iteration(loop, number, starts, tuple(body), images, kept, made, matrix)
 
 

@@ -49,3 +49,8 @@ def register(kernel: Kernel, arrangement: Arrangement, names: Names) -> Names:
         for one in simple:
             names.add_all(one.names if isinstance(one, Joint) else (one.name,))
     return names
+
+
+def inverts(kernel: Kernel) -> bool:
+    """Whether some matrix of Newton's method is inverted at run time."""
+    return any(loop.newton is not None and not loop.newton.inverted for loop in kernel.loops)

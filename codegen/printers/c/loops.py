@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from codegen.ir.kernel import Newton
-from codegen.printers.arrange import Beginning, Iteration
+from codegen.ir.kernel import CHORD, NEWTON, SLOWEST, Newton, Start
+from codegen.printers.arrange import METHODS, Beginning, Iteration
 from codegen.printers.c.text import broken, comment, fill, greatest
 
 if TYPE_CHECKING:
@@ -33,16 +33,19 @@ def iteration(s: Statements, statement: Iteration) -> Iterator[str]:
     loop, number = statement.loop, statement.number
     now = [s.names.spelled[u] for u in loop.unknowns]
     previous = s.names.fresh(f"previous_{number}")
-    how = "fixed point" if loop.newton is None else "Newton's method"
-    yield f"/* {comment(loop.label)}: {how} in {', '.join(now)} */"
+    yield f"/* {comment(loop.label)}: {METHODS[loop.solver]} in {', '.join(now)} */"
     for name, start in zip(now, statement.starts, strict=False):  # none where they begin together
         yield from s.declare(name, start, f"{s.real} ")
     if statement.kept:
         kept = [s.names.spelled[n] for n in statement.kept]
         yield from fill(s.real, (*(f"{n}," for n in kept[:-1]), kept[-1]), ";")
     yield f"{s.real} {previous} = {s.literal(0.0)};"
-    if loop.newton is not None:
+    if not statement.starts:
+        yield f"{s.real} rate_{number} = memory->known > 0 ? memory->rate_{number} : {s.literal(1.0)};"
+    if loop.solver == NEWTON:
         yield f"int {_fresh(number)} = !memory->made_{number};"
+    if loop.solver == CHORD:
+        yield from _matrix(s, statement)
     yield "for (size_t sweep = 1;; sweep++) {"
     yield from (f"    {line}" for line in _sweep(s, statement, now, previous))
     yield "}"
@@ -76,34 +79,55 @@ def _sweep(s: Statements, statement: Iteration, now: list[str], previous: str) -
     for residual, x, y in zip(residuals, new, now, strict=True):
         yield f"const {s.real} {residual} = {x} - {y};"
     yield from _not_finite(s, statement, residuals)
-    yield from _matrix(s, statement)
-    n, inverse = len(now), f"memory->inverse_{statement.number}"
+    if loop.solver == NEWTON:
+        yield f"if ({_fresh(statement.number)}) {{"
+        yield from (f"    {line}" for line in _matrix(s, statement))
+        yield "    count_matrix(statistics);"
+        yield "}"
+    n = len(now)
     for row, change in enumerate(changes):
-        terms = [f"{inverse}[{row * n + column}] * {r}" for column, r in enumerate(residuals)]
+        terms = [f"{_cell(statement, row * n + column)} * {r}" for column, r in enumerate(residuals)]
         yield from fill(f"const {s.real} {change} =", (terms[0], *(f"+ {t}" for t in terms[1:])), ";")
     sizes = [f"{absolute}({change})" for change in changes]
     yield from _decision(s, statement, [], sizes, now, previous, tuple(zip(now, changes, strict=True)))
-    limit = f"{s.literal(Newton.CONTRACTION)} * {previous}"
-    yield f"{_fresh(statement.number)} = {limit} > {s.literal(0.0)} && change > {limit};"
+    if loop.solver == NEWTON:
+        limit = f"{s.literal(Newton.CONTRACTION)} * {previous}"
+        yield f"{_fresh(statement.number)} = {limit} > {s.literal(0.0)} && change > {limit};"
     yield f"{previous} = change;"
 
 
+def _cell(statement: Iteration, place: int) -> str:
+    """Spell an entry of the inverse, by rows."""
+    newton = statement.loop.newton
+    if newton is not None and newton.leading and newton.inverted:
+        return f"inverse_{statement.number}_{place}"
+    kept = "" if newton is not None and newton.leading else "memory->"
+    return f"{kept}inverse_{statement.number}[{place}]"
+
+
 def _matrix(s: Statements, statement: Iteration) -> Iterator[str]:
-    """Yield the lines that make and invert the matrix where that is due."""
-    number, n = statement.number, len(statement.loop.unknowns)
-    inverse, order = f"memory->inverse_{number}", s.names.fresh(f"order_{number}")
-    yield f"if ({_fresh(number)}) {{"
+    """Yield the lines that make and invert the matrix."""
+    number, n, newton = statement.number, len(statement.loop.unknowns), statement.loop.newton
+    assert newton is not None
     for inner in statement.newton:
-        yield from (f"    {line}" for line in s.simple(inner))
+        yield from s.simple(inner)
+    names = newton.leading and newton.inverted
+    if newton.leading and not names:
+        yield f"{s.real} inverse_{number}[{n * n}];"
     for place, entry in enumerate(statement.matrix):
-        yield from (f"    {line}" for line in s.declare(f"{inverse}[{place}]", entry, ""))
-    yield f"    size_t {order}[{n}];"
-    yield f"    memory->made_{number} = invert({n}, {inverse}, {order});"
-    yield "    count_matrix(statistics);"
-    yield f"    if (!memory->made_{number}) {{"
-    yield f"        count_sweeps(statistics, {number - 1}, sweep, 1);"
-    yield f"        return {s.prefix.upper()}NOT_CONVERGED;"
-    yield "    }"
+        yield from s.declare(_cell(statement, place), entry, None if names else "")
+    if newton.inverted:
+        yield from [] if newton.leading else [f"memory->made_{number} = 1;"]
+        return
+    inverse, order = _cell(statement, 0).removesuffix("[0]"), s.names.fresh(f"order_{number}")
+    yield f"size_t {order}[{n}];"
+    if newton.leading:
+        yield f"if (!invert({n}, {inverse}, {order})) {{"
+    else:
+        yield f"memory->made_{number} = invert({n}, {inverse}, {order});"
+        yield f"if (!memory->made_{number}) {{"
+    yield f"    count_sweeps(statistics, {number - 1}, {'0' if newton.leading else 'sweep'}, 1);"
+    yield f"    return {s.prefix.upper()}NOT_CONVERGED;"
     yield "}"
 
 
@@ -137,14 +161,23 @@ def _decision(
     yield from fill(f"const {s.real} scale =", broken(greatest(sizes)), ";")
     yield from _not_finite(s, statement, finite) if finite else ()
     yield f"const int still = {previous} > {s.literal(0.0)} && change >= {previous};"
-    yield from fill(
-        "const int close =",
-        (f"change <= {close} * scale", f"&& change * change <= {unit} * scale * {previous}"),
-        ";",
-    )
+    small = f"change * change <= {unit} * scale * {previous}"
+    if not statement.starts:
+        rate = f"rate_{statement.number}"
+        yield f"if (sweep == 1 && change > {s.literal(Start.ROUGH)} * scale) {{"
+        yield "    memory->rough = 1;"
+        yield "}"
+        yield f"if ({previous} > {s.literal(0.0)}) {{"
+        yield f"    {rate} = greater(change / {previous}, {s.literal(SLOWEST)});"
+        yield "}"
+        small = f"change * {rate} <= {unit} * scale"
+    yield from fill("const int close =", (f"change <= {close} * scale", f"&& {small}"), ";")
     yield from (f"{x} += {y};" for x, y in corrections)
     yield f"if (close || (still && change <= {tolerance} * scale)) {{"
     yield f"    count_sweeps(statistics, {block}, sweep, 0);"
+    if not statement.starts:
+        rate = f"rate_{statement.number}"
+        yield f"    memory->{rate} = sweep > 1 ? {rate} : {s.literal(2.0)} * {rate};"
     yield "    break;"
     yield "}"
     yield f"if (sweep == {loop.limit}) {{"

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Kernel, PutOff, Start
+from codegen.ir.kernel import CHORD, ELAPSED, LEAD, LONGEST, NEWTON, Kernel, PutOff, Start
 from codegen.printers.arrange import Arrangement, arrange
 from codegen.printers.c.jacobian import varying
 from codegen.printers.c.statements import RESERVED, Statements, literal
 from codegen.printers.c.text import comment, fill
 from codegen.printers.expression import spell
 from codegen.printers.interface import Interface
-from codegen.printers.layout import layout, register, times
+from codegen.printers.layout import inverts, layout, register, times
 from codegen.printers.names import Names
 from codegen.printers.operations import costs
 from codegen.printers.precision import DOUBLE
@@ -36,7 +36,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     functions = {*arrangement.functions(), "isfinite"}
     if interface.blocks:
         functions |= {"fabs", "greater"}
-    if interface.newton:
+    if inverts(kernel):
         functions.add("invert")
     held = names.count + len(kernel.samples) * len(kernel.inputs) + remembered(kernel)
     if kernel.estimate is not None:
@@ -168,7 +168,7 @@ def stack(numbers: int, interface: Interface) -> str:
     """
     size = {"double": 8, "float": 4}[interface.format.c_type]
     rounded = -(-size * numbers // 64) * 64
-    frames = FRAMES + FRAMES // 2 * interface.newton
+    frames = FRAMES + FRAMES // 2 * (NEWTON in interface.solvers or CHORD in interface.solvers)
     return f"at most {rounded + frames} bytes, without what the mathematical library takes"
 
 
@@ -219,9 +219,8 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
         "newton": interface.newton,
         "memory": memory,
         "remembered": [names.spelled[u] for u in start.unknowns] if start else [],
-        "depth": Start.DEPTH,
-        "three": literal(interface.format, 3.0),
-        "two": literal(interface.format, 2.0),
+        "depth": start.depth if start else 0,
+        "weights": weights(start, interface) if start else [],
         "blocks": [comment(label) for label in interface.blocks],
         "step_header": signature(f"int {interface.prefix}step", f"{real} state[{interface.size}]", step, ";"),
         "run_header": signature(f"int {interface.prefix}run", f"{real} state[{interface.size}]", run, ";"),
@@ -252,18 +251,27 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
 def memory_of(kernel: Kernel) -> dict[str, object]:
     """Return what a run remembers: ``past``, how many unknowns, and ``inverses``, loops and their sizes."""
     start, inverses = kernel.start, inverses_of(kernel)
-    return {"past": len(start.unknowns) if start else 0, "inverses": inverses} if start or inverses else {}
+    rates = list(range(1, len(kernel.loops) + 1)) if start else []
+    past = len(start.unknowns) if start else 0
+    return {"past": past, "inverses": inverses, "rates": rates} if start or inverses else {}
+
+
+def weights(start: Start, interface: Interface) -> list[str]:
+    """Return the lines of the table of factors of an extrapolation."""
+    rows = [", ".join(literal(interface.format, float(x)) for x in row) for row in start.weights]
+    return [f"{{{row}}}," for row in rows[:-1]] + [f"{{{rows[-1]}}}"]
 
 
 def inverses_of(kernel: Kernel) -> list[tuple[int, int]]:
-    """Return the loops that Newton's method solves, by number, with how many unknowns each has."""
-    return [(k, len(loop.unknowns)) for k, loop in enumerate(kernel.loops, 1) if loop.newton is not None]
+    """Return the loops that keep the inverse of a matrix, by number, with how many unknowns each has."""
+    return [(k, len(loop.unknowns)) for k, loop in enumerate(kernel.loops, 1) if loop.solver == NEWTON]
 
 
 def remembered(kernel: Kernel) -> int:
     """Return how many numbers a run remembers, and what inverting a matrix takes besides."""
-    memory, start = [n * n + 2 * n + 1 for _, n in inverses_of(kernel)], kernel.start
-    return sum(memory) + (Start.DEPTH * len(start.unknowns) + 1 if start else 0)
+    matrices = [len(loop.unknowns) for loop in kernel.loops if loop.newton is not None]
+    memory, start = [n * n + 2 * n + 1 for n in matrices], kernel.start
+    return sum(memory) + (start.depth * len(start.unknowns) + 2 + len(kernel.loops) if start else 0)
 
 
 def signature(start: str, state: str, arguments: list[str], end: str) -> list[str]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from codegen.ir.kernel import Newton
-from codegen.printers.arrange import Beginning, Iteration
+from codegen.ir.kernel import CHORD, NEWTON, SLOWEST, Newton, Start
+from codegen.printers.arrange import METHODS, Beginning, Iteration
 from codegen.printers.python.text import WIDTH, call, indented, quoted
 
 if TYPE_CHECKING:
@@ -44,12 +44,16 @@ def iteration(s: Statements, statement: Iteration) -> Iterator[str]:
         for u, x, already in zip(loop.unknowns, statement.images, plain, strict=True)
     ]
     previous = s.names.fresh(f"previous_{number}")
-    how = "fixed point" if loop.newton is None else "Newton's method"
-    yield from indented("# ", (f"{loop.label}: {how} in {', '.join(now)}",), 1)
+    yield from indented("# ", (f"{loop.label}: {METHODS[loop.solver]} in {', '.join(now)}",), 1)
     for name, start in zip(now, statement.starts, strict=False):  # none where they begin together
         yield from s.assign(name, start, 1)
     yield f"    {previous} = 0.0"
-    if loop.newton is not None:
+    if not statement.starts:
+        yield f"    rate_{number} = memory.rates[{number - 1}] if memory.past else 1.0"
+    rows = [s.names.fresh(f"row_{number}_{i + 1}") for i in range(len(now))]
+    if loop.solver == CHORD:
+        yield from _matrix(s, statement, rows, 1)
+    if loop.solver == NEWTON:
         yield f"    make_{number} = memory.inverses[{number - 1}] is None"
     yield f"    for sweep in range(1, {loop.limit + 1}):"
     for inner in statement.body:
@@ -64,7 +68,7 @@ def iteration(s: Statements, statement: Iteration) -> Iterator[str]:
         yield f"        {previous} = change"
         yield from (f"        {x} = {y}" for x, y in zip(now, new, strict=True))
     else:
-        yield from _newton(s, statement, changes, now, new, previous)
+        yield from _newton(s, statement, changes, now, new, previous, rows)
     yield "    else:"
     yield f"        raise _failed(NOT_CONVERGED, {_failure(statement)}"
     yield "    if statistics is not None:"
@@ -72,34 +76,58 @@ def iteration(s: Statements, statement: Iteration) -> Iterator[str]:
 
 
 def _newton(
-    s: Statements, statement: Iteration, changes: list[str], now: list[str], new: list[str], previous: str
+    s: Statements,
+    statement: Iteration,
+    changes: list[str],
+    now: list[str],
+    new: list[str],
+    previous: str,
+    rows: list[str],
 ) -> Iterator[str]:
     """Yield the lines that correct the unknowns by the inverse of Newton's matrix."""
-    number, n = statement.number, len(now)
+    number, kept = statement.number, statement.loop.solver == NEWTON
     residuals = [s.names.fresh(f"residual_{u}") for u in statement.loop.unknowns]
-    rows = [s.names.fresh(f"row_{number}_{i + 1}") for i in range(n)]
     for residual, x, y in zip(residuals, new, now, strict=True):
         yield f"        {residual} = {x} - {y}"
     yield from _finite(s, statement, residuals)
-    yield f"        if make_{number}:"
-    for inner in statement.newton:
-        yield from s.simple(inner, 3)
-    for i, row in enumerate(rows):
-        entries = statement.matrix[i * n : i * n + n]
-        yield from s.listing(row, entries, 3)
-    yield f"            memory.inverses[{number - 1}] = invert([{', '.join(rows)}])"
-    yield "            if statistics is not None:"
-    yield "                statistics.matrices += 1"
-    yield f"            if memory.inverses[{number - 1}] is None:"
-    yield f"                raise _failed(NOT_CONVERGED, {_failure(statement)}"
-    yield from unpacked(rows, f"memory.inverses[{number - 1}]", 2)
+    if kept:
+        yield f"        if make_{number}:"
+        yield from _matrix(s, statement, rows, 3)
+        yield from unpacked(rows, f"memory.inverses[{number - 1}]", 2)
     for change, row in zip(changes, rows, strict=True):
         terms = [f"{row}[{j}] * {residual}" for j, residual in enumerate(residuals)]
         yield from indented(f"{change} = ", (terms[0], *(f"+ {t}" for t in terms[1:])), 2)
     yield from (f"        {x} += {y}" for x, y in zip(now, changes, strict=True))
     yield from _decision(s, statement, [], [f"abs({c})" for c in changes], now, previous)
-    yield f"        make_{number} = 0.0 < {Newton.CONTRACTION} * {previous} < change"
+    if kept:
+        yield f"        make_{number} = 0.0 < {Newton.CONTRACTION} * {previous} < change"
     yield f"        {previous} = change"
+
+
+def _matrix(s: Statements, statement: Iteration, rows: list[str], depth: int) -> Iterator[str]:
+    """Yield the lines that make and invert the matrix, by rows."""
+    number, n, newton = statement.number, len(rows), statement.loop.newton
+    assert newton is not None
+    space = "    " * depth
+    for inner in statement.newton:
+        yield from s.simple(inner, depth)
+    for i, row in enumerate(rows):
+        yield from s.listing(row, statement.matrix[i * n : i * n + n], depth)
+    listed = f"[{', '.join(rows)}]"
+    made = listed if newton.inverted else f"invert({listed})"
+    if newton.leading and newton.inverted:
+        return
+    place = f"inverse_{number}" if newton.leading else f"memory.inverses[{number - 1}]"
+    yield f"{space}{place} = {made}"
+    if not newton.leading:
+        yield f"{space}if statistics is not None:"
+        yield f"{space}    statistics.matrices += 1"
+    if not newton.inverted:
+        sweep = "0" if newton.leading else "sweep"
+        yield f"{space}if {place} is None:"
+        yield f"{space}    raise _failed(NOT_CONVERGED, {_failure(statement).replace('sweep', sweep)}"
+    if newton.leading:
+        yield from unpacked(rows, place, depth)
 
 
 def _failure(statement: Iteration) -> str:
@@ -123,6 +151,16 @@ def _decision(
     yield from call("scale = max", ["1.0", *(f"abs({x})" for x in now)], 2)
     yield from _finite(s, statement, finite) if finite else ()
     yield f"        still = 0.0 < {previous} <= change <= {tolerance} * scale"
-    yield f"        close = change * change <= {unit} * scale * {previous}"
+    small = f"change * change <= {unit} * scale * {previous}"
+    if not statement.starts:
+        rate = f"rate_{statement.number}"
+        yield f"        if sweep == 1 and change > {Start.ROUGH} * scale:"
+        yield "            memory.rough = True"
+        yield f"        if {previous} > 0.0:"
+        yield f"            {rate} = max(change / {previous}, {SLOWEST})"
+        small = f"change * {rate} <= {unit} * scale"
+    yield f"        close = {small}"
     yield f"        if still or (close and change <= {close} * scale):"
+    if not statement.starts:
+        yield f"            memory.rates[{statement.number - 1}] = {rate} if sweep > 1 else 2.0 * {rate}"
     yield "            break"

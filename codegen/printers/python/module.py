@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Kernel, PutOff, Start
+from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Kernel, PutOff
 from codegen.printers.arrange import Arrangement, arrange
 from codegen.printers.expression import spell
 from codegen.printers.interface import Interface
-from codegen.printers.layout import layout, register, times
+from codegen.printers.layout import inverts, layout, register, times
 from codegen.printers.names import Names
 from codegen.printers.operations import costs
 from codegen.printers.precision import DOUBLE
@@ -33,7 +33,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     body = list(statements.lines())
     ends, new = statements.outputs(symbols)
     functions = {*arrangement.functions(), "isfinite"}
-    if interface.newton:
+    if inverts(kernel):
         functions.add("invert")
     ending: dict[str, object] | None = None
     if kernel.put_off is not None:
@@ -99,9 +99,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             state=unpacking([names.spelled[s] for s in symbols]),
             newton=interface.newton,
             memory=bool(memory),
-            depth=Start.DEPTH,
-            three="float32(3.0)" if single else "3.0",
-            two="float32(2.0)" if single else "2.0",
+            depth=start.depth if start else 0,
+            weights=[listed_weights(row, single) for row in start.weights] if start else [],
             remembered=listed("found = ", [names.spelled[u] for u in start.unknowns], 1) if start else [],
             unread=[i for i, s in enumerate(symbols) if s not in arrangement.symbols()],
             inner=", ".join(["state", *time, "h", *parameters, *inputs, *memory, *statistics]),
@@ -208,6 +207,11 @@ def samples(kernel: Kernel, read: frozenset[str], names: Names, statements: Stat
         lines += listed("", targets, 1)
         lines[-1] += f" = _sampled(inputs, {time})"
     return lines
+
+
+def listed_weights(row: tuple[int, ...], single: bool) -> str:
+    """Spell a row of factors of an extrapolation."""
+    return ", ".join(f"float32({x}.0)" if single else f"{x}.0" for x in row)
 
 
 def unpacking(symbols: list[str]) -> list[str]:

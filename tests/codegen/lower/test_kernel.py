@@ -7,7 +7,7 @@ import pytest
 from codegen.ir.domain import FloatDomain, SeriesDomain
 from codegen.ir.expr import evaluate, walk
 from codegen.ir.interpret import interpret
-from codegen.ir.kernel import Let, Loop, Start
+from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Let, Loop, Start
 from codegen.ir.program import Solve
 from codegen.lower.kernel import INLINE, to_kernel
 from codegen.passes import optimise
@@ -101,7 +101,9 @@ class TestAKernelMeansItsProgram:
         labels = [s.label for s in program.body if isinstance(s, Solve)]
         if how == "by Newton's method" and not labels:
             pytest.skip("nothing is implicit")
-        kernel = to_kernel(program, view, labels if how == "by Newton's method" else ())
+        kernel = to_kernel(
+            program, view, dict.fromkeys(labels, NEWTON) if how == "by Newton's method" else {}
+        )
         return carried_out(kernel, view, domain, inputs), flat
 
     def test_exactly(self, family, tableau, scene, cutoff, how):
@@ -114,12 +116,12 @@ class TestAKernelMeansItsProgram:
         assert max(abs(a - b) for a, b in zip(found, expected, strict=True)) < 1e-13
 
 
-@pytest.fixture(params=["fixed point", "newton"])
+@pytest.fixture(params=[FIXED_POINT, NEWTON, CHORD])
 def kernel(request):
     view, program = lowered("vcg", "triple_jump", hamiltonian_scene("SO(3)"))
     program, _ = optimise(program, view)
     labels = [s.label for s in program.body if isinstance(s, Solve)]
-    return to_kernel(program, view, labels if request.param == "newton" else ())
+    return to_kernel(program, view, dict.fromkeys(labels, request.param))
 
 
 def test_names_are_assigned_once_and_before_use(kernel):

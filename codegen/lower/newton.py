@@ -1,0 +1,94 @@
+"""Matrices of Newton's method for u = g(u): 1 - g' exactly, or to first order in h.
+
+The first order suffices where steps are short: a correction then leaves O(h^2) of the error before it, and
+the matrix, of derivatives at h = 0 alone, costs little enough to be made in every step. Inverses of small
+matrices are written out by cofactors.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from math import factorial
+from typing import Any
+
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr, Space, evaluate, walk
+from codegen.ir.jacobian import jacobian
+
+SMALL = 3
+"""Up to this size the inverse of a matrix is written out."""
+
+Rows = tuple[tuple[Expr, ...], ...]
+
+AT_ZERO = {
+    **{f"stumpff{k}": Fraction(1, factorial(k)) for k in range(4)},
+    **{f"signed_stumpff{k}": Fraction(1) for k in range(2)},
+    **{f"slope{k}": Fraction(-1, factorial(k + 2)) for k in (2, 3)},
+    **{"sin": Fraction(0), "cos": Fraction(1), "exp": Fraction(1), "sqrt": Fraction(0), "log": None},
+}
+"""Values of functions at zero; None where there is none."""
+
+
+def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
+    """Return 1 - g' for the images g, a row for each."""
+    space = images[0].space
+    rows = jacobian(images, unknowns)
+    units = [[space.one if i == j else space.zero for j in range(len(rows))] for i in range(len(rows))]
+    return tuple(tuple(e - x for e, x in zip(*pair, strict=True)) for pair in zip(units, rows, strict=True))
+
+
+def leading_matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
+    """Return 1 - g' without terms of second and higher order in h.
+
+    ZeroDivisionError where g has none at h = 0.
+    """
+    space = images[0].space
+    h = space.sym("h")
+    slopes = [row[0] for row in jacobian(images, ["h"])]
+    values = _at_zero(space, [*images, *slopes])
+    n = len(images)
+    return matrix([a + h * b for a, b in zip(values[:n], values[n:], strict=True)], unknowns)
+
+
+class _AtZero(ExprDomain):
+    """Expressions where functions of zero are constants."""
+
+    def call(self, function: str, *args: Expr) -> Expr:
+        """Return a constant where the argument is zero, else a call."""
+        if args[0].is_zero and function in AT_ZERO:
+            value = AT_ZERO[function]
+            if value is None:
+                raise ZeroDivisionError(f"{function} of zero")
+            return self.rational(value.numerator, value.denominator)
+        return super().call(function, *args)
+
+
+def _at_zero(space: Space, roots: Sequence[Expr]) -> list[Expr]:
+    """Return the roots at h = 0."""
+    names = {n.payload for n in walk(roots) if n.op == "sym"}
+    values: dict[str, Any] = {name: space.zero if name == "h" else space.sym(name) for name in sorted(names)}
+    return evaluate(roots, _AtZero(space), values)
+
+
+def inverse(rows: Rows) -> Rows:
+    """Return the inverse of a matrix of at most :data:`SMALL` rows, by cofactors."""
+    space = rows[0][0].space
+    n = len(rows)
+    cofactors = [[_cofactor(rows, i, j) for j in range(n)] for i in range(n)]
+    determinant = space.zero
+    for entry, cofactor in zip(rows[0], cofactors[0], strict=True):
+        determinant = determinant + entry * cofactor
+    factor = space.one / determinant
+    return tuple(tuple(factor * cofactors[j][i] for j in range(n)) for i in range(n))
+
+
+def _cofactor(rows: Rows, i: int, j: int) -> Expr:
+    n, space = len(rows), rows[0][0].space
+    if n == 1:
+        return space.one
+    a, b = ((i + k) % n for k in (1, n - 1))
+    c, d = ((j + k) % n for k in (1, n - 1))
+    if n == 2:
+        return rows[a][c] if (i + j) % 2 == 0 else -rows[a][c]
+    return rows[a][c] * rows[b][d] - rows[a][d] * rows[b][c]
