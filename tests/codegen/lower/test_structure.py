@@ -10,7 +10,7 @@ import pytest
 
 from codegen.emit import emit
 from codegen.load import load
-from codegen.lower import ON_COTANGENT
+from codegen.lower import OF_PARTS, ON_COTANGENT
 
 H = 0.05
 WEIGHTS = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
@@ -33,13 +33,17 @@ VARIATIONAL = [
     "slgi:gauss2",
 ]
 
+OF_FLOWS = ["splitting:strang", "splitting:ruth3", "splitting:blanes_moan4", "splitting:strang3"]
+OF_FLOWS += ["composition:triple_jump", "composition:mclachlan4", "composition:yoshida6"]
+"""Splittings of the dipole: a kick, and the two exact flows that its asymmetric inertia is split into."""
+
 NOT_SYMPLECTIC: set[str] = set()
 """Families for Hamiltonian scenes whose maps are not symplectic."""
 
 
 def test_every_variational_family_is_tried():
-    tried = {re.match(r"[a-z_]+", method)[0] for method in VARIATIONAL}
-    assert tried | NOT_SYMPLECTIC == ON_COTANGENT
+    tried = {re.match(r"[a-z_]+", method)[0] for method in (*VARIATIONAL, *OF_FLOWS)}
+    assert tried | NOT_SYMPLECTIC == ON_COTANGENT | OF_PARTS
 
 
 def hat(x):
@@ -102,8 +106,8 @@ def defect(method):
     return np.abs(J.T @ form(step(Q, MU)[1]) @ J - DIRECTIONS.T @ form(MU) @ DIRECTIONS).max()
 
 
-@pytest.mark.parametrize("method", VARIATIONAL)
-def test_variational_steps_are_symplectic(method):
+@pytest.mark.parametrize("method", [*VARIATIONAL, *OF_FLOWS])
+def test_variational_steps_and_compositions_of_flows_are_symplectic(method):
     assert defect(method) < 1e-11
 
 
@@ -114,7 +118,7 @@ def test_others_are_not(method):
     assert defect(method) > 1e-7
 
 
-@pytest.mark.parametrize("method", VARIATIONAL)
+@pytest.mark.parametrize("method", [*VARIATIONAL, *OF_FLOWS])
 def test_the_momentum_of_the_rotations_about_the_vertical_is_kept(method):
     step, q, mu = stepper(method), Q, MU
     for _ in range(40):
@@ -123,16 +127,20 @@ def test_the_momentum_of_the_rotations_about_the_vertical_is_kept(method):
     assert abs(mu[0] - MU[0]) > 1e-2
 
 
-@pytest.mark.parametrize("method", ["vcg:midpoint", "vcg:triple_jump", "vrkmk(0):midpoint", "slgi:midpoint"])
-def test_compositions_of_midpoints_are_reversible(method):
+SYMMETRIC = ["vcg:midpoint", "vcg:triple_jump", "vrkmk(0):midpoint", "slgi:midpoint"]
+
+
+@pytest.mark.parametrize("method", [*SYMMETRIC, *(m for m in OF_FLOWS if "ruth" not in m)])
+def test_symmetric_compositions_are_reversible(method):
     step = stepper(method)
     q, mu = step(*step(Q, MU), h=-H)
     assert np.abs(q - Q).max() < 1e-13
     assert np.abs(mu - MU).max() < 1e-13
 
 
-def test_a_method_that_is_not_symmetric_is_not_reversible():
-    step = stepper("vrkmk(1):kutta3")
+@pytest.mark.parametrize("method", ["vrkmk(1):kutta3", "splitting:ruth3"])
+def test_a_method_that_is_not_symmetric_is_not_reversible(method):
+    step = stepper(method)
     q, _ = step(*step(Q, MU), h=-H)
     assert np.abs(q - Q).max() > 1e-9
 

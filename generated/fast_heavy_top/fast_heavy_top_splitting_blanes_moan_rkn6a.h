@@ -1,0 +1,32 @@
+/* Fast heavy top with body inertia, T*SO(3) (Brüls and Cardona 2010): one step by: functions and status codes. fast_heavy_top_splitting_blanes_moan_rkn6a.c tells how to use them. */
+#ifndef FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_H
+#define FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+    FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_OK = 0, /* the step was made */
+    FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_NOT_FINITE = 2, /* the new state would hold an infinity or a NaN */
+    FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_BAD_STEP = 3 /* h is infinite or a NaN */
+};
+
+/* Make one step of size h. When the status is not FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_OK, the state is as it was. */
+int fast_heavy_top_splitting_blanes_moan_rkn6a_step(double state[12], double h);
+
+/*
+ * Make steps of size h until all are made or one fails; the state is then the last good one and
+ * *completed how many were made. A trajectory receives the initial state and every stride-th one after
+ * it: steps/stride + 1 rows of 12. trajectory and completed may be NULL.
+ */
+int fast_heavy_top_splitting_blanes_moan_rkn6a_run(double state[12], double h, size_t steps,
+    double *trajectory, size_t stride, size_t *completed);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

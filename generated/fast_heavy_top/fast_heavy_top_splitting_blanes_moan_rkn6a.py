@@ -1,0 +1,621 @@
+"""Fast heavy top with body inertia, T*SO(3) (Brüls and Cardona 2010): one step by
+splitting:blanes_moan_rkn6a
+
+method:     family splitting, tableau blanes_moan_rkn6a
+source:     Blanes and Moan 2002, Table 3, SRKN_14^a of order six
+order:      6, certificate: ball (interval arithmetic proves a method of this order
+            within the last digit of the decimals)
+scene:      Fast heavy top with body inertia, T*SO(3) (Brüls and Cardona 2010),
+            group SO(3)
+flows:      T.mean, rotation about the momentum; T.turn, turn about the axis (0, 1,
+            0) fixed in the body; V, kick
+state:      [0..8] q: element of SO(3), row by row
+            [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
+left out:   14 flow (flows)
+            the time: the scene does not depend on it
+            equation solving: every stage is explicit here
+operations: 473 add, 788 mul, 14 stumpff_12 a step
+            29 add, 49 mul, 1 stumpff_12 once in a run of steps
+            9 add, 21 mul, 1 stumpff_12 once in a run of steps
+made by:    orderconds emit fast_heavy_top --method splitting:blanes_moan_rkn6a
+            --target python -o .
+version:    orderconds 0.1.0
+
+Use:
+
+    import fast_heavy_top_splitting_blanes_moan_rkn6a
+
+    state = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 70.3125, -70.3124296875]
+    print(fast_heavy_top_splitting_blanes_moan_rkn6a.run(state, 0.02, 100))
+"""
+
+from math import cos, isfinite, sin, sqrt
+
+OK = 0
+NOT_FINITE = 2
+BAD_STEP = 3
+
+
+class StepFailed(ArithmeticError):
+    """A step that could not be made.
+
+    status: NOT_FINITE or BAD_STEP; step: how many steps were made before it;
+    state: the last good state, as a tuple.
+    """
+
+    def __init__(self, status, reason):
+        super().__init__(reason)
+        self.status, self.reason, self.step, self.state = status, reason, 0, ()
+
+    def __str__(self):
+        return f"step {self.step + 1}: {self.reason}"
+
+
+def _stumpff_small_2(z):
+    """Return c_2(z) for z <= 1/16."""
+    w = z * z
+    w2 = w * w
+    return (
+        (0.5 + z * -0.041666666666666664)
+        + w * (0.001388888888888889 + z * -2.48015873015873e-05)
+        + w2 * (2.755731922398589e-07 + z * -2.08767569878681e-09)
+    )
+
+
+def _stumpff_small_1(z):
+    """Return c_1(z) for z <= 1/16."""
+    w = z * z
+    w2 = w * w
+    return (
+        (1.0 + z * -0.16666666666666666)
+        + w * (0.008333333333333333 + z * -0.0001984126984126984)
+        + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08)
+    )
+
+
+def _stumpff_series_2(z):
+    """Return c_2(z) = sum (-z)^j/(2j+2)! up to z = 1."""
+    w = z * z
+    w2 = w * w
+    even = -2.08767569878681e-09 + w * -4.779477332387385e-14
+    even = -0.041666666666666664 + w * -2.48015873015873e-05 + w2 * even
+    odd = 1.1470745597729725e-11 + w * 1.5619206968586225e-16
+    odd = 0.001388888888888889 + w * 2.755731922398589e-07 + w2 * odd
+    return 0.5 + z * (even + z * odd)
+
+
+def _stumpff_series_1(z):
+    """Return c_1(z) = sum (-z)^j/(2j+1)! up to z = 1."""
+    w = z * z
+    w2 = w * w
+    even = -2.505210838544172e-08 + w * -7.647163731819816e-13
+    even = -0.16666666666666666 + w * -0.0001984126984126984 + w2 * even
+    odd = 1.6059043836821613e-10 + w * 2.8114572543455206e-15
+    odd = 0.008333333333333333 + w * 2.7557319223985893e-06 + w2 * odd
+    return 1.0 + z * (even + z * odd)
+
+
+def _stumpff_12_far(z):
+    """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
+    if z <= 1.0:
+        return _stumpff_series_1(z), _stumpff_series_2(z)
+    half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
+    ratio = sin(half) / half
+    return ratio * cos(half), 0.5 * (ratio * ratio)
+
+
+def _stumpff_12(z):
+    """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
+    if z <= 0.0625:
+        return _stumpff_small_1(z), _stumpff_small_2(z)
+    return _stumpff_12_far(z)
+
+
+def _advance(state, h, lead_h):
+    """Return the state after one step, but for what is put off, as a tuple."""
+    g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
+    w1 = 13.496473308689533 * h
+    w3 = 0.006737108224160042 * h
+    w5 = -13.496473308689533 * h
+    w18 = -0.001697994716984392 * h
+    w19 = 27.073123466236634 * h
+    w22 = -27.073123466236634 * h
+    w38 = 0.020627127996484727 * h
+    w40 = -8.319031932309509 * h
+    w44 = 8.319031932309509 * h
+    w60 = -0.00854281580422006 * h
+    w62 = 0.7231964531988159 * h
+    w66 = -0.7231964531988159 * h
+    w82 = 0.006985366998616156 * h
+    w84 = 21.154449862824507 * h
+    w88 = -21.154449862824507 * h
+    w104 = -0.0005772631386919248 * h
+    w106 = 48.348736134842206 * h
+    w110 = -48.348736134842206 * h
+    w126 = 0.013607717353477945 * h
+    w128 = -28.901947293482188 * h
+    w132 = 28.901947293482188 * h
+    w251 = 0.06564102564102564 * lead_h
+    w8 = mu2 * w3
+    w20 = w18 * w19
+    w23 = w18 * w22
+    w26 = mu2 * w18
+    w41 = w38 * w40
+    w45 = w38 * w44
+    w48 = mu2 * w38
+    w63 = w60 * w62
+    w67 = w60 * w66
+    w70 = mu2 * w60
+    w85 = w82 * w84
+    w89 = w82 * w88
+    w92 = mu2 * w82
+    w107 = w104 * w106
+    w111 = w104 * w110
+    w114 = mu2 * w104
+    w129 = w126 * w128
+    w133 = w126 * w132
+    w136 = mu2 * w126
+    w149 = w104 * w128
+    w153 = w104 * w132
+    w167 = w82 * w106
+    w170 = w82 * w110
+    w184 = w60 * w84
+    w187 = w60 * w88
+    w201 = w38 * w62
+    w204 = w38 * w66
+    w218 = w18 * w40
+    w221 = w18 * w44
+    w235 = w3 * w19
+    w238 = w3 * w22
+    w257 = mu2 * w251
+    w2 = mu0 - g11 * w1
+    w6 = mu1 - g01 * w5
+    w9 = w8 * w8
+    w27 = w26 * w26
+    w49 = w48 * w48
+    w71 = w70 * w70
+    w93 = w92 * w92
+    w115 = w114 * w114
+    w4 = w2 * w3
+    w7 = w3 * w6
+    w12 = g01 * w8 - g21 * w4
+    w14 = g21 * w7 - g11 * w8
+    w15 = g11 * w4 - g01 * w7
+    w267 = g12 * w4 - g02 * w7
+    w268 = g02 * w8 - g22 * w4
+    w269 = g22 * w7 - g12 * w8
+    w10 = w4 * w4 + w7 * w7 + w9
+    w16 = w8 * w14 - w4 * w15
+    w24 = w7 * w15 - w8 * w12
+    c1_1, c2_1 = _stumpff_12(w10)
+    w17 = g11 + w12 * c1_1 + w16 * c2_1
+    w21 = w18 * (w2 - g11 * w19) - w12 * w20 * c1_1 - w16 * w20 * c2_1
+    w25 = w18 * (w6 - g01 * w22) - w14 * w23 * c1_1 - w23 * w24 * c2_1
+    w30 = g01 + w14 * c1_1 + w24 * c2_1
+    w31 = g21 + w15 * c1_1 + (w4 * w12 - w7 * w14) * c2_1
+    w270 = g22 + w267 * c1_1 + (w4 * w268 - w7 * w269) * c2_1
+    w271 = g12 + w268 * c1_1 + (w8 * w269 - w4 * w267) * c2_1
+    w272 = g02 + w269 * c1_1 + (w7 * w267 - w8 * w268) * c2_1
+    w32 = w26 * w30 - w21 * w31
+    w34 = w25 * w31 - w17 * w26
+    w35 = w17 * w21 - w25 * w30
+    w39 = w2 - w17 * w19
+    w43 = w6 - w22 * w30
+    w273 = w21 * w271 - w25 * w272
+    w274 = w26 * w272 - w21 * w270
+    w275 = w25 * w270 - w26 * w271
+    w28 = w21 * w21 + w25 * w25 + w27
+    w36 = w26 * w34 - w21 * w35
+    w46 = w25 * w35 - w26 * w32
+    c1_2, c2_2 = _stumpff_12(w28)
+    w37 = w17 + w32 * c1_2 + w36 * c2_2
+    w42 = w38 * (w39 - w17 * w40) - w32 * w41 * c1_2 - w36 * w41 * c2_2
+    w47 = w38 * (w43 - w30 * w44) - w34 * w45 * c1_2 - w45 * w46 * c2_2
+    w52 = w30 + w34 * c1_2 + w46 * c2_2
+    w53 = w31 + w35 * c1_2 + (w21 * w32 - w25 * w34) * c2_2
+    w276 = w270 + w273 * c1_2 + (w21 * w274 - w25 * w275) * c2_2
+    w277 = w271 + w274 * c1_2 + (w26 * w275 - w21 * w273) * c2_2
+    w278 = w272 + w275 * c1_2 + (w25 * w273 - w26 * w274) * c2_2
+    w54 = w48 * w52 - w42 * w53
+    w56 = w47 * w53 - w37 * w48
+    w57 = w37 * w42 - w47 * w52
+    w61 = w39 - w37 * w40
+    w65 = w43 - w44 * w52
+    w279 = w42 * w277 - w47 * w278
+    w280 = w48 * w278 - w42 * w276
+    w281 = w47 * w276 - w48 * w277
+    w50 = w42 * w42 + w47 * w47 + w49
+    w58 = w48 * w56 - w42 * w57
+    w68 = w47 * w57 - w48 * w54
+    c1_3, c2_3 = _stumpff_12(w50)
+    w59 = w37 + w54 * c1_3 + w58 * c2_3
+    w64 = w60 * (w61 - w37 * w62) - w54 * w63 * c1_3 - w58 * w63 * c2_3
+    w69 = w60 * (w65 - w52 * w66) - w56 * w67 * c1_3 - w67 * w68 * c2_3
+    w74 = w52 + w56 * c1_3 + w68 * c2_3
+    w75 = w53 + w57 * c1_3 + (w42 * w54 - w47 * w56) * c2_3
+    w282 = w276 + w279 * c1_3 + (w42 * w280 - w47 * w281) * c2_3
+    w283 = w277 + w280 * c1_3 + (w48 * w281 - w42 * w279) * c2_3
+    w284 = w278 + w281 * c1_3 + (w47 * w279 - w48 * w280) * c2_3
+    w76 = w70 * w74 - w64 * w75
+    w78 = w69 * w75 - w59 * w70
+    w79 = w59 * w64 - w69 * w74
+    w83 = w61 - w59 * w62
+    w87 = w65 - w66 * w74
+    w285 = w64 * w283 - w69 * w284
+    w286 = w70 * w284 - w64 * w282
+    w287 = w69 * w282 - w70 * w283
+    w72 = w64 * w64 + w69 * w69 + w71
+    w80 = w70 * w78 - w64 * w79
+    w90 = w69 * w79 - w70 * w76
+    c1_4, c2_4 = _stumpff_12(w72)
+    w81 = w59 + w76 * c1_4 + w80 * c2_4
+    w86 = w82 * (w83 - w59 * w84) - w76 * w85 * c1_4 - w80 * w85 * c2_4
+    w91 = w82 * (w87 - w74 * w88) - w78 * w89 * c1_4 - w89 * w90 * c2_4
+    w96 = w74 + w78 * c1_4 + w90 * c2_4
+    w97 = w75 + w79 * c1_4 + (w64 * w76 - w69 * w78) * c2_4
+    w288 = w282 + w285 * c1_4 + (w64 * w286 - w69 * w287) * c2_4
+    w289 = w283 + w286 * c1_4 + (w70 * w287 - w64 * w285) * c2_4
+    w290 = w284 + w287 * c1_4 + (w69 * w285 - w70 * w286) * c2_4
+    w98 = w92 * w96 - w86 * w97
+    w100 = w91 * w97 - w81 * w92
+    w101 = w81 * w86 - w91 * w96
+    w105 = w83 - w81 * w84
+    w109 = w87 - w88 * w96
+    w291 = w86 * w289 - w91 * w290
+    w292 = w92 * w290 - w86 * w288
+    w293 = w91 * w288 - w92 * w289
+    w94 = w86 * w86 + w91 * w91 + w93
+    w102 = w92 * w100 - w86 * w101
+    w112 = w91 * w101 - w92 * w98
+    c1_5, c2_5 = _stumpff_12(w94)
+    w103 = w81 + w98 * c1_5 + w102 * c2_5
+    w108 = w104 * (w105 - w81 * w106) - w98 * w107 * c1_5 - w102 * w107 * c2_5
+    w113 = w104 * (w109 - w96 * w110) - w100 * w111 * c1_5 - w111 * w112 * c2_5
+    w118 = w96 + w100 * c1_5 + w112 * c2_5
+    w119 = w97 + w101 * c1_5 + (w86 * w98 - w91 * w100) * c2_5
+    w294 = w288 + w291 * c1_5 + (w86 * w292 - w91 * w293) * c2_5
+    w295 = w289 + w292 * c1_5 + (w92 * w293 - w86 * w291) * c2_5
+    w296 = w290 + w293 * c1_5 + (w91 * w291 - w92 * w292) * c2_5
+    w120 = w114 * w118 - w108 * w119
+    w122 = w113 * w119 - w103 * w114
+    w123 = w103 * w108 - w113 * w118
+    w127 = w105 - w103 * w106
+    w131 = w109 - w110 * w118
+    w297 = w108 * w295 - w113 * w296
+    w298 = w114 * w296 - w108 * w294
+    w299 = w113 * w294 - w114 * w295
+    w116 = w108 * w108 + w113 * w113 + w115
+    w124 = w114 * w122 - w108 * w123
+    w134 = w113 * w123 - w114 * w120
+    c1_6, c2_6 = _stumpff_12(w116)
+    w125 = w103 + w120 * c1_6 + w124 * c2_6
+    w130 = w126 * (w127 - w103 * w128) - w120 * w129 * c1_6 - w124 * w129 * c2_6
+    w135 = w126 * (w131 - w118 * w132) - w122 * w133 * c1_6 - w133 * w134 * c2_6
+    w139 = w118 + w122 * c1_6 + w134 * c2_6
+    w140 = w119 + w123 * c1_6 + (w108 * w120 - w113 * w122) * c2_6
+    w300 = w294 + w297 * c1_6 + (w108 * w298 - w113 * w299) * c2_6
+    w301 = w295 + w298 * c1_6 + (w114 * w299 - w108 * w297) * c2_6
+    w302 = w296 + w299 * c1_6 + (w113 * w297 - w114 * w298) * c2_6
+    w147 = w125 * w128
+    w151 = w132 * w139
+    w141 = w136 * w139 - w130 * w140
+    w143 = w135 * w140 - w125 * w136
+    w144 = w125 * w130 - w135 * w139
+    w148 = w127 - w147
+    w152 = w131 - w151
+    w303 = w130 * w301 - w135 * w302
+    w304 = w136 * w302 - w130 * w300
+    w305 = w135 * w300 - w136 * w301
+    w137 = w130 * w130 + w135 * w135 + w136 * w136
+    w145 = w136 * w143 - w130 * w144
+    w154 = w135 * w144 - w136 * w141
+    c1_7, c2_7 = _stumpff_12(w137)
+    w146 = w125 + w141 * c1_7 + w145 * c2_7
+    w150 = w104 * (w148 - w147) - w141 * w149 * c1_7 - w145 * w149 * c2_7
+    w155 = w104 * (w152 - w151) - w143 * w153 * c1_7 - w153 * w154 * c2_7
+    w158 = w139 + w143 * c1_7 + w154 * c2_7
+    w159 = w140 + w144 * c1_7 + (w130 * w141 - w135 * w143) * c2_7
+    w306 = w300 + w303 * c1_7 + (w130 * w304 - w135 * w305) * c2_7
+    w307 = w301 + w304 * c1_7 + (w136 * w305 - w130 * w303) * c2_7
+    w308 = w302 + w305 * c1_7 + (w135 * w303 - w136 * w304) * c2_7
+    w160 = w114 * w158 - w150 * w159
+    w162 = w155 * w159 - w114 * w146
+    w163 = w146 * w150 - w155 * w158
+    w166 = w148 - w128 * w146
+    w169 = w152 - w132 * w158
+    w309 = w150 * w307 - w155 * w308
+    w310 = w114 * w308 - w150 * w306
+    w311 = w155 * w306 - w114 * w307
+    w156 = w150 * w150 + w155 * w155 + w115
+    w164 = w114 * w162 - w150 * w163
+    w171 = w155 * w163 - w114 * w160
+    c1_8, c2_8 = _stumpff_12(w156)
+    w165 = w146 + w160 * c1_8 + w164 * c2_8
+    w168 = w82 * (w166 - w106 * w146) - w160 * w167 * c1_8 - w164 * w167 * c2_8
+    w172 = w82 * (w169 - w110 * w158) - w162 * w170 * c1_8 - w170 * w171 * c2_8
+    w175 = w158 + w162 * c1_8 + w171 * c2_8
+    w176 = w159 + w163 * c1_8 + (w150 * w160 - w155 * w162) * c2_8
+    w312 = w306 + w309 * c1_8 + (w150 * w310 - w155 * w311) * c2_8
+    w313 = w307 + w310 * c1_8 + (w114 * w311 - w150 * w309) * c2_8
+    w314 = w308 + w311 * c1_8 + (w155 * w309 - w114 * w310) * c2_8
+    w177 = w92 * w175 - w168 * w176
+    w179 = w172 * w176 - w92 * w165
+    w180 = w165 * w168 - w172 * w175
+    w183 = w166 - w106 * w165
+    w186 = w169 - w110 * w175
+    w315 = w168 * w313 - w172 * w314
+    w316 = w92 * w314 - w168 * w312
+    w317 = w172 * w312 - w92 * w313
+    w173 = w168 * w168 + w172 * w172 + w93
+    w181 = w92 * w179 - w168 * w180
+    w188 = w172 * w180 - w92 * w177
+    c1_9, c2_9 = _stumpff_12(w173)
+    w182 = w165 + w177 * c1_9 + w181 * c2_9
+    w185 = w60 * (w183 - w84 * w165) - w177 * w184 * c1_9 - w181 * w184 * c2_9
+    w189 = w60 * (w186 - w88 * w175) - w179 * w187 * c1_9 - w187 * w188 * c2_9
+    w192 = w175 + w179 * c1_9 + w188 * c2_9
+    w193 = w176 + w180 * c1_9 + (w168 * w177 - w172 * w179) * c2_9
+    w318 = w312 + w315 * c1_9 + (w168 * w316 - w172 * w317) * c2_9
+    w319 = w313 + w316 * c1_9 + (w92 * w317 - w168 * w315) * c2_9
+    w320 = w314 + w317 * c1_9 + (w172 * w315 - w92 * w316) * c2_9
+    w194 = w70 * w192 - w185 * w193
+    w196 = w189 * w193 - w70 * w182
+    w197 = w182 * w185 - w189 * w192
+    w200 = w183 - w84 * w182
+    w203 = w186 - w88 * w192
+    w321 = w185 * w319 - w189 * w320
+    w322 = w70 * w320 - w185 * w318
+    w323 = w189 * w318 - w70 * w319
+    w190 = w185 * w185 + w189 * w189 + w71
+    w198 = w70 * w196 - w185 * w197
+    w205 = w189 * w197 - w70 * w194
+    c1_10, c2_10 = _stumpff_12(w190)
+    w199 = w182 + w194 * c1_10 + w198 * c2_10
+    w202 = w38 * (w200 - w62 * w182) - w194 * w201 * c1_10 - w198 * w201 * c2_10
+    w206 = w38 * (w203 - w66 * w192) - w196 * w204 * c1_10 - w204 * w205 * c2_10
+    w209 = w192 + w196 * c1_10 + w205 * c2_10
+    w210 = w193 + w197 * c1_10 + (w185 * w194 - w189 * w196) * c2_10
+    w324 = w318 + w321 * c1_10 + (w185 * w322 - w189 * w323) * c2_10
+    w325 = w319 + w322 * c1_10 + (w70 * w323 - w185 * w321) * c2_10
+    w326 = w320 + w323 * c1_10 + (w189 * w321 - w70 * w322) * c2_10
+    w211 = w48 * w209 - w202 * w210
+    w213 = w206 * w210 - w48 * w199
+    w214 = w199 * w202 - w206 * w209
+    w217 = w200 - w62 * w199
+    w220 = w203 - w66 * w209
+    w327 = w202 * w325 - w206 * w326
+    w328 = w48 * w326 - w202 * w324
+    w329 = w206 * w324 - w48 * w325
+    w207 = w202 * w202 + w206 * w206 + w49
+    w215 = w48 * w213 - w202 * w214
+    w222 = w206 * w214 - w48 * w211
+    c1_11, c2_11 = _stumpff_12(w207)
+    w216 = w199 + w211 * c1_11 + w215 * c2_11
+    w219 = w18 * (w217 - w40 * w199) - w211 * w218 * c1_11 - w215 * w218 * c2_11
+    w223 = w18 * (w220 - w44 * w209) - w213 * w221 * c1_11 - w221 * w222 * c2_11
+    w226 = w209 + w213 * c1_11 + w222 * c2_11
+    w227 = w210 + w214 * c1_11 + (w202 * w211 - w206 * w213) * c2_11
+    w330 = w324 + w327 * c1_11 + (w202 * w328 - w206 * w329) * c2_11
+    w331 = w325 + w328 * c1_11 + (w48 * w329 - w202 * w327) * c2_11
+    w332 = w326 + w329 * c1_11 + (w206 * w327 - w48 * w328) * c2_11
+    w228 = w26 * w226 - w219 * w227
+    w230 = w223 * w227 - w26 * w216
+    w231 = w216 * w219 - w223 * w226
+    w234 = w217 - w40 * w216
+    w237 = w220 - w44 * w226
+    w333 = w219 * w331 - w223 * w332
+    w334 = w26 * w332 - w219 * w330
+    w335 = w223 * w330 - w26 * w331
+    w224 = w219 * w219 + w223 * w223 + w27
+    w232 = w26 * w230 - w219 * w231
+    w239 = w223 * w231 - w26 * w228
+    c1_12, c2_12 = _stumpff_12(w224)
+    w233 = w216 + w228 * c1_12 + w232 * c2_12
+    w236 = w3 * (w234 - w19 * w216) - w228 * w235 * c1_12 - w232 * w235 * c2_12
+    w240 = w3 * (w237 - w22 * w226) - w230 * w238 * c1_12 - w238 * w239 * c2_12
+    w243 = w226 + w230 * c1_12 + w239 * c2_12
+    w244 = w227 + w231 * c1_12 + (w219 * w228 - w223 * w230) * c2_12
+    w336 = w330 + w333 * c1_12 + (w219 * w334 - w223 * w335) * c2_12
+    w337 = w331 + w334 * c1_12 + (w26 * w335 - w219 * w333) * c2_12
+    w338 = w332 + w335 * c1_12 + (w223 * w333 - w26 * w334) * c2_12
+    w245 = w8 * w243 - w236 * w244
+    w247 = w240 * w244 - w8 * w233
+    w248 = w233 * w236 - w240 * w243
+    w252 = w234 - w19 * w233
+    w254 = w237 - w22 * w243
+    w339 = w236 * w337 - w240 * w338
+    w340 = w8 * w338 - w236 * w336
+    w341 = w240 * w336 - w8 * w337
+    w241 = w236 * w236 + w240 * w240 + w9
+    w249 = w8 * w247 - w236 * w248
+    w255 = w240 * w248 - w8 * w245
+    c1_13, c2_13 = _stumpff_12(w241)
+    w250 = w233 + w245 * c1_13 + w249 * c2_13
+    w253 = (
+        w251 * (w252 - w1 * w233) - w245 * w251 * w1 * c1_13 - w249 * w251 * w1 * c2_13
+    )
+    w256 = (
+        w251 * (w254 - w5 * w243) - w247 * w251 * w5 * c1_13 - w251 * w255 * w5 * c2_13
+    )
+    w260 = w243 + w247 * c1_13 + w255 * c2_13
+    w261 = w244 + w248 * c1_13 + (w236 * w245 - w240 * w247) * c2_13
+    w342 = w336 + w339 * c1_13 + (w236 * w340 - w240 * w341) * c2_13
+    w343 = w337 + w340 * c1_13 + (w8 * w341 - w236 * w339) * c2_13
+    w344 = w338 + w341 * c1_13 + (w240 * w339 - w8 * w340) * c2_13
+    w262 = w257 * w260 - w253 * w261
+    w264 = w256 * w261 - w250 * w257
+    w265 = w250 * w253 - w256 * w260
+    w345 = w253 * w343 - w256 * w344
+    w346 = w257 * w344 - w253 * w342
+    w347 = w256 * w342 - w257 * w343
+    w258 = w253 * w253 + w256 * w256 + w257 * w257
+    c1_14, c2_14 = _stumpff_12(w258)
+    w266 = w250 + w262 * c1_14 + (w257 * w264 - w253 * w265) * c2_14
+    w348 = w342 + w345 * c1_14 + (w253 * w346 - w256 * w347) * c2_14
+    w349 = w261 + w265 * c1_14 + (w253 * w262 - w256 * w264) * c2_14
+    w350 = w343 + w346 * c1_14 + (w257 * w347 - w253 * w345) * c2_14
+    w351 = w260 + w264 * c1_14 + (w256 * w265 - w257 * w262) * c2_14
+    w352 = w344 + w347 * c1_14 + (w256 * w345 - w257 * w346) * c2_14
+    new_g00 = w266 * w348 - w349 * w350
+    new_g10 = w349 * w352 - w348 * w351
+    new_g20 = w350 * w351 - w266 * w352
+    new_mu0 = w252 - w1 * w250
+    new_mu1 = w254 - w5 * w260
+    new_mu2 = mu2
+    return (
+        new_g00,
+        w351,
+        w352,
+        new_g10,
+        w266,
+        w350,
+        new_g20,
+        w349,
+        w348,
+        new_mu0,
+        new_mu1,
+        new_mu2,
+    )
+
+
+def _begin(state, h):
+    """Return the state with the beginning of a step made, where the step before has not done that."""
+    g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
+    w1 = 0.0024851245844093018 * h
+    w2 = mu0 * w1
+    w3 = mu1 * w1
+    w4 = mu2 * w1
+    w7 = g01 * w4 - g21 * w2
+    w9 = g21 * w3 - g11 * w4
+    w10 = g11 * w2 - g01 * w3
+    w11 = g12 * w2 - g02 * w3
+    w12 = g02 * w4 - g22 * w2
+    w13 = g22 * w3 - g12 * w4
+    w5 = w2 * w2 + w3 * w3 + w4 * w4
+    c1_1, c2_1 = _stumpff_12(w5)
+    q1_4 = g11 + w7 * c1_1 + (w4 * w9 - w2 * w10) * c2_1
+    q1_8 = g22 + w11 * c1_1 + (w2 * w12 - w3 * w13) * c2_1
+    q1_7 = g21 + w10 * c1_1 + (w2 * w7 - w3 * w9) * c2_1
+    q1_5 = g12 + w12 * c1_1 + (w4 * w13 - w2 * w11) * c2_1
+    q1_1 = g01 + w9 * c1_1 + (w3 * w10 - w4 * w7) * c2_1
+    q1_2 = g02 + w13 * c1_1 + (w3 * w11 - w4 * w12) * c2_1
+    new_g00 = q1_4 * q1_8 - q1_7 * q1_5
+    new_g10 = q1_7 * q1_2 - q1_8 * q1_1
+    new_g20 = q1_5 * q1_1 - q1_4 * q1_2
+    new_mu0 = mu0
+    new_mu1 = mu1
+    new_mu2 = mu2
+    return (
+        new_g00,
+        q1_1,
+        q1_2,
+        new_g10,
+        q1_4,
+        q1_5,
+        new_g20,
+        q1_7,
+        q1_8,
+        new_mu0,
+        new_mu1,
+        new_mu2,
+    )
+
+
+def _finish(state, elapsed_h):
+    """Return the state with that made which commutes with all that a step does."""
+    g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
+    w1 = 2.0676923076923077 * (g01 * mu0 + g11 * mu1 + g21 * mu2) * elapsed_h
+    w2 = w1 * w1
+    c1_1, c2_1 = _stumpff_12(w2)
+    w4 = w1 * c1_1
+    w3 = 1.0 - w1 * c2_1 * w1
+    new_g00 = g00 * w3 - g02 * w4
+    new_g01 = g01
+    new_g02 = g00 * w4 + g02 * w3
+    new_g10 = g10 * w3 - g12 * w4
+    new_g11 = g11
+    new_g12 = g10 * w4 + g12 * w3
+    new_g20 = g20 * w3 - g22 * w4
+    new_g21 = g21
+    new_g22 = g20 * w4 + g22 * w3
+    new_mu0 = mu0
+    new_mu1 = mu1
+    new_mu2 = mu2
+    return (
+        new_g00,
+        new_g01,
+        new_g02,
+        new_g10,
+        new_g11,
+        new_g12,
+        new_g20,
+        new_g21,
+        new_g22,
+        new_mu0,
+        new_mu1,
+        new_mu2,
+    )
+
+
+def _checked(change, *arguments):
+    """Return the state after a change, which is finite."""
+    try:
+        new = change(*arguments)
+    except (ArithmeticError, ValueError) as error:
+        raise StepFailed(NOT_FINITE, f"the new state is not finite ({error})") from None
+    if not all(map(isfinite, new)):
+        raise StepFailed(NOT_FINITE, "the new state is not finite")
+    return new
+
+
+def step(state, h):
+    """Return the state after one step of size h as a list; state itself is left alone.
+
+    A step that cannot be made raises StepFailed.
+    """
+    return run(state, h, 1)
+
+
+def run(state, h, steps, *, stride=0):
+    """Return the state after that many steps of size h, as a list.
+
+    With a positive stride, return rows instead: the initial state and every stride-th one
+    after it. A step that cannot be made raises StepFailed, which holds the last good state.
+    """
+    state = tuple(map(float, state))
+    h = float(h)
+    if len(state) != 12:
+        raise ValueError(f"expected 12 numbers in state, found {len(state)}")
+    rows = [list(state)]
+    made, late, whole = 0, 0, True
+    moving = state
+    try:
+        if steps > 0 and not isfinite(h):
+            raise StepFailed(BAD_STEP, f"the step size h = {h} is not finite")
+        if steps > 0 and not all(map(isfinite, state)):  # also what the rest of it implies
+            raise StepFailed(NOT_FINITE, "the state is not finite")
+        while made < steps:
+            shown = stride > 0 and (made + 1) % stride == 0
+            late += 1
+            stop = shown or made + 1 == steps or late == 256
+            if whole:
+                moving = _checked(_begin, moving, h)
+            lead = (0.03785931984061045 if stop else 0.0757186396812209) * h
+            moving = _checked(_advance, moving, h, lead)
+            whole = stop
+            if stop:
+                moving = _checked(_finish, moving, late * h)
+                late = 0
+                if shown:
+                    rows.append(list(moving))
+            made += 1
+        state = moving
+    except StepFailed as failure:
+        failure.step, failure.state = made, state
+        if made > 0:
+            try:
+                failure.state = tuple(run(state, h, made))
+            except StepFailed as earlier:
+                failure.step, failure.state = earlier.step, earlier.state
+        raise
+    return rows if stride > 0 else list(state)
