@@ -58,18 +58,13 @@ def part(program: Program, scene: Setting) -> Parted | None:
     )
 
 
-def with_put_off(kernel: Kernel, program: Program, scene: Setting, chains: int = AS_WRITTEN) -> Kernel:
-    """Return the kernel of a program's core with what it puts off; ``kernel`` where that is nothing."""
-    parted = None if scene.inputs else part(program, scene)  # inputs are sampled step by step
-    if parted is None:
-        return kernel
+def with_put_off(kernel: Kernel, parted: Parted, scene: Setting, chains: int = AS_WRITTEN) -> Kernel:
+    """Return the kernel of a program's core with what it puts off."""
     begin, finish = (
         None if program is None else to_kernel(program, scene, chains=chains)
         for program in (parted.begin, parted.finish)
     )
-    return replace(
-        to_kernel(parted.core, scene, chains=chains), put_off=PutOff(begin, finish, parted.last, parted.later)
-    )
+    return replace(kernel, put_off=PutOff(begin, finish, parted.last, parted.later))
 
 
 def _is_h(letter: Letter) -> bool:

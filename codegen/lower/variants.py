@@ -12,9 +12,9 @@ from codegen.groups.cotangent import Cotangent
 from codegen.ir.expr import walk
 from codegen.ir.kernel import Kernel
 from codegen.ir.program import FLOWS, Assign, Program
-from codegen.lower.kernel import AS_WRITTEN, ORDERED, SHORTENED, to_kernel
+from codegen.lower.kernel import ORDERED, SHORTENED, to_kernel
 from codegen.lower.late import chain
-from codegen.lower.put_off import with_put_off
+from codegen.lower.put_off import part, with_put_off
 from codegen.scene import Setting
 
 CALL = 10
@@ -31,12 +31,17 @@ def fastest(program: Program, scene: Setting) -> Kernel:
     """
     explicit = all(isinstance(statement, Assign) for statement in program.body)
     varied = explicit and (isinstance(scene.group, Cotangent) or not FLOWS.isdisjoint(program.counts()))
-    found = []
-    for group in scene.group.variants() if varied else (scene.group,):
-        for chains in (ORDERED, SHORTENED) if varied else (AS_WRITTEN,):
-            view = replace(scene, group=group)
-            found.append(with_put_off(to_kernel(program, view, chains=chains), program, view, chains))
-    return min(found, key=time)
+    if not varied:
+        return to_kernel(program, scene)
+    parted = None if scene.inputs else part(program, scene)  # inputs are sampled step by step
+    core = program if parted is None else parted.core
+    found: list[tuple[Kernel, Setting, int]] = []
+    for group in scene.group.variants():
+        view = replace(scene, group=group)
+        for chains in (ORDERED, SHORTENED):
+            found.append((to_kernel(core, view, chains=chains), view, chains))
+    kernel, view, chains = min(found, key=lambda candidate: time(candidate[0]))
+    return kernel if parted is None else with_put_off(kernel, parted, view, chains)
 
 
 def time(kernel: Kernel) -> tuple[float, int]:
