@@ -14,7 +14,7 @@ from orderconds.cli import program
 
 ROOT = Path(__file__).parents[1]
 SESSIONS = re.findall(
-    r"^\$ orderconds ((?:derive|check|trees) [^\n;]*)(; echo \$\?)?\n(.*?)^```",
+    r"^\$ orderconds ((?:derive|check|solve|trees) [^\n;]*)(; echo \$\?)?\n(.*?)^```",
     (ROOT / "README.md").read_text(encoding="utf-8"),
     re.MULTILINE | re.DOTALL,
 )
@@ -36,4 +36,4 @@ def test_sessions_of_the_readme(
 
 
 def test_the_readme_shows_sessions() -> None:
-    assert len(SESSIONS) == 4
+    assert len(SESSIONS) == 6
