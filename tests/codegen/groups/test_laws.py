@@ -6,6 +6,7 @@ from math import factorial
 
 import pytest
 
+from codegen.groups.protocol import LieGroup
 from tests.strategies import ALL_GROUPS, BASE_GROUPS, ORDER, SAMPLES, inverse, sampler
 
 EXACT = "exact, series"
@@ -134,6 +135,16 @@ class TestVelocityIsTheDerivativeOfExp:
         d, x = s.domain, constants(s, s.group.dim)
         path = s.group.exp(d, tuple(d.h * a for a in x))
         assert s.equal(ddh(s, path), shortened(s, s.group.velocity(d, x, path)))
+
+
+WITH_RATES = [name for name, group in BASE_GROUPS.items() if type(group).rate is not LieGroup.rate]
+
+
+@pytest.mark.parametrize("s", cases(WITH_RATES, (EXACT,)), indirect=True)
+class TestRateInvertsVelocity:
+    def test_where_a_group_has_one(self, s):
+        x, g = s.vector(), s.element()
+        assert s.equal(s.group.rate(s.domain, s.group.velocity(s.domain, x, g), g), x)
 
 
 @exactly
