@@ -23,6 +23,9 @@ from orderconds.solve.problem import Problem
 MAX_VARIABLES = 3
 """Conditions in more coefficients than this are not eliminated."""
 
+MAX_UNKNOWNS, MAX_ORDER = 16, 5
+"""Conditions of more unknowns, or of a higher order, are too long to be written out."""
+
 MAX_DEGREE = 8
 """Degree of the multipliers in a certificate."""
 
@@ -70,6 +73,8 @@ def infeasible(problem: Problem) -> Infeasible | None:
     1 = 0 is false
     """
     names = problem.ansatz.free
+    if len(names) > MAX_UNKNOWNS:
+        return None
     ring = LaurentPolynomials(names) if problem.family.needs_nonzero_weights else Polynomials(names)
     try:
         values = problem.residuals(ring.generators, ring, _conditions(problem))
@@ -87,7 +92,7 @@ def infeasible(problem: Problem) -> Infeasible | None:
 
 
 def _conditions(problem: Problem) -> tuple[OrderCondition, ...]:
-    return tuple(c for n in range(1, problem.order + 1) for c in problem.family.conditions(n))
+    return tuple(c for n in range(1, min(problem.order, MAX_ORDER) + 1) for c in problem.family.conditions(n))
 
 
 def _numerator(x: Any, plain: Polynomials) -> Any:
