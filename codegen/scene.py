@@ -273,7 +273,7 @@ class Setting:
     @cached_property
     def body(self) -> BodyFrame | None:
         """The field in the body frame; None where no Hamiltonian gives it all, or the group has none."""
-        closed = not self.inputs and self.hamiltonian is not None
+        closed = not self.inputs and not self.forced and self.hamiltonian is not None
         if not self.paired or not closed or not hasattr(self.group, "relations"):
             return None
         assert self.hamiltonian is not None

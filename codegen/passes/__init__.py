@@ -24,6 +24,7 @@ from codegen.passes import (
     legendre,
     merge,
     opposites,
+    scalars,
     sharing,
     tearing,
     zeros,
@@ -96,6 +97,9 @@ def optimise(
             ("functions", lambda p: functions.run(p, scene)),
             ("sharing", sharing.run),
             ("factors", factor.run),
+            ("dead code", dead.run),
+            ("scalars", scalars.run),
+            ("sharing", sharing.run),
             ("dead code", dead.run),
         ]
     reports: list[PassReport] = []

@@ -3,7 +3,7 @@
 Exact. With E~ = q^-1 E q for a group element, Ad_{q^-1} x for a value in the algebra and Ad*_q mu for one in
 its dual, a program keeps its operations, which commute with the group; Q = E q becomes q E~. The field is
 taken from :mod:`codegen.body`: xi = Ad_E~ W(Q, P), n = Ad*_{E~^-1} N(Q, P), P = Ad*_E~ M. So the equations of
-a block need of q only what the body's field needs. The new momentum is turned back at once.
+a block need of q only what the body's field needs. Of the momentum the change is turned back.
 
 A program of other operations, or of a scene without a body frame, is left alone.
 """
@@ -12,7 +12,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from codegen.ir.program import Assign, Builder, Kind, Program, Solve, Statement, Var
+from codegen.ir.number import Number
+from codegen.ir.program import ONE, Assign, Builder, Coefficient, Kind, Program, Solve, Statement, Var
 from codegen.passes.rewrite import defined
 from codegen.scene import Setting
 
@@ -20,6 +21,9 @@ EQUIVARIANT = frozenset(
     {"exp", "lin", "zero", "ad", "adt", "dexpinv", "dexpinvt", "P", "dexpt", "Ad", "Adinv", "Adt", "Adtinv"}
 )
 """Operations that commute with the adjoint action; group arguments are products of exponentials."""
+
+
+MINUS = Coefficient(Number.rational(-1))
 
 
 class NotFramed(Exception):
@@ -43,7 +47,6 @@ class _Framing:
     names: dict[Var, Var] = field(default_factory=dict)
     relative: dict[Var, Var | None] = field(default_factory=dict)
     """Of elements Q = q E: what stands for E, None where it is the identity."""
-    made: dict[Var, Assign] = field(default_factory=dict)
 
     def run(self) -> Program:
         program = self.program
@@ -73,7 +76,7 @@ class _Framing:
         if set(outputs) != {"q", "mu"} or outputs["q"] not in self.relative:
             raise NotFramed
         element = outputs["q"]
-        ends = {"q": self.names.get(element, element), "mu": self._outward(element, outputs["mu"])}
+        ends = {"q": self.names.get(element, element), "mu": self._outward(mu, outputs["mu"])}
         body += self.do.take()
         return replace(
             program, body=tuple(body), outputs=tuple((name, ends[name]) for name, _ in program.outputs)
@@ -104,8 +107,6 @@ class _Framing:
 
     def _emit(self, assign: Assign) -> None:
         self.do.body.append(assign)
-        for target in assign.targets:
-            self.made[target] = assign
 
     def _field(self, assign: Assign) -> None:
         """xi = Ad_E W, n = Ad*_{E^-1} N of (Q, Ad*_E M)."""
@@ -119,10 +120,12 @@ class _Framing:
         self.names[xi] = W if E is None else do.do("Ad", f"b{xi.name}", E, W)
         self.names[n] = N if E is None else do.do("Adtinv", f"b{n.name}", E, N)
 
-    def _outward(self, element: Var, momentum: Var) -> Var:
-        """Return the momentum in space: turned by the new element at once where it was turned last."""
-        (inside,) = self._now((momentum,))
-        made = self.made.get(inside)
-        if made is not None and made.operation.name == "Adtinv" and made.args[0] == self.relative[element]:
-            return self.do.do("Adtinv", "mu_space", element, made.args[1])
-        return self.do.do("Adtinv", "mu_space", self.q, inside)
+    def _outward(self, old: Var, momentum: Var) -> Var:
+        """Return the momentum in space: the old one and the change, turned back.
+
+        So that q, where rounding has made it not quite orthogonal, does not act on the whole of it.
+        """
+        (inside,), before = self._now((momentum,)), self.names[old]
+        change = self.do.lin("change", Kind.DUAL, [(ONE, inside), (MINUS, before)])
+        turned = self.do.do("Adtinv", "change_space", self.q, change)
+        return self.do.lin("mu_space", Kind.DUAL, [(ONE, old), (ONE, turned)])

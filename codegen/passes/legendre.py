@@ -158,13 +158,13 @@ def _values(do: Builder, found: Path) -> tuple[dict[Var, Var], Var]:
 
 def _residual(block: Solve, found: Path, do: Builder) -> Var:
     """Append what the momentum from the unknown exceeds the other by, in the frame where that costs less."""
-    stands, base = _values(do, found)
-    pair = (
-        (stands[found.velocity.args[1]], found.velocity.args[1])
-        if _function_of_one(block, found)
-        else (base, found.base)
-    )
-    return do.lin("residual", Kind.DUAL, [(ONE, pair[0]), (MINUS, pair[1])])
+    stands, computed = _values(do, found)
+    given = found.base
+    if _function_of_one(block, found):
+        given = found.velocity.args[1]
+    elif found.inward and found.inward[0].operation.name == "lin":
+        given = found.inward[0].targets[0]
+    return do.lin("residual", Kind.DUAL, [(ONE, given), (MINUS, stands.get(given, computed))])
 
 
 def _function_of_one(block: Solve, found: Path) -> bool:

@@ -6,9 +6,9 @@
  * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
  * solved by:  the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: fixed point, 12 unknowns (3.0
- *             sweeps of 1068 operations a step; Newton's method: 2.5 sweeps of 1344 operations and
- *             0.05 matrices of 10860; Newton's method with the matrix to first order in h: 2.1
- *             sweeps of 1344 operations and 1.00 matrices of 3992)
+ *             sweeps of 1065 operations a step; Newton's method: 2.5 sweeps of 1341 operations and
+ *             0.05 matrices of 11276; Newton's method with the matrix to first order in h: 2.3
+ *             sweeps of 1341 operations and 1.00 matrices of 3992)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
  * left out:   1 Adt, 23 Adtinv, 5 mul (zeros)
@@ -20,17 +20,17 @@
  *             1 lin (sharing)
  *             5 hamilton (body frame)
  *             3 Adt (opposites)
- *             7 Adtinv, 1 force (dead code)
+ *             6 Adtinv, 1 force (dead code)
  *             1 lin (sharing)
  *             5 dexpt (functions)
  *             3 Adinv, 4 legendre (sharing)
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
- * operations: 77 add, 122 mul, 2 sqrt, 2 div, 1 stumpff_12 a step
+ * operations: 89 add, 131 mul, 2 sqrt, 2 div, 1 stumpff_12 a step
  *             2 mul a start, in steps that follow no other
- *             330 add, 489 mul, 6 div, 6 sqrt, 4 stumpff_12, 5 stumpff_23 a sweep of the equations
+ *             327 add, 489 mul, 6 div, 6 sqrt, 4 stumpff_12, 5 stumpff_23 a sweep of the equations
  *             of xi1, xi2, xi3, xi4, n1, n2, n3, n4
- * stack:      at most 4800 bytes, without what the mathematical library takes
+ * stack:      at most 4864 bytes, without what the mathematical library takes
  * made by:    orderconds emit dipole --method vcf:cf4 --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -416,8 +416,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double w45 = w44 * w44 * (0.5 * w44);
         const double w46 = -1.0 - 2.0 * (1.5 * w43 - 1.5 * w45);
         const double w47 = -0.3 * w43 - 0.3 * w45;
-        const double Nr2_0 = Q2_7 * w46 - Q2_8 * w47 + 99.0 * a_1 * p_2_2;
-        const double s_nu2_0 = w1 * Nr4_0 - h * Nr2_0;
+        const double sum_Nr4_0 = Nr4_0 + 2.0 * (Q2_7 * w46 - Q2_8 * w47 + 99.0 * a_1 * p_2_2);
+        const double s_nu2_0 = w1 * sum_Nr4_0;
         const double w48 = yE2_1_0 * yE2_1_0 + yE2_1_1 * yE2_1_1 + yE2_1_2 * yE2_1_2;
         double c2_3, c3_1;
         stumpff_23(w48, &c2_3, &c3_1);
@@ -432,11 +432,11 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double Nr4_2 = 0.01 * a_5_0 * a_5_1 + w40 * Q4_6;
         const double a_0 = xi2_0 * gE2_1_0 + xi2_1 * gE2_1_3 + xi2_2 * gE2_1_6;
         const double Q2_6 = g20 * gE2_1_0 + g21 * gE2_1_3 + g22 * gE2_1_6;
-        const double Nr2_2 = 0.01 * a_0 * a_1 + w47 * Q2_6;
-        const double s_nu2_2 = w1 * Nr4_2 - h * Nr2_2;
+        const double sum_Nr4_2 = Nr4_2 + 2.0 * (0.01 * a_0 * a_1 + w47 * Q2_6);
+        const double s_nu2_2 = w1 * sum_Nr4_2;
         const double Nr4_1 = -100.0 * a_5_0 * p_4_2 - w39 * Q4_6;
-        const double Nr2_1 = -100.0 * a_0 * p_2_2 - w46 * Q2_6;
-        const double s_nu2_1 = w1 * Nr4_1 - h * Nr2_1;
+        const double sum_Nr4_1 = Nr4_1 + 2.0 * (-100.0 * a_0 * p_2_2 - w46 * Q2_6);
+        const double s_nu2_1 = w1 * sum_Nr4_1;
         const double w50 = yE2_1_1 * s_nu2_2 - yE2_1_2 * s_nu2_1;
         const double w52 = yE2_1_0 * s_nu2_1 - yE2_1_1 * s_nu2_0;
         const double w53 = yE2_1_2 * s_nu2_0 - yE2_1_0 * s_nu2_2;
@@ -489,7 +489,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double w111 = -1.0 - 2.0 * (1.5 * w108 - 1.5 * w110);
         const double w112 = -0.3 * w108 - 0.3 * w110;
         const double Nr3_0 = Q3_7 * w111 - Q3_8 * w112 + 99.0 * a_3_1 * p_3_2;
-        s_p1_0 = m_0 + w60 * (w91 + 99.0 * xi1_1 * p_2 + Nr4_0) + (Nr2_0 + Nr3_0) * w113;
+        s_p1_0 = m_0 + w60 * (w91 + 99.0 * xi1_1 * p_2 + sum_Nr4_0) + Nr3_0 * w113;
         const double w115 = xi2_0 + xi3_0;
         const double w117 = w115 * w116;
         const double ye1_0 = xi1_0 * w114 + w117 + xi4_0 * w118;
@@ -508,9 +508,9 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double a_3_0 = xi3_0 * gE3_1_0 + xi3_1 * gE3_1_3 + xi3_2 * gE3_1_6;
         const double Q3_6 = g20 * gE3_1_0 + g21 * gE3_1_3 + g22 * gE3_1_6;
         const double Nr3_2 = 0.01 * a_3_0 * a_3_1 + w112 * Q3_6;
-        s_p1_2 = m_2 + w60 * (0.01 * xi1_0 * xi1_1 + w125 + Nr4_2) + w113 * (Nr2_2 + Nr3_2);
+        s_p1_2 = m_2 + w60 * (0.01 * xi1_0 * xi1_1 + w125 + sum_Nr4_2) + w113 * Nr3_2;
         const double Nr3_1 = -100.0 * a_3_0 * p_3_2 - w111 * Q3_6;
-        s_p1_1 = m_1 + w60 * (-100.0 * xi1_0 * p_2 - w126 + Nr4_1) + w113 * (Nr2_1 + Nr3_1);
+        s_p1_1 = m_1 + w60 * (-100.0 * xi1_0 * p_2 - w126 + sum_Nr4_1) + w113 * Nr3_1;
         const double w127 = ye1_1 * s_p1_2 - ye1_2 * s_p1_1;
         const double w129 = ye1_0 * s_p1_1 - s_p1_0 * ye1_1;
         const double w130 = s_p1_0 * ye1_2 - ye1_0 * s_p1_2;
@@ -703,27 +703,30 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double ge2_7 = w180 + w181;
     const double ge2_8 = 1.0 - (w171 + w179);
     const double e2_6 = ge1_0 * ge2_6 + ge1_3 * ge2_7 + ge1_6 * ge2_8;
-    const double q1_0 = g00 * e2_0 + g01 * e2_3 + g02 * e2_6;
     const double e2_1 = ge1_1 * ge2_0 + ge1_4 * ge2_1 + ge1_7 * ge2_2;
     const double e2_4 = ge1_1 * ge2_3 + ge1_4 * ge2_4 + ge1_7 * ge2_5;
     const double e2_7 = ge1_1 * ge2_6 + ge1_4 * ge2_7 + ge1_7 * ge2_8;
-    const double q1_1 = g00 * e2_1 + g01 * e2_4 + g02 * e2_7;
     const double e2_2 = ge1_2 * ge2_0 + ge1_5 * ge2_1 + ge1_8 * ge2_2;
     const double e2_5 = ge1_2 * ge2_3 + ge1_5 * ge2_4 + ge1_8 * ge2_5;
     const double e2_8 = ge1_2 * ge2_6 + ge1_5 * ge2_7 + ge1_8 * ge2_8;
-    const double q1_2 = g00 * e2_2 + g01 * e2_5 + g02 * e2_8;
-    const double q1_3 = g10 * e2_0 + g11 * e2_3 + g12 * e2_6;
-    const double q1_4 = g10 * e2_1 + g11 * e2_4 + g12 * e2_7;
-    const double q1_5 = g10 * e2_2 + g11 * e2_5 + g12 * e2_8;
-    const double q1_6 = g20 * e2_0 + g21 * e2_3 + g22 * e2_6;
-    const double q1_7 = g20 * e2_1 + g21 * e2_4 + g22 * e2_7;
-    const double q1_8 = g20 * e2_2 + g21 * e2_5 + g22 * e2_8;
-    const double new_mu0 = s_p1_0 * q1_0 + s_p1_1 * q1_1 + s_p1_2 * q1_2;
-    const double new_mu1 = s_p1_0 * q1_3 + s_p1_1 * q1_4 + s_p1_2 * q1_5;
-    const double new_mu2 = s_p1_0 * q1_6 + s_p1_1 * q1_7 + s_p1_2 * q1_8;
-    if (!(isfinite(q1_0) && isfinite(q1_1) && isfinite(q1_2) && isfinite(q1_3) && isfinite(q1_4)
-        && isfinite(q1_5) && isfinite(q1_6) && isfinite(q1_7) && isfinite(q1_8)
-        && isfinite(new_mu0) && isfinite(new_mu1) && isfinite(new_mu2))) {
+    const double change_0 = s_p1_0 * e2_0 + s_p1_1 * e2_1 + s_p1_2 * e2_2 - m_0;
+    const double change_1 = s_p1_0 * e2_3 + s_p1_1 * e2_4 + s_p1_2 * e2_5 - m_1;
+    const double change_2 = s_p1_0 * e2_6 + s_p1_1 * e2_7 + s_p1_2 * e2_8 - m_2;
+    const double new_g00 = g00 * e2_0 + g01 * e2_3 + g02 * e2_6;
+    const double new_g01 = g00 * e2_1 + g01 * e2_4 + g02 * e2_7;
+    const double new_g02 = g00 * e2_2 + g01 * e2_5 + g02 * e2_8;
+    const double new_g10 = g10 * e2_0 + g11 * e2_3 + g12 * e2_6;
+    const double new_g11 = g10 * e2_1 + g11 * e2_4 + g12 * e2_7;
+    const double new_g12 = g10 * e2_2 + g11 * e2_5 + g12 * e2_8;
+    const double new_g20 = g20 * e2_0 + g21 * e2_3 + g22 * e2_6;
+    const double new_g21 = g20 * e2_1 + g21 * e2_4 + g22 * e2_7;
+    const double new_g22 = g20 * e2_2 + g21 * e2_5 + g22 * e2_8;
+    const double new_mu0 = g00 * change_0 + g01 * change_1 + g02 * change_2 + mu0;
+    const double new_mu1 = g10 * change_0 + g11 * change_1 + g12 * change_2 + mu1;
+    const double new_mu2 = g20 * change_0 + g21 * change_1 + g22 * change_2 + mu2;
+    if (!(isfinite(new_g00) && isfinite(new_g01) && isfinite(new_g02) && isfinite(new_g10)
+        && isfinite(new_g11) && isfinite(new_g12) && isfinite(new_g20) && isfinite(new_g21)
+        && isfinite(new_g22) && isfinite(new_mu0) && isfinite(new_mu1) && isfinite(new_mu2))) {
         return DIPOLE_VCF_CF4_NOT_FINITE;
     }
     memmove(memory->past[1], memory->past[0], 8 * sizeof memory->past[0]);
@@ -741,15 +744,15 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     memory->past[0][11] = xi4_2;
     memory->known = memory->rough ? 1 : memory->known + (memory->known < 9);
     memory->rough = 0;
-    state[0] = q1_0;
-    state[1] = q1_1;
-    state[2] = q1_2;
-    state[3] = q1_3;
-    state[4] = q1_4;
-    state[5] = q1_5;
-    state[6] = q1_6;
-    state[7] = q1_7;
-    state[8] = q1_8;
+    state[0] = new_g00;
+    state[1] = new_g01;
+    state[2] = new_g02;
+    state[3] = new_g10;
+    state[4] = new_g11;
+    state[5] = new_g12;
+    state[6] = new_g20;
+    state[7] = new_g21;
+    state[8] = new_g22;
     state[9] = new_mu0;
     state[10] = new_mu1;
     state[11] = new_mu2;

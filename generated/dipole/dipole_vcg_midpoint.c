@@ -6,8 +6,8 @@
  * order:      2, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
  * solved by:  the equations of xi1, n1: Newton's method with the matrix to first order in h, 3
- *             unknowns (1.9 sweeps of 285 operations and 1.00 matrices of 68 a step; fixed point:
- *             3.2 sweeps of 270 operations; Newton's method: 2.4 sweeps of 285 operations and 0.05
+ *             unknowns (2.0 sweeps of 285 operations and 1.00 matrices of 68 a step; fixed point:
+ *             3.2 sweeps of 270 operations; Newton's method: 2.5 sweeps of 285 operations and 0.05
  *             matrices of 842)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
@@ -19,14 +19,14 @@
  *             2 hamilton (body frame)
  *             1 Adinv (opposites)
  *             1 Adt (opposites)
- *             3 Adtinv, 1 force (dead code)
+ *             2 Adtinv, 1 force (dead code)
  *             1 Adt, 2 dexpt (functions)
  *             1 Adinv (opposites)
  *             1 legendre (sharing)
  *             1 lin, 2 seriest (factors)
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
- * operations: 42 add, 59 mul, 1 stumpff_12 a step
+ * operations: 54 add, 68 mul, 1 stumpff_12 a step
  *             2 mul a start, in steps that follow no other
  *             17 add, 47 mul, 1 div a matrix of the equations of xi1, n1
  *             75 add, 127 mul, 2 div, 2 sqrt, 1 stumpff_12, 1 stumpff_23, 1 stumpff_3 a sweep of
@@ -448,30 +448,33 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double w65 = xe1_2 * w63;
     const double w66 = xe1_1 * c1_2;
     const double ge1_6 = w65 - w66;
-    const double q1_0 = g00 * ge1_0 + g01 * ge1_3 + g02 * ge1_6;
     const double ge1_1 = w64 - w62;
     const double w67 = xe1_0 * w63;
     const double ge1_4 = 1.0 - (w60 + w67);
     const double w68 = xe1_0 * c1_2;
     const double w69 = xe1_2 * w58;
     const double ge1_7 = w68 + w69;
-    const double q1_1 = g00 * ge1_1 + g01 * ge1_4 + g02 * ge1_7;
     const double ge1_2 = w65 + w66;
     const double ge1_5 = w69 - w68;
     const double ge1_8 = 1.0 - (w59 + w67);
-    const double q1_2 = g00 * ge1_2 + g01 * ge1_5 + g02 * ge1_8;
-    const double q1_3 = g10 * ge1_0 + g11 * ge1_3 + g12 * ge1_6;
-    const double q1_4 = g10 * ge1_1 + g11 * ge1_4 + g12 * ge1_7;
-    const double q1_5 = g10 * ge1_2 + g11 * ge1_5 + g12 * ge1_8;
-    const double q1_6 = g20 * ge1_0 + g21 * ge1_3 + g22 * ge1_6;
-    const double q1_7 = g20 * ge1_1 + g21 * ge1_4 + g22 * ge1_7;
-    const double q1_8 = g20 * ge1_2 + g21 * ge1_5 + g22 * ge1_8;
-    const double new_mu0 = s_mu_0 * q1_0 + s_mu_1 * q1_1 + s_mu_2 * q1_2;
-    const double new_mu1 = s_mu_0 * q1_3 + s_mu_1 * q1_4 + s_mu_2 * q1_5;
-    const double new_mu2 = s_mu_0 * q1_6 + s_mu_1 * q1_7 + s_mu_2 * q1_8;
-    if (!(isfinite(q1_0) && isfinite(q1_1) && isfinite(q1_2) && isfinite(q1_3) && isfinite(q1_4)
-        && isfinite(q1_5) && isfinite(q1_6) && isfinite(q1_7) && isfinite(q1_8)
-        && isfinite(new_mu0) && isfinite(new_mu1) && isfinite(new_mu2))) {
+    const double change_0 = s_mu_0 * ge1_0 + s_mu_1 * ge1_1 + s_mu_2 * ge1_2 - m_0;
+    const double change_1 = s_mu_0 * ge1_3 + s_mu_1 * ge1_4 + s_mu_2 * ge1_5 - m_1;
+    const double change_2 = s_mu_0 * ge1_6 + s_mu_1 * ge1_7 + s_mu_2 * ge1_8 - m_2;
+    const double new_g00 = g00 * ge1_0 + g01 * ge1_3 + g02 * ge1_6;
+    const double new_g01 = g00 * ge1_1 + g01 * ge1_4 + g02 * ge1_7;
+    const double new_g02 = g00 * ge1_2 + g01 * ge1_5 + g02 * ge1_8;
+    const double new_g10 = g10 * ge1_0 + g11 * ge1_3 + g12 * ge1_6;
+    const double new_g11 = g10 * ge1_1 + g11 * ge1_4 + g12 * ge1_7;
+    const double new_g12 = g10 * ge1_2 + g11 * ge1_5 + g12 * ge1_8;
+    const double new_g20 = g20 * ge1_0 + g21 * ge1_3 + g22 * ge1_6;
+    const double new_g21 = g20 * ge1_1 + g21 * ge1_4 + g22 * ge1_7;
+    const double new_g22 = g20 * ge1_2 + g21 * ge1_5 + g22 * ge1_8;
+    const double new_mu0 = g00 * change_0 + g01 * change_1 + g02 * change_2 + mu0;
+    const double new_mu1 = g10 * change_0 + g11 * change_1 + g12 * change_2 + mu1;
+    const double new_mu2 = g20 * change_0 + g21 * change_1 + g22 * change_2 + mu2;
+    if (!(isfinite(new_g00) && isfinite(new_g01) && isfinite(new_g02) && isfinite(new_g10)
+        && isfinite(new_g11) && isfinite(new_g12) && isfinite(new_g20) && isfinite(new_g21)
+        && isfinite(new_g22) && isfinite(new_mu0) && isfinite(new_mu1) && isfinite(new_mu2))) {
         return DIPOLE_VCG_MIDPOINT_NOT_FINITE;
     }
     memmove(memory->past[1], memory->past[0], 8 * sizeof memory->past[0]);
@@ -480,15 +483,15 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     memory->past[0][2] = xi1_2;
     memory->known = memory->rough ? 1 : memory->known + (memory->known < 9);
     memory->rough = 0;
-    state[0] = q1_0;
-    state[1] = q1_1;
-    state[2] = q1_2;
-    state[3] = q1_3;
-    state[4] = q1_4;
-    state[5] = q1_5;
-    state[6] = q1_6;
-    state[7] = q1_7;
-    state[8] = q1_8;
+    state[0] = new_g00;
+    state[1] = new_g01;
+    state[2] = new_g02;
+    state[3] = new_g10;
+    state[4] = new_g11;
+    state[5] = new_g12;
+    state[6] = new_g20;
+    state[7] = new_g21;
+    state[8] = new_g22;
     state[9] = new_mu0;
     state[10] = new_mu1;
     state[11] = new_mu2;

@@ -7,16 +7,16 @@
  * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
  * solved by:  the equations of xi1, n1: Newton's method with the matrix to first order in h, 3
- *             unknowns (2.0 sweeps of 304 operations and 1.00 matrices of 105 a step; fixed point:
- *             3.2 sweeps of 289 operations; Newton's method: 2.4 sweeps of 304 operations and 0.05
+ *             unknowns (1.9 sweeps of 304 operations and 1.00 matrices of 105 a step; fixed point:
+ *             3.2 sweeps of 289 operations; Newton's method: 2.5 sweeps of 304 operations and 0.05
  *             matrices of 1048)
  * solved by:  the equations of xi2, n2: Newton's method with the matrix to first order in h, 3
- *             unknowns (2.1 sweeps of 394 operations and 1.00 matrices of 111 a step; fixed point:
- *             3.3 sweeps of 379 operations; Newton's method: 2.4 sweeps of 394 operations and 0.05
+ *             unknowns (2.0 sweeps of 394 operations and 1.00 matrices of 111 a step; fixed point:
+ *             3.4 sweeps of 379 operations; Newton's method: 2.5 sweeps of 394 operations and 0.05
  *             matrices of 1499)
  * solved by:  the equations of xi3, n3: Newton's method with the matrix to first order in h, 3
- *             unknowns (1.9 sweeps of 394 operations and 1.00 matrices of 109 a step; fixed point:
- *             3.2 sweeps of 379 operations; Newton's method: 2.4 sweeps of 394 operations and 0.05
+ *             unknowns (1.9 sweeps of 400 operations and 1.00 matrices of 109 a step; fixed point:
+ *             3.2 sweeps of 385 operations; Newton's method: 2.4 sweeps of 400 operations and 0.05
  *             matrices of 1499)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
@@ -29,13 +29,15 @@
  *             4 hamilton (body frame)
  *             1 Adinv (opposites)
  *             3 Adt (opposites)
- *             7 Adtinv, 1 force (dead code)
+ *             6 Adtinv, 1 force (dead code)
  *             6 dexpt (functions)
  *             1 Adinv (opposites)
  *             2 Adinv, 3 legendre (sharing)
+ *             1 lin (scalars)
+ *             1 lin (sharing)
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
- * operations: 117 add, 164 mul, 3 stumpff_12 a step
+ * operations: 120 add, 170 mul, 3 stumpff_12 a step
  *             2 mul a start, in steps that follow no other
  *             29 add, 72 mul, 1 div a matrix of the equations of xi1, n1
  *             84 add, 137 mul, 2 div, 2 sqrt, 1 stumpff_12, 2 stumpff_23 a sweep of the equations
@@ -44,7 +46,7 @@
  *             120 add, 191 mul, 2 div, 2 sqrt, 1 stumpff_12, 2 stumpff_23 a sweep of the equations
  *             of xi2, n2
  *             32 add, 73 mul, 1 div a matrix of the equations of xi3, n3
- *             120 add, 191 mul, 2 div, 2 sqrt, 1 stumpff_12, 2 stumpff_23 a sweep of the equations
+ *             126 add, 191 mul, 2 div, 2 sqrt, 1 stumpff_12, 2 stumpff_23 a sweep of the equations
  *             of xi3, n3
  * stack:      at most 6848 bytes, without what the mathematical library takes
  * made by:    orderconds emit dipole --method vcg:triple_jump --target c -o .
@@ -517,7 +519,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double w172 = 1.7024143839193153 * h;
     const double w179 = 0.8512071919596577 * h;
     /* the equations of xi2, n2: Newton's method with the matrix to first order in h in xi2_0, xi2_1, xi2_2 */
-    double w169, s_m2_4_0, w170, s_m2_4_1, w171, s_m2_4_2;
+    double w169, w170, w171;
     double previous_2 = 0.0;
     double rate_2 = memory->known > 0 ? memory->rate_2 : 1.0;
     const double w86 = 0.8512071919596577 * h;
@@ -621,17 +623,17 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double w167 = -0.3 * w163 - 0.3 * w165;
         const double Nr2_0 = Q2_7 * w166 - Q2_8 * w167 + 99.0 * a_3_1 * p_2_2;
         w169 = Nr2_0 * w168;
-        s_m2_4_0 = s_mu_0 + w169;
+        const double s_m2_4_0 = s_mu_0 + w169;
         const double E2_2_3 = ge1_0 * gE2_2_3 + ge1_3 * gE2_2_4 + ge1_6 * gE2_2_5;
         const double E2_2_6 = ge1_0 * gE2_2_6 + ge1_3 * gE2_2_7 + ge1_6 * gE2_2_8;
         const double a_3_0 = xi2_0 * E2_2_0 + xi2_1 * E2_2_3 + xi2_2 * E2_2_6;
         const double Q2_6 = g20 * E2_2_0 + g21 * E2_2_3 + g22 * E2_2_6;
         const double Nr2_1 = -100.0 * a_3_0 * p_2_2 - w166 * Q2_6;
         w170 = w168 * Nr2_1;
-        s_m2_4_1 = s_mu_1 + w170;
+        const double s_m2_4_1 = s_mu_1 + w170;
         const double Nr2_2 = 0.01 * a_3_0 * a_3_1 + w167 * Q2_6;
         w171 = w168 * Nr2_2;
-        s_m2_4_2 = s_mu_2 + w171;
+        const double s_m2_4_2 = s_mu_2 + w171;
         const double m2_4_2_0 = ge1_0 * s_m2_4_0 + ge1_1 * s_m2_4_1 + ge1_2 * s_m2_4_2;
         const double y2_0 = xi2_0 * w172;
         const double y2_1 = xi2_1 * w172;
@@ -787,7 +789,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double w292 = ge1_7 * ge2_8;
     const double e2_7 = w291 + w292;
     /* the equations of xi3, n3: Newton's method with the matrix to first order in h in xi3_0, xi3_1, xi3_2 */
-    double Nr3_0, Nr3_1, Nr3_2;
+    double s_m3_5_0, s_m3_5_1, s_m3_5_2;
     double previous_3 = 0.0;
     double rate_3 = memory->known > 0 ? memory->rate_3 : 1.0;
     const double w186 = -0.5 * h;
@@ -882,16 +884,16 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double w297 = w296 * w296 * (0.5 * w296);
         const double w298 = -1.0 - 2.0 * (1.5 * w295 - 1.5 * w297);
         const double w299 = -0.3 * w295 - 0.3 * w297;
-        Nr3_0 = Q3_7 * w298 - Q3_8 * w299 + 99.0 * a_5_1 * p_3_2;
-        const double s_m3_5_0 = s_m2_4_0 + w69 * Nr3_0;
+        const double Nr3_0 = Q3_7 * w298 - Q3_8 * w299 + 99.0 * a_5_1 * p_3_2;
+        s_m3_5_0 = m_0 + w69 * (Nr1_0 + Nr3_0) + w169;
         const double E3_3_3 = e2_0 * gE3_3_3 + e2_3 * gE3_3_4 + e2_6 * gE3_3_5;
         const double E3_3_6 = e2_0 * gE3_3_6 + e2_3 * gE3_3_7 + e2_6 * gE3_3_8;
         const double a_5_0 = xi3_0 * E3_3_0 + xi3_1 * E3_3_3 + xi3_2 * E3_3_6;
         const double Q3_6 = g20 * E3_3_0 + g21 * E3_3_3 + g22 * E3_3_6;
-        Nr3_1 = -100.0 * a_5_0 * p_3_2 - w298 * Q3_6;
-        const double s_m3_5_1 = s_m2_4_1 + w69 * Nr3_1;
-        Nr3_2 = 0.01 * a_5_0 * a_5_1 + w299 * Q3_6;
-        const double s_m3_5_2 = s_m2_4_2 + w69 * Nr3_2;
+        const double Nr3_1 = -100.0 * a_5_0 * p_3_2 - w298 * Q3_6;
+        s_m3_5_1 = m_1 + w69 * (Nr1_1 + Nr3_1) + w170;
+        const double Nr3_2 = 0.01 * a_5_0 * a_5_1 + w299 * Q3_6;
+        s_m3_5_2 = m_2 + w69 * (Nr1_2 + Nr3_2) + w171;
         const double m3_5_2_0 = e2_0 * s_m3_5_0 + e2_1 * s_m3_5_1 + e2_2 * s_m3_5_2;
         const double y3_0 = xi3_0 * w70;
         const double y3_1 = xi3_1 * w70;
@@ -996,30 +998,30 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double ge3_7 = w324 + w325;
     const double ge3_8 = 1.0 - (w315 + w323);
     const double e3_6 = e2_0 * ge3_6 + e2_3 * ge3_7 + e2_6 * ge3_8;
-    const double q1_0 = g00 * e3_0 + g01 * e3_3 + g02 * e3_6;
     const double e3_1 = e2_1 * ge3_0 + e2_4 * ge3_1 + e2_7 * ge3_2;
     const double e3_4 = e2_1 * ge3_3 + e2_4 * ge3_4 + e2_7 * ge3_5;
     const double e3_7 = e2_1 * ge3_6 + e2_4 * ge3_7 + e2_7 * ge3_8;
-    const double q1_1 = g00 * e3_1 + g01 * e3_4 + g02 * e3_7;
     const double e3_2 = e2_2 * ge3_0 + e2_5 * ge3_1 + e2_8 * ge3_2;
     const double e3_5 = e2_2 * ge3_3 + e2_5 * ge3_4 + e2_8 * ge3_5;
     const double e3_8 = e2_2 * ge3_6 + e2_5 * ge3_7 + e2_8 * ge3_8;
-    const double q1_2 = g00 * e3_2 + g01 * e3_5 + g02 * e3_8;
-    const double q1_3 = g10 * e3_0 + g11 * e3_3 + g12 * e3_6;
-    const double q1_4 = g10 * e3_1 + g11 * e3_4 + g12 * e3_7;
-    const double q1_5 = g10 * e3_2 + g11 * e3_5 + g12 * e3_8;
-    const double q1_6 = g20 * e3_0 + g21 * e3_3 + g22 * e3_6;
-    const double q1_7 = g20 * e3_1 + g21 * e3_4 + g22 * e3_7;
-    const double q1_8 = g20 * e3_2 + g21 * e3_5 + g22 * e3_8;
-    const double mubar_0 = m_0 + w69 * (Nr1_0 + Nr3_0) + w169;
-    const double mubar_1 = m_1 + w69 * (Nr1_1 + Nr3_1) + w170;
-    const double mubar_2 = m_2 + w69 * (Nr1_2 + Nr3_2) + w171;
-    const double new_mu0 = q1_0 * mubar_0 + q1_1 * mubar_1 + q1_2 * mubar_2;
-    const double new_mu1 = q1_3 * mubar_0 + q1_4 * mubar_1 + q1_5 * mubar_2;
-    const double new_mu2 = q1_6 * mubar_0 + q1_7 * mubar_1 + q1_8 * mubar_2;
-    if (!(isfinite(q1_0) && isfinite(q1_1) && isfinite(q1_2) && isfinite(q1_3) && isfinite(q1_4)
-        && isfinite(q1_5) && isfinite(q1_6) && isfinite(q1_7) && isfinite(q1_8)
-        && isfinite(new_mu0) && isfinite(new_mu1) && isfinite(new_mu2))) {
+    const double change_0 = s_m3_5_0 * e3_0 + s_m3_5_1 * e3_1 + s_m3_5_2 * e3_2 - m_0;
+    const double change_1 = s_m3_5_0 * e3_3 + s_m3_5_1 * e3_4 + s_m3_5_2 * e3_5 - m_1;
+    const double change_2 = s_m3_5_0 * e3_6 + s_m3_5_1 * e3_7 + s_m3_5_2 * e3_8 - m_2;
+    const double new_g00 = g00 * e3_0 + g01 * e3_3 + g02 * e3_6;
+    const double new_g01 = g00 * e3_1 + g01 * e3_4 + g02 * e3_7;
+    const double new_g02 = g00 * e3_2 + g01 * e3_5 + g02 * e3_8;
+    const double new_g10 = g10 * e3_0 + g11 * e3_3 + g12 * e3_6;
+    const double new_g11 = g10 * e3_1 + g11 * e3_4 + g12 * e3_7;
+    const double new_g12 = g10 * e3_2 + g11 * e3_5 + g12 * e3_8;
+    const double new_g20 = g20 * e3_0 + g21 * e3_3 + g22 * e3_6;
+    const double new_g21 = g20 * e3_1 + g21 * e3_4 + g22 * e3_7;
+    const double new_g22 = g20 * e3_2 + g21 * e3_5 + g22 * e3_8;
+    const double new_mu0 = g00 * change_0 + g01 * change_1 + g02 * change_2 + mu0;
+    const double new_mu1 = g10 * change_0 + g11 * change_1 + g12 * change_2 + mu1;
+    const double new_mu2 = g20 * change_0 + g21 * change_1 + g22 * change_2 + mu2;
+    if (!(isfinite(new_g00) && isfinite(new_g01) && isfinite(new_g02) && isfinite(new_g10)
+        && isfinite(new_g11) && isfinite(new_g12) && isfinite(new_g20) && isfinite(new_g21)
+        && isfinite(new_g22) && isfinite(new_mu0) && isfinite(new_mu1) && isfinite(new_mu2))) {
         return DIPOLE_VCG_TRIPLE_JUMP_NOT_FINITE;
     }
     memmove(memory->past[1], memory->past[0], 8 * sizeof memory->past[0]);
@@ -1034,15 +1036,15 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     memory->past[0][8] = xi3_2;
     memory->known = memory->rough ? 1 : memory->known + (memory->known < 9);
     memory->rough = 0;
-    state[0] = q1_0;
-    state[1] = q1_1;
-    state[2] = q1_2;
-    state[3] = q1_3;
-    state[4] = q1_4;
-    state[5] = q1_5;
-    state[6] = q1_6;
-    state[7] = q1_7;
-    state[8] = q1_8;
+    state[0] = new_g00;
+    state[1] = new_g01;
+    state[2] = new_g02;
+    state[3] = new_g10;
+    state[4] = new_g11;
+    state[5] = new_g12;
+    state[6] = new_g20;
+    state[7] = new_g21;
+    state[8] = new_g22;
     state[9] = new_mu0;
     state[10] = new_mu1;
     state[11] = new_mu2;

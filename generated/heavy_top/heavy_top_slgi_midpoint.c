@@ -254,7 +254,7 @@ static int invert(size_t n, double *a, size_t *order)
             return 0;
         }
         order[k] = pivot;
-        for (size_t j = 0; j < n; j++) {
+        for (size_t j = 0; pivot != k && j < n; j++) {
             const double kept = a[k * n + j];
             a[k * n + j] = a[pivot * n + j];
             a[pivot * n + j] = kept;
@@ -275,7 +275,7 @@ static int invert(size_t n, double *a, size_t *order)
         }
     }
     for (size_t k = n; k-- > 0;) {
-        for (size_t i = 0; i < n; i++) {
+        for (size_t i = 0; order[k] != k && i < n; i++) {
             const double kept = a[i * n + k];
             a[i * n + k] = a[i * n + order[k]];
             a[i * n + order[k]] = kept;

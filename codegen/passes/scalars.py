@@ -1,0 +1,103 @@
+"""Numbers taken out of linear maps and sums of sums: L(c x) = c L(x), and a sum inside a sum is one sum.
+
+Exact. A map is left with the value that other operations share, the number joins the coefficients of the sum
+that reads the map. Terms that stand in several sums in one proportion are added first, once for all of them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from codegen.ir.program import LINEAR_LAST, Assign, Builder, Coefficient, Operation, Program, Solve, Var
+from codegen.passes import dead
+from codegen.passes.rewrite import Rewriter, defined, rewrite
+from codegen.passes.tearing import ordered
+
+Pattern = tuple[tuple[int, Coefficient], ...]
+"""In which sums a value stands, and with what coefficient relative to the first."""
+
+
+def run(program: Program) -> Program:
+    """Return the program with numbers outside of maps, sums flat, and terms in proportion added once."""
+    while True:
+        new = dead.run(rewrite(program, _rule))
+        if new == program:
+            return _added(program)
+        program = new
+
+
+def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
+    operation = assign.operation
+    if operation.name == "lin":
+        return _flat(rewriter, assign)
+    made = rewriter.definitions.get(assign.args[-1]) if assign.args else None
+    if operation.name not in LINEAR_LAST or made is None or not _single(made):
+        return rewriter.emit(assign)
+    (target,) = assign.targets
+    mapped = rewriter.builder.fresh(target.name, target.kind)
+    rewriter.emit(replace(assign, targets=(mapped,), args=(*assign.args[:-1], made.args[0])))
+    return rewriter.emit(Assign((target,), made.operation, (mapped,)))
+
+
+def _single(assign: Assign) -> bool:
+    return assign.operation.name == "lin" and len(assign.args) == 1
+
+
+def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
+    """Append a sum with single multiples, and sums that nothing else reads, replaced by their terms."""
+    total: dict[tuple[Var, int], Coefficient] = {}
+    for c, arg in zip(assign.operation.coefficients, assign.args, strict=True):
+        made = rewriter.definitions.get(arg)
+        inner = made is not None and made.operation.name == "lin"
+        terms = [(c, arg)]
+        if inner and made is not None and (len(made.args) == 1 or rewriter.uses.get(arg) == 1):
+            pairs = zip(made.operation.coefficients, made.args, strict=True)
+            terms = [(Coefficient(c.value * k.value, c.power + k.power), v) for k, v in pairs]
+        for k, v in terms:
+            old = total.get((v, k.power))
+            total[v, k.power] = k if old is None else Coefficient(old.value + k.value, k.power)
+    kept = [(c, v) for (v, _), c in total.items() if not c.is_zero]
+    if not kept:
+        return rewriter.emit(assign)
+    if len(kept) == 1 and kept[0][0].is_one:
+        return (kept[0][1],)
+    operation = Operation("lin", tuple(c for c, _ in kept))
+    return rewriter.emit(Assign(assign.targets, operation, tuple(v for _, v in kept)))
+
+
+def _added(program: Program) -> Program:
+    """Return the program with terms that stand in several sums in one proportion added once."""
+    builder = Builder({v.name for v in defined(program)})
+    body = [replace(s, body=_together(s.body, builder)) if isinstance(s, Solve) else s for s in program.body]
+    return replace(program, body=tuple(body))
+
+
+def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
+    sums = {k: a for k, a in enumerate(body) if a.operation.name == "lin" and len(a.args) > 1}
+    groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
+    for v in dict.fromkeys(v for a in sums.values() for v in a.args):
+        pairs = [(k, list(zip(a.operation.coefficients, a.args, strict=True))) for k, a in sums.items()]
+        found = [(k, c) for k, terms in pairs for c, x in terms if x == v]
+        unit = found[0][1]
+        relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in found)
+        once = len({k for k, _ in found}) == len(found)
+        if len(found) > 1 and once and all(c.power >= 0 for _, c in relative):
+            groups.setdefault((v.kind.value, relative), []).append((v, unit))
+    made: list[Assign] = []
+    for (_, relative), members in groups.items():
+        _, unit = members[0]
+        if len(members) < 2 or any(c.power != unit.power for _, c in members):
+            continue
+        terms = [(Coefficient(c.value / unit.value), v) for c, v in ((c, v) for v, c in members)]
+        total = builder.lin(f"sum_{members[0][0].name}", members[0][0].kind, terms)
+        made += builder.take()
+        gone = {v for v, _ in members}
+        for k, share in relative:
+            own = zip(sums[k].operation.coefficients, sums[k].args, strict=True)
+            kept = [(c, v) for c, v in own if v not in gone]
+            kept.append((Coefficient(share.value * unit.value, share.power + unit.power), total))
+            operation = Operation("lin", tuple(c for c, _ in kept))
+            sums[k] = replace(sums[k], operation=operation, args=tuple(v for _, v in kept))
+    result = ordered((*(sums.get(k, a) for k, a in enumerate(body)), *made))
+    assert result is not None
+    return result
