@@ -149,6 +149,38 @@ def check_equal(
                 )
 
 
+def check_flow(
+    orbit: Orbit, name: str, formulas: Sequence[Expr], rates: Sequence[Expr], elapsed: str
+) -> None:
+    """Raise :class:`SceneError` where stated formulas are not the flow of a part.
+
+    They must be the state itself at the time 0, and move at the part's ``rates`` at all times after;
+    ``elapsed`` is the symbol of the time in them. Their derivatives are exact, the values have 40 digits.
+    """
+    slopes = [gradient(formula, (elapsed,))[0] for formula in formulas]
+    for point in orbit.points:
+        for tau in (0, 1, -2):
+            there = point | {elapsed: orbit.domain.rational(tau, 3)}
+            moved = orbit.values(formulas, there)
+            if moved is None:
+                raise SceneError(f"the flow of {name} cannot be evaluated", where=orbit.name)
+            after = point | dict(zip(orbit.symbols, moved, strict=True))
+            pairs = [("moves at the rate", orbit.values(slopes, there), orbit.values(rates, after))]
+            if tau == 0:
+                pairs.insert(0, ("begins at", moved, tuple(point[s] for s in orbit.symbols)))
+            for verb, left, right in pairs:
+                for k, (x, y) in enumerate(zip(left or (), right or (), strict=True)):
+                    if not orbit.sized(x - y, (x, y, 1)):
+                        raise SceneError(
+                            f"the flow of {name} {verb} {orbit.text(x)} in {orbit.symbols[k]}, "
+                            f"where {elapsed} = {orbit.text(there[elapsed])}",
+                            where=orbit.name,
+                            expected=f"{orbit.text(y)}, by the equations of the part",
+                            hint="flows of summands that do not commute make no flow of their sum: "
+                            "name them as parts of their own",
+                        )
+
+
 def check_invariants(orbit: Orbit, invariants: Mapping[str, Expr]) -> None:
     """Raise :class:`SceneError` for a declared invariant that changes along the field.
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from codegen.canonical import force
 from codegen.errors import SceneError
 from codegen.groups.euclidean import Rn
 from codegen.groups.product import Product
@@ -16,7 +17,7 @@ from codegen.ir.differentiate import gradient
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.number import Number
-from codegen.scene import TIME, Setting, StateField, force
+from codegen.scene import TIME, Setting, StateField
 
 
 def extended(scene: Setting) -> Setting:

@@ -199,6 +199,33 @@ class Linear:
         return "linear flow"
 
 
+TAU = "tau"
+"""The elapsed time in formulas of a stated flow."""
+
+
+@dataclass(frozen=True)
+class Stated:
+    """A flow that the scene states: formulas of (q, mu) after the time tau, checked where it is read."""
+
+    formulas: tuple[Expr, ...]
+    timed = False
+
+    def advance(
+        self, d: Domain, group: Any, values: Mapping[str, Any], tau: Any, q: Scalars, mu: Scalars
+    ) -> tuple[Scalars, Scalars]:
+        """Return the formulas' values."""
+        found = tuple(evaluate(self.formulas, d, {**values, TAU: tau}))
+        return found[: len(q)], found[len(q) :]
+
+    def field(self, d: Domain, group: Any, values: Mapping[str, Any], q: Scalars, mu: Scalars) -> Field:
+        """Refuse: the formulas tell where it leads, not what drives it."""
+        raise ArithmeticError("a stated flow has no field of its own")
+
+    def text(self) -> str:
+        """Name it."""
+        return "as the scene states it"
+
+
 def _rational(d: Domain, x: Fraction) -> Any:
     return d.rational(x.numerator, x.denominator)
 

@@ -16,9 +16,10 @@ from typing import Any
 
 from codegen import conserved
 from codegen.body import BodyFrame, applied, body_frame
-from codegen.consistency import Orbit, check_equal, check_invariants, check_start
+from codegen.canonical import force, velocity
+from codegen.consistency import Orbit, check_equal, check_flow, check_invariants, check_start
 from codegen.errors import SceneError
-from codegen.flow import Flow
+from codegen.flow import TAU, Flow, Stated
 from codegen.groups.actions import LeftMultiplication
 from codegen.groups.cotangent import Cotangent
 from codegen.groups.euclidean import Rn
@@ -123,6 +124,7 @@ class Setting:
     body_group: Any = None
     parts: Mapping[str, Expr] = field(default_factory=dict)
     flows: Mapping[str, Flow] = field(default_factory=dict)
+    stated: Mapping[str, Stated] = field(default_factory=dict)
 
     @property
     def symbols(self) -> tuple[str, ...]:
@@ -370,6 +372,7 @@ def HamiltonianScene(
     mu0: Any,
     span: tuple[Any, Any],
     parts: Mapping[str, Any] | None = None,
+    flows: Mapping[str, tuple[Any, Any]] | None = None,
     xi: Any = None,
     n: Any = None,
     wrench: Any = None,
@@ -380,9 +383,10 @@ def HamiltonianScene(
     """Return the scene of a right-trivialised Hamiltonian H(q, mu) on T*G.
 
     ``q`` and ``mu`` are sympy matrices of symbols (``group.point``, ``group.dual``), ``q0`` and ``mu0`` exact
-    initial values, ``parts`` named summands of H. xi = D_2 H and n = -(D_1 H).q^-1, that is n_a = -d/deps
-    H(exp(eps e_a) q, mu) (thesis eq. 3.4), are found by differentiation; where ``xi`` or ``n`` is given by
-    hand it must agree. ``wrench``, where it is given, is a column of ``group.dim`` components that no H has:
+    initial values, ``parts`` named summands of H, ``flows`` the exact flows of those that the compiler does
+    not recognise, as formulas (q, mu) after the time ``Symbol("tau")``. xi = D_2 H and n = -(D_1 H).q^-1
+    (:mod:`codegen.canonical`) are found by differentiation; where ``xi`` or ``n`` is given by hand it must
+    agree. ``wrench``, where it is given, is a column of ``group.dim`` components that no H has:
     mu' = n + wrench - ad*_xi mu, in the same trivialisation (space); n given by hand is without it. Such a
     scene has no energy and no parts. The energy is an invariant of a Hamiltonian without time.
     :class:`SceneError` as for :func:`FieldScene`.
@@ -427,8 +431,12 @@ def HamiltonianScene(
         signals=reader.signals,
         open_roots=open_roots,
         forced=bool(loads),
+        stated=_stated(reader, group, flows or {}, summands),
     )
     _check(setting, stated)
+    for key, flow in setting.stated.items():
+        rates = velocity(group, qs, mus, setting.parts[key])
+        check_flow(orbit_of(setting), key, flow.formulas, rates, TAU)
     return setting
 
 
@@ -441,6 +449,22 @@ def _check(setting: Setting, stated: Mapping[str, tuple[tuple[Expr, ...], tuple[
     check_invariants(orbit, setting.invariants)
 
 
+def _stated(
+    reader: _Reader, group: Any, flows: Mapping[str, tuple[Any, Any]], summands: Mapping[str, Expr]
+) -> dict[str, Stated]:
+    """Read the flows that a scene states for its parts."""
+    found: dict[str, Stated] = {}
+    reader.more = (TAU,)
+    for key, (q, mu) in flows.items():
+        if key not in summands:
+            known = ", ".join(summands) or "none: the scene names no parts"
+            raise SceneError(f"a flow of {key!r}", where=reader.name, expected=f"that of a part: {known}")
+        element = reader.column(q, group.size, f"q of the flow of {key}")
+        found[key] = Stated((*element, *reader.column(mu, group.dim, f"mu of the flow of {key}")))
+    reader.more = ()
+    return found
+
+
 def orbit_of(setting: Setting) -> Orbit:
     """Return the points of the scene at which formulas are compared."""
     view = setting.as_field()
@@ -448,21 +472,6 @@ def orbit_of(setting: Setting) -> Orbit:
     return Orbit(
         *(view.name, view.group, view.action, view.symbols, start, view.roots, view.span, view.parameters)
     )
-
-
-def force(space: Space, group: Any, qs: tuple[str, ...], slope: list[Expr]) -> tuple[Expr, ...]:
-    """Return n_a = -<dH, e_a.q> from the partial derivatives of H by the coordinates of q."""
-    domain = ExprDomain(space)
-    q = tuple(space.sym(s) for s in qs)
-    result = []
-    for a in range(group.dim):
-        unit = tuple(domain.rational(int(a == b)) for b in range(group.dim))
-        velocity = group.velocity(domain, unit, q)
-        total = space.zero
-        for d, v in zip(slope, velocity, strict=True):
-            total = total - d * v
-        result.append(total)
-    return tuple(result)
 
 
 def _acts(reader: _Reader, group: Any, action: Any) -> None:
@@ -506,6 +515,7 @@ class _Reader:
             self._allowed(spelled)
         if len(set(self.coordinates)) != len(self.coordinates):
             raise SceneError("a coordinate symbol twice", where=name, expected="distinct symbols")
+        self.more: tuple[str, ...] = ()
         self.space = Space()
         self.defaults: dict[str, Number] = {}
         self.signals: dict[str, Expr] = {}
@@ -566,7 +576,7 @@ class _Reader:
         if hasattr(formula, "shape"):
             raise SceneError(f"{what} has shape {formula.shape}", where=self.name, expected="a scalar")
         root = read(self.space, formula, f"{self.name}, {what}")
-        known = () if constant else (*self.coordinates, TIME)
+        known = () if constant else (*self.coordinates, *self.more, TIME)
         for symbol in sorted(getattr(formula, "free_symbols", ()), key=lambda s: str(s.name)):
             if hasattr(symbol, "default"):
                 self._admit(symbol)

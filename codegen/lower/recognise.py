@@ -16,14 +16,14 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+from codegen.canonical import force, velocity
 from codegen.consistency import Orbit
 from codegen.flow import Drift, Flow, Isotropic, Kick, Linear, Turn
-from codegen.groups.cotangent import Cotangent
 from codegen.ir.differentiate import gradient
-from codegen.ir.domain import ExprDomain, SeriesDomain
+from codegen.ir.domain import SeriesDomain
 from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.number import Number
-from codegen.scene import TIME, Setting, force, orbit_of
+from codegen.scene import TIME, Setting, orbit_of
 from orderconds.ring import QQ
 
 Matrix = list[list[Fraction]]
@@ -68,13 +68,11 @@ def vanish(orbit: Orbit, roots: Sequence[Expr]) -> bool:
 
 def bracket(scene: Setting, F: Expr, H: Expr) -> Expr:
     """Return the Poisson bracket {F, H}: the derivative of F along the flow of H on T*G."""
-    (qs, mus), space, d = (b.symbols for b in scene.state), F.space, ExprDomain(F.space)
-    slopes = gradient(H, qs + mus)
-    field = (*slopes[len(qs) :], *force(space, scene.group, qs, slopes[: len(qs)]))
-    state = tuple(space.sym(name) for name in qs + mus)
-    rates = Cotangent(scene.group).velocity(d, field, state)
+    space, names = F.space, scene.symbols
+    q, mu = scene.state
+    rates = velocity(scene.group, q.symbols, mu.symbols, H)
     total = space.zero
-    for slope, rate in zip(gradient(F, qs + mus), rates, strict=True):
+    for slope, rate in zip(gradient(F, names), rates, strict=True):
         total = total + slope * rate
     return total
 
@@ -100,6 +98,8 @@ class _Reading:
         return orbit_of(self.scene)
 
     def part(self) -> Part:
+        if self.name in self.scene.stated:
+            return self._whole(self.scene.stated[self.name])
         timed = any(n.op == "sym" and n.payload == TIME for n in walk([self.root]))
         by_q, by_mu = (gradient(self.root, names) for names in (self.qs, self.mus))
         if self._vanish(by_mu):

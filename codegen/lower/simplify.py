@@ -17,7 +17,7 @@ from codegen.scene import TIME, Setting, orbit_of
 
 def simplified(scene: Setting) -> Setting:
     """Return a Hamiltonian scene with a field of no more operations, equal at all points of the group."""
-    if scene.hamiltonian is None or not scene.parts or scene.inputs or scene.forced:
+    if scene.hamiltonian is None or not scene.parts or scene.stated or scene.inputs or scene.forced:
         return scene
     parts = recognise(scene)
     if not all(part.pieces for part in parts):

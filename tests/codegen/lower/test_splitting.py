@@ -6,13 +6,13 @@ from dataclasses import replace
 from fractions import Fraction
 
 import pytest
-from sympy import Matrix, Rational, Symbol, diag, sin
+from sympy import Matrix, Rational, Symbol, diag, exp, sin
 
 from codegen import scenes
 from codegen.certify import certified_order
 from codegen.emit import compile_method, emit
-from codegen.errors import MethodError
-from codegen.flow import Drift, Isotropic, Kick, Linear, Turn
+from codegen.errors import MethodError, SceneError
+from codegen.flow import Drift, Isotropic, Kick, Linear, Stated, Turn
 from codegen.groups import SO3, Rn
 from codegen.ir.domain import PreciseDomain, SeriesDomain
 from codegen.ir.number import Number
@@ -137,9 +137,9 @@ def test_flows_solve_the_equations_of_their_part_to_the_last_coefficient(name):
 
 def solution(scene, root, d, order):
     """The exact solution of one part, as power series."""
+    from codegen.canonical import force
     from codegen.ir.differentiate import gradient
     from codegen.lab.local_error import exact_flow
-    from codegen.scene import force
 
     qs, mus = (block.symbols for block in scene.state)
     slopes = gradient(root, qs + mus)
@@ -353,3 +353,74 @@ def test_nystroem_reading_needs_no_names():
     method = Method("splitting", Tableau.loads(NYSTROEM))
     first = lower(renamed, method).body[0]
     assert first.operation.part == "potential"
+
+
+TAU = Symbol("tau")
+
+
+def stated(flow, V=None):
+    """A planar rotor on T*R^1 with H = p^2 (1 + q^2)/2 + V, whose first part no class of flows knows."""
+    group = Rn(1)
+    q, p = group.point("q"), group.dual("p")
+    T = p[0] ** 2 / 2 + 3 * p[0] * q[0]
+    V = q[0] ** 3 if V is None else V(q, p)
+    return HamiltonianScene(
+        group=group,
+        q=q,
+        mu=p,
+        H=T + V,
+        parts={"T": T, "V": V},
+        flows={"T": flow(q[0], p[0])},
+        q0=[1],
+        mu0=[Rational(1, 2)],
+        span=(0, 1),
+        name="stated",
+    )
+
+
+def sheared(q, p):
+    """q' = p + 3 q, p' = -3 p."""
+    grown, shrunk = exp(3 * TAU), exp(-3 * TAU)
+    return [q * grown + p * (grown - shrunk) / 6], [p * shrunk]
+
+
+def test_a_flow_may_be_stated_where_it_is_not_recognised():
+    scene = stated(sheared)
+    assert kinds(parts(scene)["T"]) == [[Stated]]
+    method = Method("splitting", shipped("ruth3"))
+    assert error(scene, method, 4) == 4
+    assert "T, as the scene states it" in emit(scene, method).files["stated_splitting_ruth3.c"]
+    unstated = replace(scene, stated={})
+    assert "the part T has no exact flow" in refused(unstated, "splitting:ruth3")
+
+
+@pytest.mark.parametrize(
+    ("flow", "message"),
+    [
+        # Summands that do not commute: the flow of p^2/2, then that of 3 p q.
+        (lambda q, p: ([(q + TAU * p) * exp(3 * TAU)], [p * exp(-3 * TAU)]), "moves at the rate"),
+        (lambda q, p: ([q + 1], [p]), "begins at 2"),
+    ],
+)
+def test_what_is_stated_to_be_a_flow_and_is_none_is_refused(flow, message):
+    with pytest.raises(SceneError) as failure:
+        stated(flow)
+    assert f"the flow of T {message}" in str(failure.value)
+    assert "by the equations of the part; flows of summands that do not commute" in str(failure.value)
+
+
+def test_a_flow_is_that_of_a_part():
+    group = Rn(1)
+    q, p = group.point("q"), group.dual("p")
+    with pytest.raises(SceneError, match="a flow of 'W'; expected that of a part: T"):
+        HamiltonianScene(
+            group=group,
+            q=q,
+            mu=p,
+            H=p[0],
+            parts={"T": p[0]},
+            flows={"W": (q, p)},
+            q0=[1],
+            mu0=[1],
+            span=(0, 1),
+        )
