@@ -124,9 +124,9 @@ class Start:
     """unknowns = values over body, unless solutions of earlier steps are known.
 
     The unknowns then begin at the polynomial through the last solutions, at most ``depth`` of them, continued
-    by a step: with u1, u2, ... (the latest first) at u1, 2 u1 - u2, 3 u1 - 3 u2 + u3 and so on. Where the
-    first change of a step is larger than ``ROUGH`` times the scale, only u1 is kept for the next one. The
-    unknowns are those of all loops of the kernel, in order.
+    by a step: with u1, u2, ... (the latest first) at u1, 2 u1 - u2, 3 u1 - 3 u2 + u3 and so on. Where that
+    was off by more than ``ROUGH`` of what the unknowns have moved in the step, by the first change of its
+    loops, only u1 is kept for the next one. The unknowns are those of all loops of the kernel, in order.
     """
 
     unknowns: tuple[str, ...]
@@ -134,7 +134,7 @@ class Start:
     values: tuple[Expr, ...]
     depth: int = 9
 
-    ROUGH: ClassVar[float] = 2.0**-6
+    ROUGH: ClassVar[float] = 0.5
 
     @property
     def weights(self) -> tuple[tuple[int, ...], ...]:

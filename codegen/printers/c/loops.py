@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from codegen.ir.kernel import CHORD, NEWTON, SLOWEST, Newton, Start
+from codegen.ir.kernel import CHORD, NEWTON, SLOWEST, Newton
 from codegen.printers.arrange import METHODS, Beginning, Iteration
 from codegen.printers.c.text import broken, comment, fill, greatest
 
@@ -164,8 +164,8 @@ def _decision(
     small = f"change * change <= {unit} * scale * {previous}"
     if not statement.starts:
         rate = f"rate_{statement.number}"
-        yield f"if (sweep == 1 && change > {s.literal(Start.ROUGH)} * scale) {{"
-        yield "    memory->rough = 1;"
+        yield "if (sweep == 1) {"
+        yield "    memory->first = greater(memory->first, change);"
         yield "}"
         yield f"if ({previous} > {s.literal(0.0)}) {{"
         yield f"    {rate} = greater(change / {previous}, {s.literal(SLOWEST)});"

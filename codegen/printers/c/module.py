@@ -8,7 +8,7 @@ from codegen.ir.kernel import CHORD, ELAPSED, LEAD, LONGEST, NEWTON, Kernel, Put
 from codegen.printers.arrange import Arrangement, arrange
 from codegen.printers.c.jacobian import varying
 from codegen.printers.c.statements import RESERVED, Statements, literal
-from codegen.printers.c.text import comment, fill
+from codegen.printers.c.text import broken, comment, fill, greatest
 from codegen.printers.expression import spell
 from codegen.printers.interface import Interface
 from codegen.printers.layout import inverts, layout, register, times
@@ -220,6 +220,8 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
         "memory": memory,
         "remembered": [names.spelled[u] for u in start.unknowns] if start else [],
         "depth": start.depth if start else 0,
+        "moved": moved(start, names, interface) if start else [],
+        "rough": literal(interface.format, Start.ROUGH),
         "weights": weights(start, interface) if start else [],
         "blocks": [comment(label) for label in interface.blocks],
         "step_header": signature(f"int {interface.prefix}step", f"{real} state[{interface.size}]", step, ";"),
@@ -254,6 +256,13 @@ def memory_of(kernel: Kernel) -> dict[str, object]:
     rates = list(range(1, len(kernel.loops) + 1)) if start else []
     past = len(start.unknowns) if start else 0
     return {"past": past, "inverses": inverses, "rates": rates} if start or inverses else {}
+
+
+def moved(start: Start, names: Names, interface: Interface) -> list[str]:
+    """Return the lines that find how far the unknowns have moved in a step."""
+    absolute = "fabs" + interface.format.suffix
+    terms = [f"{absolute}({names.spelled[u]} - memory->past[0][{i}])" for i, u in enumerate(start.unknowns)]
+    return fill(f"const {interface.format.c_type} moved =", broken(greatest(terms)), ";")
 
 
 def weights(start: Start, interface: Interface) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from codegen.ir.kernel import CHORD, NEWTON, SLOWEST, Newton, Start
+from codegen.ir.kernel import CHORD, NEWTON, SLOWEST, Newton
 from codegen.printers.arrange import METHODS, Beginning, Iteration
 from codegen.printers.python.text import WIDTH, call, indented, quoted
 
@@ -154,8 +154,8 @@ def _decision(
     small = f"change * change <= {unit} * scale * {previous}"
     if not statement.starts:
         rate = f"rate_{statement.number}"
-        yield f"        if sweep == 1 and change > {Start.ROUGH} * scale:"
-        yield "            memory.rough = True"
+        yield "        if sweep == 1:"
+        yield "            memory.first = max(memory.first, change)"
         yield f"        if {previous} > 0.0:"
         yield f"            {rate} = max(change / {previous}, {SLOWEST})"
         small = f"change * {rate} <= {unit} * scale"

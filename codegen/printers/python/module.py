@@ -100,6 +100,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             newton=interface.newton,
             memory=bool(memory),
             depth=start.depth if start else 0,
+            rough=start.ROUGH if start else 0.0,
             weights=[listed_weights(row, single) for row in start.weights] if start else [],
             remembered=listed("found = ", [names.spelled[u] for u in start.unknowns], 1) if start else [],
             unread=[i for i, s in enumerate(symbols) if s not in arrangement.symbols()],

@@ -1,0 +1,175 @@
+"""Implicit blocks of every family by every solver in every target: same answers, clean failures."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import cache
+
+import pytest
+
+from codegen.emit import compile_method, emit_compiled
+from codegen.ir.domain import FloatDomain
+from codegen.ir.interpret import interpret
+from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Newton
+from codegen.load import Statistics, Status, StepFailed, load
+from codegen.lower import setting
+from codegen.printers import TARGETS
+from tests.promises import ulps
+
+IMPLICIT = {
+    "rk": ("linear_oscillator", "rk:gauss2"),
+    "rkmk": ("driven_spin", "rkmk(2):gauss2"),
+    "cg": ("driven_spin", "cg:gauss1"),
+    "cf": ("driven_spin", "cf:gauss1"),
+    "vcg": ("heavy_top", "vcg:midpoint"),
+    "vcg kutta": ("heavy_top", "vcg:kutta3"),
+    "vrkmk": ("dipole", "vrkmk(2):gauss2"),
+    "vcf": ("dipole", "vcf:midpoint"),
+    "vrkmk_pade": ("dipole", "vrkmk_pade(1):kutta3"),
+    "slgi": ("dipole", "slgi:midpoint"),
+    "discrete_gradient": ("dipole", "discrete_gradient:midpoint"),
+}
+SOLVERS = (NEWTON, CHORD, FIXED_POINT)
+
+
+@cache
+def compiled(scene, method, solver):
+    return compile_method(scene, method, solver=solver)
+
+
+@cache
+def loaded(scene, method, solver, target):
+    emission = emit_compiled(compiled(scene, method, solver), target)
+    return load(emission), tuple(emission.manifest["initial"])
+
+
+def stepped(made, state, h):
+    """One step by the interpreter, which differentiates nothing."""
+    view = setting(made.scene, made.method)
+    values, first = {"t": 0.0}, 0
+    for block in view.state:
+        values[block.name] = tuple(state[first : first + len(block.symbols)])
+        first += len(block.symbols)
+    after = interpret(made.lowered, view, FloatDomain(h), values)
+    return [x for block in view.state for x in after[block.name]]
+
+
+@pytest.mark.parametrize("target", sorted(TARGETS))
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("family", IMPLICIT)
+def test_every_solver_finds_the_solution_of_the_interpreter(family, solver, target):
+    integrator, state = loaded(*IMPLICIT[family], solver, target)
+    expected = stepped(compiled(*IMPLICIT[family], solver), state, 1 / 128)
+    assert ulps(integrator.step(list(state), 1 / 128), expected) <= 32
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("family", IMPLICIT)
+def test_a_run_is_the_steps_it_is_made_of_but_begins_them_better(family, solver):
+    """Starts are extrapolated: far fewer sweeps, the same solutions to the sharpness of the stopping rule."""
+    integrator, state = loaded(*IMPLICIT[family], solver, "c")
+    alone, together = Statistics(), Statistics()
+    current = list(state)
+    for k in range(20):
+        current = integrator.step(current, 1 / 512, k / 512, statistics=alone)
+    ran = integrator.run(list(state), 1 / 512, 20, statistics=together)
+    assert ulps(ran, current) <= 512
+    work = [sum(counts.sweeps) + 3 * counts.matrices for counts in (together, alone)]
+    assert work[0] < 0.9 * work[1]
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_c_and_python_take_the_same_sweeps_and_make_the_same_matrices(solver):
+    counts, ends = [], []
+    for target in sorted(TARGETS):
+        integrator, state = loaded("dipole", "vcg:midpoint", solver, target)
+        statistics = Statistics()
+        ends.append(integrator.run(list(state), 0.02, 60, statistics=statistics))
+        counts.append(statistics)
+    assert counts[0] == counts[1]
+    assert ulps(*ends) <= 8
+    assert (counts[0].matrices > 0) == (solver == NEWTON)
+
+
+def test_newtons_method_reaches_steps_that_a_fixed_point_does_not():
+    """The heavy top as printed, midpoint, h = 1/20: the momenta turn by half a radian a step."""
+    integrator, state = loaded("heavy_top", "vcg:midpoint", NEWTON, "c")
+    statistics = Statistics()
+    end = integrator.run(list(state), 0.05, 1000, statistics=statistics)
+    assert statistics.sweeps[0] < 8 * 1000
+    scene = compiled("heavy_top", "vcg:midpoint", NEWTON).scene
+    energies = [scene.invariant(FloatDomain(0.0), "energy", s) for s in (state, end)]
+    assert energies[1] == pytest.approx(energies[0], rel=2e-2)
+    slow, _ = loaded("heavy_top", "vcg:midpoint", FIXED_POINT, "c")
+    with pytest.raises(StepFailed) as failure:
+        slow.run(list(state), 0.05, 1000)
+    assert failure.value.status == Status.NOT_CONVERGED
+    assert list(failure.value.state) == list(state)
+
+
+@pytest.mark.parametrize("target", sorted(TARGETS))
+def test_newtons_method_makes_steps_ten_times_as_long_as_the_fastest_rate(target):
+    """The stiff spin relaxes at rates of 1000 and 2000; a fixed point leaves the numbers."""
+    integrator, state = loaded("stiff_driven_spin", "rkmk(0):gauss1", NEWTON, target)
+    statistics = Statistics()
+    end = integrator.run(list(state), 0.005, 100, statistics=statistics)
+    assert math.hypot(*end) == pytest.approx(1, abs=1e-12)
+    assert statistics.sweeps[0] < 10 * 100
+    slow, _ = loaded("stiff_driven_spin", "rkmk(0):gauss1", FIXED_POINT, target)
+    with pytest.raises(StepFailed):
+        slow.step(list(state), 0.005)
+
+
+@pytest.mark.parametrize("target", sorted(TARGETS))
+@pytest.mark.parametrize("solver", [NEWTON, CHORD])
+def test_a_step_that_cannot_be_solved_says_so_and_leaves_the_state(solver, target):
+    integrator, state = loaded("heavy_top", "vcg:midpoint", solver, target)
+    with pytest.raises(StepFailed) as failure:
+        integrator.run(list(state), 50.0, 3)
+    assert failure.value.status in (Status.NOT_CONVERGED, Status.NOT_FINITE)
+    assert failure.value.step == 0
+    assert list(failure.value.state) == list(state)
+
+
+@pytest.mark.parametrize("target", sorted(TARGETS))
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("bad", [math.nan, math.inf])
+def test_a_state_that_is_no_number_is_reported(solver, target, bad):
+    integrator, state = loaded("heavy_top", "vcg:midpoint", solver, target)
+    with pytest.raises(StepFailed) as failure:
+        integrator.step([bad, *state[1:]], 0.01)
+    assert failure.value.status == Status.NOT_FINITE
+
+
+def test_a_wrong_matrix_is_seen_in_the_sweeps():
+    """The control: with the unit matrix Newton's method is the fixed point, and fails where that does."""
+    made = compiled("heavy_top", "vcg:midpoint", NEWTON)
+    (loop,) = made.kernel.loops
+    space = loop.images[0].space
+    size = range(len(loop.unknowns))
+    unit = tuple(tuple(space.one if i == j else space.zero for j in size) for i in size)
+    broken = replace(loop, newton=Newton((), unit))
+    body = tuple(broken if s is loop else s for s in made.kernel.body)
+    wrong = load(emit_compiled(replace(made, kernel=replace(made.kernel, body=body)), "c"))
+    right, state = loaded("heavy_top", "vcg:midpoint", NEWTON, "c")
+    slow, fast = Statistics(), Statistics()
+    assert ulps(wrong.step(list(state), 0.01, statistics=slow), right.step(list(state), 0.01)) <= 64
+    right.step(list(state), 0.01, statistics=fast)
+    assert slow.sweeps[0] > 2 * fast.sweeps[0]
+    with pytest.raises(StepFailed):
+        wrong.step(list(state), 0.05)
+
+
+def test_sweeps_fall_with_the_step_faster_the_better_the_matrix():
+    """An exact matrix needs the fewest sweeps; one to first order in h as few where steps are short."""
+    counts = {}
+    for solver in SOLVERS:
+        integrator, state = loaded("dipole", "vcg:midpoint", solver, "c")
+        for h in (1 / 8, 1 / 128):
+            statistics = Statistics()
+            integrator.step(list(state), h, statistics=statistics)
+            counts[solver, h] = statistics.sweeps[0]
+    assert counts[NEWTON, 1 / 8] < counts[CHORD, 1 / 8] < counts[FIXED_POINT, 1 / 8]
+    assert counts[CHORD, 1 / 128] <= 5
+    assert counts[FIXED_POINT, 1 / 128] > counts[CHORD, 1 / 128]
