@@ -103,8 +103,17 @@ class _Memory:
 
     def __init__(self):
         self.past = []
-        self.rough = False
+        self.first = 0.0
         self.rates = [1.0] * 1
+
+    def keep(self, found):
+        """Add a solution; alone where the one before it was expected too far off."""
+        if len(self.past) > 1:
+            moved = max(abs(x - y) for x, y in zip(found, self.past[0]))
+            if self.first > 0.5 * moved:
+                self.past = []
+        self.past = [found, *self.past[:8]]
+        self.first = 0.0
 
     def extrapolated(self):
         """Return the polynomial through the last solutions, continued by a step."""
@@ -656,8 +665,8 @@ def _advance(state, h, memory, statistics):
         if not isfinite(total):
             raise _failed(NOT_FINITE, "the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4", 0, sweep, statistics)
         still = 0.0 < previous_1 <= change <= 5.684341886080802e-14 * scale
-        if sweep == 1 and change > 0.015625 * scale:
-            memory.rough = True
+        if sweep == 1:
+            memory.first = max(memory.first, change)
         if previous_1 > 0.0:
             rate_1 = max(change / previous_1, 0.000244140625)
         close = change * rate_1 <= 1.1102230246251565e-16 * scale
@@ -744,8 +753,7 @@ def _advance(state, h, memory, statistics):
         xi4_1,
         xi4_2,
     )
-    memory.past = [found, *([] if memory.rough else memory.past[:8])]
-    memory.rough = False
+    memory.keep(found)
     return (
         new_g00,
         new_g01,

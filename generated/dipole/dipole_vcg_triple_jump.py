@@ -121,8 +121,17 @@ class _Memory:
 
     def __init__(self):
         self.past = []
-        self.rough = False
+        self.first = 0.0
         self.rates = [1.0] * 3
+
+    def keep(self, found):
+        """Add a solution; alone where the one before it was expected too far off."""
+        if len(self.past) > 1:
+            moved = max(abs(x - y) for x, y in zip(found, self.past[0]))
+            if self.first > 0.5 * moved:
+                self.past = []
+        self.past = [found, *self.past[:8]]
+        self.first = 0.0
 
     def extrapolated(self):
         """Return the polynomial through the last solutions, continued by a step."""
@@ -456,8 +465,8 @@ def _advance(state, h, memory, statistics):
         change = max(abs(change_xi1_0), abs(change_xi1_1), abs(change_xi1_2))
         scale = max(1.0, abs(xi1_0), abs(xi1_1), abs(xi1_2))
         still = 0.0 < previous_1 <= change <= 5.684341886080802e-14 * scale
-        if sweep == 1 and change > 0.015625 * scale:
-            memory.rough = True
+        if sweep == 1:
+            memory.first = max(memory.first, change)
         if previous_1 > 0.0:
             rate_1 = max(change / previous_1, 0.000244140625)
         close = change * rate_1 <= 1.1102230246251565e-16 * scale
@@ -702,8 +711,8 @@ def _advance(state, h, memory, statistics):
         change = max(abs(change_xi2_0), abs(change_xi2_1), abs(change_xi2_2))
         scale = max(1.0, abs(xi2_0), abs(xi2_1), abs(xi2_2))
         still = 0.0 < previous_2 <= change <= 5.684341886080802e-14 * scale
-        if sweep == 1 and change > 0.015625 * scale:
-            memory.rough = True
+        if sweep == 1:
+            memory.first = max(memory.first, change)
         if previous_2 > 0.0:
             rate_2 = max(change / previous_2, 0.000244140625)
         close = change * rate_2 <= 1.1102230246251565e-16 * scale
@@ -975,8 +984,8 @@ def _advance(state, h, memory, statistics):
         change = max(abs(change_xi3_0), abs(change_xi3_1), abs(change_xi3_2))
         scale = max(1.0, abs(xi3_0), abs(xi3_1), abs(xi3_2))
         still = 0.0 < previous_3 <= change <= 5.684341886080802e-14 * scale
-        if sweep == 1 and change > 0.015625 * scale:
-            memory.rough = True
+        if sweep == 1:
+            memory.first = max(memory.first, change)
         if previous_3 > 0.0:
             rate_3 = max(change / previous_3, 0.000244140625)
         close = change * rate_3 <= 1.1102230246251565e-16 * scale
@@ -1038,8 +1047,7 @@ def _advance(state, h, memory, statistics):
     new_mu1 = g10 * change_0 + g11 * change_1 + g12 * change_2 + mu1
     new_mu2 = g20 * change_0 + g21 * change_1 + g22 * change_2 + mu2
     found = xi1_0, xi1_1, xi1_2, xi2_0, xi2_1, xi2_2, xi3_0, xi3_1, xi3_2
-    memory.past = [found, *([] if memory.rough else memory.past[:8])]
-    memory.rough = False
+    memory.keep(found)
     return (
         new_g00,
         new_g01,

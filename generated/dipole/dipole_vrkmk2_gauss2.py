@@ -101,8 +101,17 @@ class _Memory:
 
     def __init__(self):
         self.past = []
-        self.rough = False
+        self.first = 0.0
         self.rates = [1.0] * 1
+
+    def keep(self, found):
+        """Add a solution; alone where the one before it was expected too far off."""
+        if len(self.past) > 1:
+            moved = max(abs(x - y) for x, y in zip(found, self.past[0]))
+            if self.first > 0.5 * moved:
+                self.past = []
+        self.past = [found, *self.past[:8]]
+        self.first = 0.0
 
     def extrapolated(self):
         """Return the polynomial through the last solutions, continued by a step."""
@@ -726,8 +735,8 @@ def _advance(state, h, memory, statistics):
             abs(v2_2),
         )
         still = 0.0 < previous_1 <= change <= 5.684341886080802e-14 * scale
-        if sweep == 1 and change > 0.015625 * scale:
-            memory.rough = True
+        if sweep == 1:
+            memory.first = max(memory.first, change)
         if previous_1 > 0.0:
             rate_1 = max(change / previous_1, 0.000244140625)
         close = change * rate_1 <= 1.1102230246251565e-16 * scale
@@ -776,8 +785,7 @@ def _advance(state, h, memory, statistics):
     new_mu1 = g10 * change_0 + g11 * change_1 + g12 * change_2 + mu1
     new_mu2 = g20 * change_0 + g21 * change_1 + g22 * change_2 + mu2
     found = v1_0, v1_1, v1_2, v2_0, v2_1, v2_2
-    memory.past = [found, *([] if memory.rough else memory.past[:8])]
-    memory.rough = False
+    memory.keep(found)
     return (
         new_g00,
         new_g01,

@@ -109,16 +109,16 @@ def test_newtons_method_reaches_steps_that_a_fixed_point_does_not():
 
 
 @pytest.mark.parametrize("target", sorted(TARGETS))
-def test_newtons_method_makes_steps_ten_times_as_long_as_the_fastest_rate(target):
+def test_newtons_method_makes_steps_several_times_as_long_as_the_fastest_rate(target):
     """The stiff spin relaxes at rates of 1000 and 2000; a fixed point leaves the numbers."""
     integrator, state = loaded("stiff_driven_spin", "rkmk(0):gauss1", NEWTON, target)
     statistics = Statistics()
-    end = integrator.run(list(state), 0.005, 100, statistics=statistics)
+    end = integrator.run(list(state), 0.003, 500, statistics=statistics)
     assert math.hypot(*end) == pytest.approx(1, abs=1e-12)
-    assert statistics.sweeps[0] < 10 * 100
+    assert statistics.sweeps[0] < 4 * 500
     slow, _ = loaded("stiff_driven_spin", "rkmk(0):gauss1", FIXED_POINT, target)
     with pytest.raises(StepFailed):
-        slow.step(list(state), 0.005)
+        slow.step(list(state), 0.003)
 
 
 @pytest.mark.parametrize("target", sorted(TARGETS))
