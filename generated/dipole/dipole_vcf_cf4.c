@@ -205,7 +205,7 @@ static void count_sweeps(dipole_vcf_cf4_statistics *statistics, size_t block, si
 /* What one step of a run leaves for the next: solutions of its equations, the latest first. */
 struct memory {
     size_t known;
-    int rough;
+    double first;
     double past[9][12];
     double rate_1;
 };
@@ -643,8 +643,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             return DIPOLE_VCF_CF4_NOT_FINITE;
         }
         const int still = previous_1 > 0.0 && change >= previous_1;
-        if (sweep == 1 && change > 0.015625 * scale) {
-            memory->rough = 1;
+        if (sweep == 1) {
+            memory->first = greater(memory->first, change);
         }
         if (previous_1 > 0.0) {
             rate_1 = greater(change / previous_1, 0.000244140625);
@@ -729,6 +729,13 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         && isfinite(new_g22) && isfinite(new_mu0) && isfinite(new_mu1) && isfinite(new_mu2))) {
         return DIPOLE_VCF_CF4_NOT_FINITE;
     }
+    const double moved = greater(greater(greater(fabs(xi1_0 - memory->past[0][0]),
+        greater(fabs(xi1_1 - memory->past[0][1]), fabs(xi1_2 - memory->past[0][2]))),
+        greater(fabs(xi2_0 - memory->past[0][3]), greater(fabs(xi2_1 - memory->past[0][4]),
+        fabs(xi2_2 - memory->past[0][5])))), greater(greater(fabs(xi3_0 - memory->past[0][6]),
+        greater(fabs(xi3_1 - memory->past[0][7]), fabs(xi3_2 - memory->past[0][8]))),
+        greater(fabs(xi4_0 - memory->past[0][9]), greater(fabs(xi4_1 - memory->past[0][10]),
+        fabs(xi4_2 - memory->past[0][11])))));
     memmove(memory->past[1], memory->past[0], 8 * sizeof memory->past[0]);
     memory->past[0][0] = xi1_0;
     memory->past[0][1] = xi1_1;
@@ -742,8 +749,12 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     memory->past[0][9] = xi4_0;
     memory->past[0][10] = xi4_1;
     memory->past[0][11] = xi4_2;
-    memory->known = memory->rough ? 1 : memory->known + (memory->known < 9);
-    memory->rough = 0;
+    if (memory->known > 1 && memory->first > 0.5 * moved) {
+        memory->known = 1;
+    } else if (memory->known < 9) {
+        memory->known++;
+    }
+    memory->first = 0.0;
     state[0] = new_g00;
     state[1] = new_g01;
     state[2] = new_g02;

@@ -222,7 +222,7 @@ static void count_sweeps(dipole_vcg_midpoint_statistics *statistics, size_t bloc
 /* What one step of a run leaves for the next: solutions of its equations, the latest first. */
 struct memory {
     size_t known;
-    int rough;
+    double first;
     double past[9][3];
     double rate_1;
 };
@@ -413,8 +413,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             fabs(change_xi1_2)));
         const double scale = greater(greater(1.0, fabs(xi1_0)), greater(fabs(xi1_1), fabs(xi1_2)));
         const int still = previous_1 > 0.0 && change >= previous_1;
-        if (sweep == 1 && change > 0.015625 * scale) {
-            memory->rough = 1;
+        if (sweep == 1) {
+            memory->first = greater(memory->first, change);
         }
         if (previous_1 > 0.0) {
             rate_1 = greater(change / previous_1, 0.000244140625);
@@ -477,12 +477,18 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         && isfinite(new_g22) && isfinite(new_mu0) && isfinite(new_mu1) && isfinite(new_mu2))) {
         return DIPOLE_VCG_MIDPOINT_NOT_FINITE;
     }
+    const double moved = greater(fabs(xi1_0 - memory->past[0][0]),
+        greater(fabs(xi1_1 - memory->past[0][1]), fabs(xi1_2 - memory->past[0][2])));
     memmove(memory->past[1], memory->past[0], 8 * sizeof memory->past[0]);
     memory->past[0][0] = xi1_0;
     memory->past[0][1] = xi1_1;
     memory->past[0][2] = xi1_2;
-    memory->known = memory->rough ? 1 : memory->known + (memory->known < 9);
-    memory->rough = 0;
+    if (memory->known > 1 && memory->first > 0.5 * moved) {
+        memory->known = 1;
+    } else if (memory->known < 9) {
+        memory->known++;
+    }
+    memory->first = 0.0;
     state[0] = new_g00;
     state[1] = new_g01;
     state[2] = new_g02;

@@ -268,7 +268,7 @@ static void count_sweeps(dipole_vrkmk2_gauss2_statistics *statistics, size_t blo
 /* What one step of a run leaves for the next: solutions of its equations, the latest first. */
 struct memory {
     size_t known;
-    int rough;
+    double first;
     double past[9][6];
     double rate_1;
 };
@@ -693,8 +693,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double scale = greater(greater(1.0, greater(fabs(v1_0), fabs(v1_1))),
             greater(greater(fabs(v1_2), fabs(v2_0)), greater(fabs(v2_1), fabs(v2_2))));
         const int still = previous_1 > 0.0 && change >= previous_1;
-        if (sweep == 1 && change > 0.015625 * scale) {
-            memory->rough = 1;
+        if (sweep == 1) {
+            memory->first = greater(memory->first, change);
         }
         if (previous_1 > 0.0) {
             rate_1 = greater(change / previous_1, 0.000244140625);
@@ -759,6 +759,10 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         && isfinite(new_g22) && isfinite(new_mu0) && isfinite(new_mu1) && isfinite(new_mu2))) {
         return DIPOLE_VRKMK2_GAUSS2_NOT_FINITE;
     }
+    const double moved = greater(greater(fabs(v1_0 - memory->past[0][0]),
+        greater(fabs(v1_1 - memory->past[0][1]), fabs(v1_2 - memory->past[0][2]))),
+        greater(fabs(v2_0 - memory->past[0][3]), greater(fabs(v2_1 - memory->past[0][4]),
+        fabs(v2_2 - memory->past[0][5]))));
     memmove(memory->past[1], memory->past[0], 8 * sizeof memory->past[0]);
     memory->past[0][0] = v1_0;
     memory->past[0][1] = v1_1;
@@ -766,8 +770,12 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     memory->past[0][3] = v2_0;
     memory->past[0][4] = v2_1;
     memory->past[0][5] = v2_2;
-    memory->known = memory->rough ? 1 : memory->known + (memory->known < 9);
-    memory->rough = 0;
+    if (memory->known > 1 && memory->first > 0.5 * moved) {
+        memory->known = 1;
+    } else if (memory->known < 9) {
+        memory->known++;
+    }
+    memory->first = 0.0;
     state[0] = new_g00;
     state[1] = new_g01;
     state[2] = new_g02;
