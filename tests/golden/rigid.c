@@ -80,14 +80,9 @@ static inline double stumpff_series_1(double z)
     return 1.0 + z * (even + z * odd);
 }
 
-/* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
-static inline void stumpff_12(double z, double *c1, double *c2)
+/* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
+static void stumpff_12_far(double z, double *c1, double *c2)
 {
-    if (z <= 0.0625) {
-        *c1 = stumpff_small_1(z);
-        *c2 = stumpff_small_2(z);
-        return;
-    }
     if (z <= 1.0) {
         *c1 = stumpff_series_1(z);
         *c2 = stumpff_series_2(z);
@@ -99,6 +94,17 @@ static inline void stumpff_12(double z, double *c1, double *c2)
     const double ratio = sine / half;
     *c1 = ratio * cosine;
     *c2 = 0.5 * (ratio * ratio);
+}
+
+/* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
+static inline void stumpff_12(double z, double *c1, double *c2)
+{
+    if (z <= 0.0625) {
+        *c1 = stumpff_small_1(z);
+        *c2 = stumpff_small_2(z);
+    } else {
+        stumpff_12_far(z, c1, c2);
+    }
 }
 
 static inline int advance(double state[static 3], double h)

@@ -81,15 +81,20 @@ def _stumpff_series_1(z):
     return 1.0 + z * (even + z * odd)
 
 
-def _stumpff_12(z):
-    """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
-    if z <= 0.0625:
-        return _stumpff_small_1(z), _stumpff_small_2(z)
+def _stumpff_12_far(z):
+    """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z)
     half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
     ratio = sin(half) / half
     return ratio * cos(half), 0.5 * (ratio * ratio)
+
+
+def _stumpff_12(z):
+    """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
+    if z <= 0.0625:
+        return _stumpff_small_1(z), _stumpff_small_2(z)
+    return _stumpff_12_far(z)
 
 
 def _advance(state, h):
