@@ -51,14 +51,28 @@ class Newton:
     correction is not smaller than ``CONTRACTION`` times the one before it; it is then made anew. A matrix to
     ``leading`` order in h is made and inverted before the sweeps of each step instead. Entries that are
     ``inverted`` are those of the inverse already.
+
+    Where the loop's images are ``residuals``, what is to be zero, the matrix is minus their derivative to
+    first order in h, and serves ``period`` steps; the last change of the unknowns is called ``changes``, for
+    what is read after the loop may be corrected by it.
     """
 
     body: tuple[Let, ...]
     matrix: tuple[tuple[Expr, ...], ...]
     leading: bool = False
     inverted: bool = False
+    residuals: bool = False
+    changes: tuple[str, ...] = ()
 
     CONTRACTION: ClassVar[float] = 2.0**-6
+
+    @property
+    def period(self) -> int:
+        """How many steps an inverse for residuals serves, 0 for as long as it contracts.
+
+        It costs a small multiple of n^3, and a sweep some multiple of n.
+        """
+        return max(1, len(self.matrix) ** 2 // 18) if self.residuals else 0
 
 
 @dataclass(frozen=True)
@@ -103,9 +117,10 @@ class Loop:
         What is read after the loop was computed before the last change. Chords contract by (h L)^2 where that
         moves by h L, so that a rate that ends the loop bounds it.
         """
-        if self.read_anew:
+        if self.read_anew and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
-        return self.tolerance if self.solver == CHORD else self.tolerance / 16
+        first_order = self.solver == CHORD or (self.newton is not None and self.newton.residuals)
+        return self.tolerance if first_order else self.tolerance / 16
 
     def settled(self, change: float, previous: float, scale: float) -> bool:
         """Return whether a change ends the iteration; ``previous`` is 0 in the first sweep.

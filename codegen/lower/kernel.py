@@ -36,6 +36,8 @@ from codegen.ir.kernel import (
     Sample,
     Start,
 )
+from codegen.ir.linearise import NotLinearised, first_order_jacobian
+from codegen.ir.normal import NormalForms
 from codegen.ir.program import EMBEDDED, Assign, Kind, Program, Solve, Var
 from codegen.ir.tangent import tangents
 from codegen.lower import late, newton
@@ -61,6 +63,12 @@ class _Block:
     matrix: tuple[tuple[Expr, ...], ...] = ()
     leading: bool = False
     inverted: bool = False
+    changes: tuple[str, ...] = ()
+    kept: tuple[tuple[str, Expr], ...] = ()
+
+    def targets(self) -> tuple[Expr, ...]:
+        """What a sweep computes."""
+        return (*self.images, *(x for _, x in self.kept))
 
 
 AS_WRITTEN, ORDERED, SHORTENED = range(3)
@@ -128,7 +136,11 @@ def to_kernel(
             run(statement)
             continue
         entered = _enter(statement, env, domain, name, run)
-        if solvers.get(statement.label, FIXED_POINT) != FIXED_POINT:
+        corrected = solvers.get(statement.label, FIXED_POINT) != FIXED_POINT
+        compared = _compared(statement, entered, env, name) if corrected and variations is None else None
+        if compared is not None:
+            entered = compared
+        elif corrected:
             entered = _with_matrix(entered, solvers[statement.label])
             solved = _Solved(entered)
             for var in env:
@@ -237,6 +249,59 @@ def _enter(
     return _Block(block.label, tuple(names), tuple(starts), tuple(images))
 
 
+def _compared(
+    block: Solve, entered: _Block, env: dict[Var, Any], name: Callable[[str], str]
+) -> _Block | None:
+    """Return the block with its residuals for images and their derivative to first order in h for a matrix.
+
+    None where there are no residuals, or no such derivative. What the last sweep has computed is corrected,
+    where it is read later, by its own derivative to first order in h times the last change, if that takes
+    fewer operations than computing it anew from the unknowns.
+    """
+    residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
+    if not residuals:
+        return None
+    space = residuals[0].space
+    normal = NormalForms(space)
+    try:
+        rows = first_order_jacobian(residuals, entered.unknowns)
+    except NotLinearised:
+        return None
+    changes = tuple(name(f"d_{u}") for u in entered.unknowns)
+    kept: list[tuple[str, Expr]] = []
+    for var in (target for assign in block.body for target in assign.targets):
+        if var.kind not in (Kind.ALG, Kind.DUAL):
+            continue
+        try:
+            slopes = first_order_jacobian(env[var], entered.unknowns)
+        except NotLinearised:
+            continue
+        symbols = tuple(space.sym(name(f"{var.name}_{k}_seen")) for k in range(len(env[var])))
+        moved = []
+        for symbol, row in zip(symbols, slopes, strict=True):
+            total = symbol
+            for slope, change in zip(row, changes, strict=True):
+                total = total + normal(slope) * space.sym(change)
+            moved.append(total)
+        if 2 * _operations(moved) < _operations(env[var]):
+            kept += [(s.payload, x) for s, x in zip(symbols, env[var], strict=True)]
+            env[var] = tuple(moved)
+    matrix = tuple(tuple(-normal(x) for x in row) for row in rows)
+    inverted = len(matrix) <= newton.SMALL
+    return replace(
+        entered,
+        images=residuals,
+        matrix=newton.inverse(matrix) if inverted else matrix,
+        inverted=inverted,
+        changes=changes,
+        kept=tuple(kept),
+    )
+
+
+def _operations(roots: Iterable[Expr]) -> int:
+    return sum(WEIGHT.get(n.op, 1) for n in walk(roots) if n.args)
+
+
 def _with_matrix(block: _Block, solver: str) -> _Block:
     """Return the block with the matrix of Newton's method, or of chords."""
     leading = solver == CHORD
@@ -304,8 +369,13 @@ class _Schedule:
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
+            read = {n.payload for n in walk([*self.roots, *self._later(k)]) if n.op == "sym"}
+            for name, x in block.kept:
+                if name in read:
+                    value = self._place(x, self.body, inside, k)
+                    inside.append(Let(name, value))
             made = self._newton(block) if block.matrix and not block.leading else before
-            anew = made is not None and self._is_short(k)
+            anew = made is not None and (made.residuals or self._is_short(k))
             if anew:
                 self._forget(k)
             loop = Loop(
@@ -319,7 +389,7 @@ class _Schedule:
         """Find for each node how often it is used and the last block whose unknowns it depends on."""
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
         entries = [x for b in self.blocks for row in b.matrix for x in row]
-        roots = [x for b in self.blocks for x in (*b.starts, *b.images)] + entries + list(self.roots)
+        roots = [x for b in self.blocks for x in (*b.starts, *b.targets())] + entries + list(self.roots)
         self.uses: dict[int, int] = {}
         self.level: dict[int, int] = {}
         self.done: dict[int, Expr] = {}
@@ -335,7 +405,7 @@ class _Schedule:
 
     def _start(self) -> Start:
         """Return the starting values of all blocks; what others need too is assigned before."""
-        later = {n.id: n for n in walk([*(x for b in self.blocks for x in b.images), *self.roots])}
+        later = {n.id: n for n in walk([*(x for b in self.blocks for x in b.targets()), *self.roots])}
         values = [x for block in self.blocks for x in block.starts]
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("a block starts from the unknowns of another")
@@ -352,11 +422,15 @@ class _Schedule:
         before, own = dict(self.done), list[Let]()
         rows = tuple(tuple(self._place(x, own, [], -1) for x in row) for row in block.matrix)
         self.done = before
-        return Newton(tuple(own), rows, block.leading, block.inverted)
+        compared = bool(block.changes)
+        return Newton(tuple(own), rows, block.leading, block.inverted, compared, block.changes)
+
+    def _later(self, k: int) -> list[Expr]:
+        return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
         """Whether what is read of block k after it costs less than half of a sweep."""
-        rest = [x for b in self.blocks[k + 1 :] for x in b.images] + list(self.roots)
+        rest = [*self._later(k), *self.roots]
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:
@@ -366,7 +440,7 @@ class _Schedule:
 
     def _forget(self, k: int) -> None:
         """Let nothing after block k read what its sweeps compute."""
-        nodes = walk([x for b in self.blocks for x in b.images] + list(self.roots))
+        nodes = walk([x for b in self.blocks for x in b.targets()] + list(self.roots))
         for node in nodes:
             if self.level[node.id] == k and node.args:
                 self.done.pop(node.id, None)

@@ -150,7 +150,15 @@ def _compared(
                 spelled[solver] = (
                     f"{lasting} with steps {LONGER} times as long" if solver in able else "does not settle"
                 )
-        best = min(sure, key=lambda s: cost[s] / RELIABLE.get(s, 1.0)) if sure else NEWTON
+        newton = kernels[NEWTON].loops[k].newton if NEWTON in kernels else None
+        compared = newton is not None and newton.residuals and NEWTON in able
+        best = (
+            NEWTON
+            if compared
+            else min(sure, key=lambda s: cost[s] / RELIABLE.get(s, 1.0))
+            if sure
+            else NEWTON
+        )
         others = [f"{METHODS[s]}: {text}" for s, text in spelled.items() if s != best]
         chosen[loop.label] = best
         reasons[loop.label] = "; ".join([f"{spelled[best]} a step", *others])

@@ -171,6 +171,7 @@ def _taken(kernel: Kernel) -> dict[str, int]:
     names += [s for sample in kernel.samples for s in sample.symbols]
     names += [let.name for let in kernel.lets()]
     names += [u for loop in kernel.loops for u in loop.unknowns]
+    names += [c for loop in kernel.loops if loop.newton is not None for c in loop.newton.changes]
     return dict.fromkeys(names, 1)
 
 

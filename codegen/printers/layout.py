@@ -40,6 +40,7 @@ def register(kernel: Kernel, arrangement: Arrangement, names: Names) -> Names:
         match statement:
             case Iteration():
                 names.add_all(statement.loop.unknowns)
+                names.add_all(statement.loop.newton.changes if statement.loop.newton is not None else ())
                 simple = (*statement.body, *statement.newton)
             case Beginning():
                 names.add_all(statement.start.unknowns)

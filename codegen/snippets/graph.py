@@ -87,8 +87,13 @@ class Needed:
     texts: tuple[str, ...]
 
 
-def needed(target: str, functions: Iterable[str], precision: Precision = DOUBLE) -> Needed:
+def needed(
+    target: str, functions: Iterable[str], precision: Precision = DOUBLE, *, sweeps: bool = False
+) -> Needed:
     """Return what the functions called by a module need in a target, and nothing else.
+
+    ``sweeps`` says that they are called in sweeps over equations, where many values are at hand that a call
+    would put aside: C then may inline all branches of Stumpff functions.
 
     >>> needed("c", ["sin"])
     Needed(library=('sin',), texts=())
@@ -100,11 +105,11 @@ def needed(target: str, functions: Iterable[str], precision: Precision = DOUBLE)
     nodes = {m for name in wanted for m in (name, *nx.descendants(whole, name))}
     order = reversed(list(nx.lexicographical_topological_sort(whole.subgraph(nodes))))
     found = [whole.nodes[name]["snippet"] for name in order]
-    texts = tuple(_text(target, snippet, precision) for snippet in found if snippet is not None)
+    texts = tuple(_text(target, snippet, precision, sweeps) for snippet in found if snippet is not None)
     return Needed(tuple(name for name in LIBRARY if name in nodes), texts)
 
 
-def _text(target: str, snippet: Snippet, precision: Precision) -> str:
+def _text(target: str, snippet: Snippet, precision: Precision, sweeps: bool) -> str:
     template = environment(target).get_template(f"snippets/{snippet.template}.j2")
 
     def number(x: float) -> str:
@@ -115,6 +120,7 @@ def _text(target: str, snippet: Snippet, precision: Precision) -> str:
 
     # "f" follows the names of C's library functions.
     spelled: dict[str, Any] = {"real": precision.c_type, "f": precision.suffix, "number": number}
+    spelled["sweeps"] = sweeps
     for name, value in snippet.variables.items():
         if isinstance(value, float):
             spelled[name] = number(value)

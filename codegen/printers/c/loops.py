@@ -19,7 +19,7 @@ def beginning(s: Statements, statement: Beginning) -> Iterator[str]:
     yield from fill(s.real, (*(f"{u}," for u in unknowns[:-1]), unknowns[-1]), ";")
     yield "if (memory->known > 0) {"
     for place, unknown in enumerate(unknowns):
-        yield f"    {unknown} = extrapolated(memory, {place});"
+        yield f"    {unknown} = memory->guess[{place}];"
     yield "} else {"
     for inner in statement.body:
         yield from (f"    {line}" for line in s.simple(inner))
@@ -36,8 +36,9 @@ def iteration(s: Statements, statement: Iteration) -> Iterator[str]:
     yield f"/* {comment(loop.label)}: {METHODS[loop.solver]} in {', '.join(now)} */"
     for name, start in zip(now, statement.starts, strict=False):  # none where they begin together
         yield from s.declare(name, start, f"{s.real} ")
-    if statement.kept:
-        kept = [s.names.spelled[n] for n in statement.kept]
+    own = loop.newton.changes if loop.newton is not None else ()
+    if statement.kept or own:
+        kept = [s.names.spelled[n] for n in (*statement.kept, *own)]
         yield from fill(s.real, (*(f"{n}," for n in kept[:-1]), kept[-1]), ";")
     yield f"{s.real} {previous} = {s.literal(0.0)};"
     if not statement.starts:
@@ -67,7 +68,10 @@ def _sweep(s: Statements, statement: Iteration, now: list[str], previous: str) -
     for name, image, already in zip(new, statement.images, plain, strict=True):
         yield from [] if already else s.declare(name, image)
     absolute = s.style.function("fabs")
+    compared = loop.newton is not None and loop.newton.residuals
     changes = [s.names.fresh(f"change_{u}") for u in loop.unknowns]
+    if loop.newton is not None and compared:
+        changes = [s.names.spelled[c] for c in loop.newton.changes]
     if loop.newton is None:
         for change, x, y in zip(changes, new, now, strict=True):
             yield f"const {s.real} {change} = {absolute}({x} - {y});"
@@ -75,9 +79,9 @@ def _sweep(s: Statements, statement: Iteration, now: list[str], previous: str) -
         yield f"{previous} = change;"
         yield from (f"{x} = {y};" for x, y in zip(now, new, strict=True))
         return
-    residuals = [s.names.fresh(f"residual_{u}") for u in loop.unknowns]
+    residuals = new if compared else [s.names.fresh(f"residual_{u}") for u in loop.unknowns]
     for residual, x, y in zip(residuals, new, now, strict=True):
-        yield f"const {s.real} {residual} = {x} - {y};"
+        yield from [] if compared else [f"const {s.real} {residual} = {x} - {y};"]
     yield from _not_finite(s, statement, residuals)
     if loop.solver == NEWTON:
         yield f"if ({_fresh(statement.number)}) {{"
@@ -87,10 +91,13 @@ def _sweep(s: Statements, statement: Iteration, now: list[str], previous: str) -
     n = len(now)
     for row, change in enumerate(changes):
         terms = [f"{_cell(statement, row * n + column)} * {r}" for column, r in enumerate(residuals)]
-        yield from fill(f"const {s.real} {change} =", (terms[0], *(f"+ {t}" for t in terms[1:])), ";")
+        kind = "" if compared else f"const {s.real} "
+        yield from fill(f"{kind}{change} =", (terms[0], *(f"+ {t}" for t in terms[1:])), ";")
     sizes = [f"{absolute}({change})" for change in changes]
     yield from _decision(s, statement, [], sizes, now, previous, tuple(zip(now, changes, strict=True)))
-    if loop.solver == NEWTON:
+    if compared:
+        yield f"{_fresh(statement.number)} = 0;"
+    elif loop.solver == NEWTON:
         limit = f"{s.literal(Newton.CONTRACTION)} * {previous}"
         yield f"{_fresh(statement.number)} = {limit} > {s.literal(0.0)} && change > {limit};"
     yield f"{previous} = change;"

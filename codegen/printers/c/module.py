@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from codegen.ir.kernel import CHORD, ELAPSED, LEAD, LONGEST, NEWTON, Kernel, PutOff, Start
+from codegen.ir.kernel import CHORD, ELAPSED, LEAD, LONGEST, NEWTON, Kernel, PutOff
 from codegen.printers.arrange import Arrangement, arrange
 from codegen.printers.c.jacobian import varying
 from codegen.printers.c.statements import RESERVED, Statements, literal
-from codegen.printers.c.text import broken, comment, fill, greatest
+from codegen.printers.c.text import comment, fill
 from codegen.printers.expression import spell
 from codegen.printers.interface import Interface
 from codegen.printers.layout import inverts, layout, register, times
@@ -23,6 +23,9 @@ TIME = "t"
 
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """The flags that emitted C is promised to compile under, without a warning."""
+
+PAST = 14
+"""How many solutions of the equations are kept, by their differences, to guess the next from."""
 
 STATUSES = ("OK", "NOT_CONVERGED", "NOT_FINITE", "BAD_STEP", "LIMIT")
 """The status codes, each after the prefix in capitals."""
@@ -53,7 +56,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     if kernel.put_off is not None:
         variables["put_off"], more, held = put_off(kernel.put_off, arrangement, names, interface)
         functions |= more
-    found = needed("c", sorted(functions), interface.format)
+    found = needed("c", sorted(functions), interface.format, sweeps=bool(interface.blocks))
     variables |= {
         "recipe": [
             comment(line)
@@ -218,11 +221,11 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
         "time": interface.time,
         "newton": interface.newton,
         "memory": memory,
-        "remembered": [names.spelled[u] for u in start.unknowns] if start else [],
-        "depth": start.depth if start else 0,
-        "moved": moved(start, names, interface) if start else [],
+        "solution": solution([names.spelled[u] for u in start.unknowns], real) if start else [],
+        "zero": literal(interface.format, 0.0),
+        "fabs": f"fabs{interface.format.suffix}",
+        "depth": PAST,
         "rough": literal(interface.format, Start.ROUGH),
-        "weights": weights(start, interface) if start else [],
         "blocks": [comment(label) for label in interface.blocks],
         "step_header": signature(f"int {interface.prefix}step", f"{real} state[{interface.size}]", step, ";"),
         "run_header": signature(f"int {interface.prefix}run", f"{real} state[{interface.size}]", run, ";"),
@@ -255,20 +258,18 @@ def memory_of(kernel: Kernel) -> dict[str, object]:
     start, inverses = kernel.start, inverses_of(kernel)
     rates = list(range(1, len(kernel.loops) + 1)) if start else []
     past = len(start.unknowns) if start else 0
-    return {"past": past, "inverses": inverses, "rates": rates} if start or inverses else {}
+    loops = [(k, loop.newton) for k, loop in enumerate(kernel.loops, 1) if loop.newton is not None]
+    periods = [(k, newton.period) for k, newton in loops if newton.period]
+    memory = {"past": past, "inverses": inverses, "rates": rates, "periods": periods}
+    return memory if start or inverses else {}
 
 
-def moved(start: Start, names: Names, interface: Interface) -> list[str]:
-    """Return the lines that find how far the unknowns have moved in a step."""
-    absolute = "fabs" + interface.format.suffix
-    terms = [f"{absolute}({names.spelled[u]} - memory->past[0][{i}])" for i, u in enumerate(start.unknowns)]
-    return fill(f"const {interface.format.c_type} moved =", broken(greatest(terms)), ";")
-
-
-def weights(start: Start, interface: Interface) -> list[str]:
-    """Return the lines of the table of factors of an extrapolation."""
-    rows = [", ".join(literal(interface.format, float(x)) for x in row) for row in start.weights]
-    return [f"{{{row}}}," for row in rows[:-1]] + [f"{{{rows[-1]}}}"]
+def solution(unknowns: list[str], real: str) -> list[str]:
+    """Return the lines that put the solution of all loops into one array."""
+    pieces = [f"{u}," for u in unknowns]
+    pieces = ["{" + pieces[0], *pieces[1:]]
+    pieces[-1] = pieces[-1].removesuffix(",") + "}"
+    return fill(f"const {real} solution[{len(unknowns)}] =", tuple(pieces), ";")
 
 
 def inverses_of(kernel: Kernel) -> list[tuple[int, int]]:
@@ -280,7 +281,7 @@ def remembered(kernel: Kernel) -> int:
     """Return how many numbers a run remembers, and what inverting a matrix takes besides."""
     matrices = [len(loop.unknowns) for loop in kernel.loops if loop.newton is not None]
     memory, start = [n * n + 2 * n + 1 for n in matrices], kernel.start
-    return sum(memory) + (start.depth * len(start.unknowns) + 2 + len(kernel.loops) if start else 0)
+    return sum(memory) + ((PAST + 4) * len(start.unknowns) + 4 + len(kernel.loops) if start else 0)
 
 
 def signature(start: str, state: str, arguments: list[str], end: str) -> list[str]:

@@ -61,6 +61,8 @@ def iteration(s: Statements, statement: Iteration) -> Iterator[str]:
     for name, image, already in zip(new, statement.images, plain, strict=True):
         yield from [] if already else s.assign(name, image, 2)
     changes = [s.names.fresh(f"change_{u}") for u in loop.unknowns]
+    if loop.newton is not None and loop.newton.residuals:
+        changes = [s.names.spelled[c] for c in loop.newton.changes]
     if loop.newton is None:
         for change, x, y in zip(changes, new, now, strict=True):
             yield f"        {change} = abs({x} - {y})"
@@ -86,9 +88,11 @@ def _newton(
 ) -> Iterator[str]:
     """Yield the lines that correct the unknowns by the inverse of Newton's matrix."""
     number, kept = statement.number, statement.loop.solver == NEWTON
-    residuals = [s.names.fresh(f"residual_{u}") for u in statement.loop.unknowns]
+    newton = statement.loop.newton
+    compared = newton is not None and newton.residuals
+    residuals = new if compared else [s.names.fresh(f"residual_{u}") for u in statement.loop.unknowns]
     for residual, x, y in zip(residuals, new, now, strict=True):
-        yield f"        {residual} = {x} - {y}"
+        yield from [] if compared else [f"        {residual} = {x} - {y}"]
     yield from _finite(s, statement, residuals)
     if kept:
         yield f"        if make_{number}:"
@@ -100,7 +104,8 @@ def _newton(
     yield from (f"        {x} += {y}" for x, y in zip(now, changes, strict=True))
     yield from _decision(s, statement, [], [f"abs({c})" for c in changes], now, previous)
     if kept:
-        yield f"        make_{number} = 0.0 < {Newton.CONTRACTION} * {previous} < change"
+        least = 0.25 if compared else Newton.CONTRACTION
+        yield f"        make_{number} = 0.0 < {least} * {previous} < change"
     yield f"        {previous} = change"
 
 
