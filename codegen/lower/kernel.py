@@ -27,6 +27,7 @@ from codegen.ir.kernel import (
     ELAPSED,
     FIXED_POINT,
     LEAD,
+    NEWTON,
     Estimate,
     Field,
     Kernel,
@@ -137,7 +138,8 @@ def to_kernel(
             continue
         entered = _enter(statement, env, domain, name, run)
         corrected = solvers.get(statement.label, FIXED_POINT) != FIXED_POINT
-        compared = _compared(statement, entered, env, name) if corrected and variations is None else None
+        comparing = corrected and solvers[statement.label] == NEWTON and variations is None
+        compared = _compared(statement, entered, env, name) if comparing else None
         if compared is not None:
             entered = compared
         elif corrected:

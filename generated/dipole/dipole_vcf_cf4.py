@@ -6,11 +6,11 @@ source:     Celledoni, Marthinsen and Owren 2003; H. Marthinsen, thesis, Section
 order:      4, certificate: exact (every order condition up to it is zero in exact
             arithmetic)
 scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
-solved by:  the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: fixed point, 12
-            unknowns (3.0 sweeps of 1065 operations a step; Newton's method: 2.5
-            sweeps of 1341 operations and 0.05 matrices of 11276; Newton's method
-            with the matrix to first order in h: 2.3 sweeps of 1341 operations and
-            1.00 matrices of 3992)
+solved by:  the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: Newton's method, 12
+            unknowns (2.5 sweeps of 1304 operations and 0.05 matrices of 3910 a
+            step; fixed point: 3.0 sweeps of 1065 operations; Newton's method with
+            the matrix to first order in h: 2.3 sweeps of 1341 operations and 1.00
+            matrices of 3992)
 state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
 left out:   1 Adt, 23 Adtinv, 5 mul (zeros)
@@ -28,9 +28,11 @@ left out:   1 Adt, 23 Adtinv, 5 mul (zeros)
             3 Adinv, 4 legendre (sharing)
             parameters, folded: beta = 1, depth = 3/2
             the time: the scene does not depend on it
-operations: 89 add, 131 mul, 2 sqrt, 2 div, 1 stumpff_12 a step
+operations: 136 add, 208 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
             2 mul a start, in steps that follow no other
-            327 add, 489 mul, 6 div, 6 sqrt, 4 stumpff_12, 5 stumpff_23 a sweep of
+            150 add, 304 mul a matrix of the equations of xi1, xi2, xi3, xi4, n1,
+            n2, n3, n4
+            453 add, 602 mul, 6 div, 6 sqrt, 4 stumpff_12, 5 stumpff_23 a sweep of
             the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
 made by:    orderconds emit dipole --method vcf:cf4 --target python -o .
 version:    orderconds 0.1.0
@@ -43,7 +45,7 @@ Use:
     print(dipole_vcf_cf4.run(state, 0.005, 100))
 """
 
-from math import cos, isfinite, sin, sqrt
+from math import cos, fabs, isfinite, sin, sqrt
 
 OK = 0
 NOT_CONVERGED = 1
@@ -70,7 +72,8 @@ class Statistics:
     """Sweeps over the equations, added up over all steps that are given this object.
 
     sweeps: by block; most: the most that one block took in one step; failed: 1 + the
-    block that failed, 0 if none has.
+    block that failed, 0 if none has; matrices: how often a matrix of Newton's method
+    was made.
     """
 
     labels = [
@@ -79,6 +82,7 @@ class Statistics:
 
     def __init__(self):
         self.sweeps, self.most, self.failed = [0] * 1, 0, 0
+        self.matrices = 0
 
     def count(self, block, sweeps):
         """Add the sweeps of one block in one step."""
@@ -98,13 +102,15 @@ def _failed(status, label, block, sweep, statistics):
 class _Memory:
     """What one step of a run leaves for the next.
 
-    past: solutions of its equations, the latest first.
+    past: solutions of its equations, the latest first; inverses: of Newton's matrices, by
+    block.
     """
 
     def __init__(self):
         self.past = []
         self.first = 0.0
         self.rates = [1.0] * 1
+        self.inverses = [None] * 1
 
     def keep(self, found):
         """Add a solution; alone where the one before it was expected too far off."""
@@ -234,6 +240,29 @@ def _stumpff_12(z):
     return _stumpff_12_far(z)
 
 
+def invert(a):
+    """Return the inverse of a square matrix, a list of rows that is used up; None where it has none."""
+    n = len(a)
+    order = [0] * n
+    for k in range(n):
+        pivot = max(range(k, n), key=lambda i: fabs(a[i][k]))
+        if not fabs(a[pivot][k]) > 0.0:
+            return None
+        order[k] = pivot
+        a[k], a[pivot] = a[pivot], a[k]
+        factor = 1.0 / a[k][k]
+        a[k][k] = 1.0
+        a[k] = [x * factor for x in a[k]]
+        for i in range(n):
+            if i != k:
+                multiple, a[i][k] = a[i][k], 0.0
+                a[i] = [x - multiple * y for x, y in zip(a[i], a[k])]
+    for k in reversed(range(n)):
+        for row in a:
+            row[k], row[order[k]] = row[order[k]], row[k]
+    return a
+
+
 def _advance(state, h, memory, statistics):
     """Return the state after one step as a tuple."""
     g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
@@ -310,11 +339,12 @@ def _advance(state, h, memory, statistics):
     w118 = 0.08333333333333333 * h
     w125 = g20 * w89
     w126 = g20 * w85
-    w132 = 0.25 * h
-    w134 = -0.08333333333333333 * h
-    # the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: fixed point in xi1_0, xi1_1, xi1_2, xi2_0, xi2_1, xi2_2, xi3_0, xi3_1, xi3_2, xi4_0, xi4_1, xi4_2
+    w131 = 0.25 * h
+    w133 = -0.08333333333333333 * h
+    # the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: Newton's method in xi1_0, xi1_1, xi1_2, xi2_0, xi2_1, xi2_2, xi3_0, xi3_1, xi3_2, xi4_0, xi4_1, xi4_2
     previous_1 = 0.0
     rate_1 = memory.rates[0] if memory.past else 1.0
+    make_1 = memory.inverses[0] is None
     for sweep in range(1, 101):
         xE2_1_1 = xi1_1 * w2
         xE2_1_0 = xi1_0 * w2
@@ -366,7 +396,8 @@ def _advance(state, h, memory, statistics):
         gE4_2_7 = w29 + w30
         gE4_2_8 = 1.0 - (w15 + w28)
         E4_2_8 = gE2_1_2 * gE4_2_6 + gE2_1_5 * gE4_2_7 + gE2_1_8 * gE4_2_8
-        p_4_2 = 0.01 * (xi4_0 * E4_2_2 + xi4_1 * E4_2_5 + xi4_2 * E4_2_8)
+        a_5_2 = xi4_0 * E4_2_2 + xi4_1 * E4_2_5 + xi4_2 * E4_2_8
+        p_4_2 = 0.01 * a_5_2
         w31 = xE2_1_1 * w7
         w32 = xE2_1_2 * c1_1
         gE2_1_1 = w31 - w32
@@ -421,6 +452,7 @@ def _advance(state, h, memory, statistics):
         w50 = yE2_1_1 * s_nu2_2 - yE2_1_2 * s_nu2_1
         w52 = yE2_1_0 * s_nu2_1 - yE2_1_1 * s_nu2_0
         w53 = yE2_1_2 * s_nu2_0 - yE2_1_0 * s_nu2_2
+        p1_11_2_0 = s_nu2_0 - w50 * c2_3 + (yE2_1_1 * w52 - yE2_1_2 * w53) * c3_1
         m1_13_0 = gE2_1_1 * Nr4_1 + Nr4_0 * gE2_1_0 + gE2_1_2 * Nr4_2
         yE4_2_0 = xE2_1_0 - w10
         yE4_2_1 = xE2_1_1 - w9
@@ -434,6 +466,7 @@ def _advance(state, h, memory, statistics):
         w59 = m1_13_0 * yE4_2_2 - yE4_2_0 * m1_13_2
         p1_13_0 = m1_13_0 - w56 * c2_4 + (yE4_2_1 * w58 - yE4_2_2 * w59) * c3_2
         p_2 = 0.01 * xi1_2
+        Nr1_0 = w91 + 99.0 * xi1_1 * p_2
         xE3_1_1 = xi2_1 * w2
         xE3_1_0 = xi2_0 * w2
         xE3_1_2 = xi2_2 * w2
@@ -468,7 +501,7 @@ def _advance(state, h, memory, statistics):
         w111 = -1.0 - 2.0 * (1.5 * w108 - 1.5 * w110)
         w112 = -0.3 * w108 - 0.3 * w110
         Nr3_0 = Q3_7 * w111 - Q3_8 * w112 + 99.0 * a_3_1 * p_3_2
-        s_p1_0 = m_0 + w60 * (w91 + 99.0 * xi1_1 * p_2 + sum_Nr4_0) + Nr3_0 * w113
+        s_p1_0 = m_0 + w60 * (sum_Nr4_0 + Nr1_0) + Nr3_0 * w113
         w115 = xi2_0 + xi3_0
         w117 = w115 * w116
         ye1_0 = xi1_0 * w114 + w117 + xi4_0 * w118
@@ -480,158 +513,678 @@ def _advance(state, h, memory, statistics):
         ye1_2 = xi1_2 * w114 + w122 + xi4_2 * w118
         w123 = ye1_0 * ye1_0 + ye1_1 * ye1_1 + ye1_2 * ye1_2
         c2_6, c3_3 = _stumpff_23(w123)
+        Nr1_2 = 0.01 * xi1_0 * xi1_1 + w125
         gE3_1_0 = 1.0 - (w102 + w105)
         gE3_1_3 = w103 + w104
         gE3_1_6 = w97 - w94
         a_3_0 = xi3_0 * gE3_1_0 + xi3_1 * gE3_1_3 + xi3_2 * gE3_1_6
         Q3_6 = g20 * gE3_1_0 + g21 * gE3_1_3 + g22 * gE3_1_6
         Nr3_2 = 0.01 * a_3_0 * a_3_1 + w112 * Q3_6
-        s_p1_2 = m_2 + w60 * (0.01 * xi1_0 * xi1_1 + w125 + sum_Nr4_2) + w113 * Nr3_2
+        s_p1_2 = m_2 + w60 * (sum_Nr4_2 + Nr1_2) + w113 * Nr3_2
+        Nr1_1 = -100.0 * xi1_0 * p_2 - w126
         Nr3_1 = -100.0 * a_3_0 * p_3_2 - w111 * Q3_6
-        s_p1_1 = m_1 + w60 * (-100.0 * xi1_0 * p_2 - w126 + sum_Nr4_1) + w113 * Nr3_1
+        s_p1_1 = m_1 + w60 * (sum_Nr4_1 + Nr1_1) + w113 * Nr3_1
         w127 = ye1_1 * s_p1_2 - ye1_2 * s_p1_1
         w129 = ye1_0 * s_p1_1 - s_p1_0 * ye1_1
         w130 = s_p1_0 * ye1_2 - ye1_0 * s_p1_2
         p1_11_0 = s_p1_0 - w127 * c2_6 + (ye1_1 * w129 - ye1_2 * w130) * c3_3
-        w131 = (
-            s_nu2_0
-            - w50 * c2_3
-            + (yE2_1_1 * w52 - yE2_1_2 * w53) * c3_1
-            + w2 * p1_13_0
-            + 1.5 * p1_11_0
-        )
-        w133 = w60 * w119
-        xe1_1 = xi1_1 * w132 + w133 + xi4_1 * w134
-        w135 = w60 * w115
-        xe1_0 = xi1_0 * w132 + w135 + xi4_0 * w134
-        w136 = w60 * w121
-        xe1_2 = xi1_2 * w132 + w136 + xi4_2 * w134
-        w137 = xe1_0 * xe1_0 + xe1_1 * xe1_1 + xe1_2 * xe1_2
-        c1_4, c2_7 = _stumpff_12(w137)
-        w139 = xe1_1 * c2_7
-        w140 = xe1_1 * w139
-        w141 = xe1_2 * c2_7 * xe1_2
-        ge1_0 = 1.0 - (w140 + w141)
-        w142 = xe1_0 * c2_7
-        w143 = xe1_1 * w142
-        w145 = xe1_2 * c1_4
-        ge1_1 = w143 - w145
-        w146 = xe1_1 * c1_4
-        w147 = xe1_2 * w142
-        ge1_2 = w146 + w147
+        w132 = w60 * w119
+        xe1_1 = xi1_1 * w131 + w132 + xi4_1 * w133
+        w134 = w60 * w115
+        xe1_0 = xi1_0 * w131 + w134 + xi4_0 * w133
+        w135 = w60 * w121
+        xe1_2 = xi1_2 * w131 + w135 + xi4_2 * w133
+        w136 = xe1_0 * xe1_0 + xe1_1 * xe1_1 + xe1_2 * xe1_2
+        c1_4, c2_7 = _stumpff_12(w136)
+        w138 = xe1_1 * c2_7
+        w139 = xe1_1 * w138
+        w140 = xe1_2 * c2_7 * xe1_2
+        ge1_0 = 1.0 - (w139 + w140)
+        w141 = xe1_0 * c2_7
+        w142 = xe1_1 * w141
+        w144 = xe1_2 * c1_4
+        ge1_1 = w142 - w144
+        w145 = xe1_1 * c1_4
+        w146 = xe1_2 * w141
+        ge1_2 = w145 + w146
         m1_6_2_0 = s_p1_0 * ge1_0 + s_p1_1 * ge1_1 + s_p1_2 * ge1_2
         ye2_0 = w117 + xi1_0 * w118 + xi4_0 * w114
         ye2_1 = w120 + xi1_1 * w118 + xi4_1 * w114
         ye2_2 = w122 + xi1_2 * w118 + xi4_2 * w114
-        w148 = ye2_0 * ye2_0 + ye2_1 * ye2_1 + ye2_2 * ye2_2
-        c2_8, c3_4 = _stumpff_23(w148)
-        ge1_6 = w147 - w146
-        w150 = xe1_0 * c1_4
-        w151 = xe1_2 * w139
-        ge1_7 = w150 + w151
-        w152 = xe1_0 * w142
-        ge1_8 = 1.0 - (w140 + w152)
+        w147 = ye2_0 * ye2_0 + ye2_1 * ye2_1 + ye2_2 * ye2_2
+        c2_8, c3_4 = _stumpff_23(w147)
+        ge1_6 = w146 - w145
+        w149 = xe1_0 * c1_4
+        w150 = xe1_2 * w138
+        ge1_7 = w149 + w150
+        w151 = xe1_0 * w141
+        ge1_8 = 1.0 - (w139 + w151)
         m1_6_2_2 = s_p1_0 * ge1_6 + s_p1_1 * ge1_7 + s_p1_2 * ge1_8
-        ge1_3 = w143 + w145
-        ge1_4 = 1.0 - (w141 + w152)
-        ge1_5 = w151 - w150
+        ge1_3 = w142 + w144
+        ge1_4 = 1.0 - (w140 + w151)
+        ge1_5 = w150 - w149
         m1_6_2_1 = s_p1_0 * ge1_3 + s_p1_1 * ge1_4 + s_p1_2 * ge1_5
-        w153 = ye2_1 * m1_6_2_2 - ye2_2 * m1_6_2_1
-        w155 = ye2_0 * m1_6_2_1 - m1_6_2_0 * ye2_1
-        w156 = m1_6_2_0 * ye2_2 - ye2_0 * m1_6_2_2
-        p1_6_2_0 = m1_6_2_0 - w153 * c2_8 + (ye2_1 * w155 - ye2_2 * w156) * c3_4
+        w152 = ye2_1 * m1_6_2_2 - ye2_2 * m1_6_2_1
+        w154 = ye2_0 * m1_6_2_1 - m1_6_2_0 * ye2_1
+        w155 = m1_6_2_0 * ye2_2 - ye2_0 * m1_6_2_2
+        p1_6_2_0 = m1_6_2_0 - w152 * c2_8 + (ye2_1 * w154 - ye2_2 * w155) * c3_4
+        M1_0 = p1_11_2_0 + w2 * p1_13_0 + 1.5 * p1_11_0 - 0.5 * p1_6_2_0
+        residual_0 = M1_0 - 1.01 * xi1_0
+        p1_11_2_1 = s_nu2_1 - w53 * c2_3 + (yE2_1_2 * w50 - yE2_1_0 * w52) * c3_1
         p1_13_1 = m1_13_1 - w59 * c2_4 + (yE4_2_2 * w56 - yE4_2_0 * w58) * c3_2
         p1_11_1 = s_p1_1 - w130 * c2_6 + (ye1_2 * w127 - ye1_0 * w129) * c3_3
-        w157 = (
-            s_nu2_1
-            - w53 * c2_3
-            + (yE2_1_2 * w50 - yE2_1_0 * w52) * c3_1
-            + w2 * p1_13_1
-            + 1.5 * p1_11_1
-        )
-        p1_6_2_1 = m1_6_2_1 - w156 * c2_8 + (ye2_2 * w153 - ye2_0 * w155) * c3_4
+        p1_6_2_1 = m1_6_2_1 - w155 * c2_8 + (ye2_2 * w152 - ye2_0 * w154) * c3_4
+        M1_1 = p1_11_2_1 + w2 * p1_13_1 + 1.5 * p1_11_1 - 0.5 * p1_6_2_1
+        residual_1 = M1_1 - xi1_1
+        p1_11_2_2 = s_nu2_2 - w52 * c2_3 + (yE2_1_0 * w53 - yE2_1_1 * w50) * c3_1
         p1_13_2 = m1_13_2 - w58 * c2_4 + (yE4_2_0 * w59 - yE4_2_1 * w56) * c3_2
         p1_11_2 = s_p1_2 - w129 * c2_6 + (ye1_0 * w130 - ye1_1 * w127) * c3_3
-        w158 = (
-            s_nu2_2
-            - w52 * c2_3
-            + (yE2_1_0 * w53 - yE2_1_1 * w50) * c3_1
-            + w2 * p1_13_2
-            + 1.5 * p1_11_2
-        )
-        p1_6_2_2 = m1_6_2_2 - w155 * c2_8 + (ye2_0 * w156 - ye2_1 * w153) * c3_4
-        w159 = 0.5 * (p1_11_0 + p1_6_2_0)
+        p1_6_2_2 = m1_6_2_2 - w154 * c2_8 + (ye2_0 * w155 - ye2_1 * w152) * c3_4
+        M1_2 = p1_11_2_2 + w2 * p1_13_2 + 1.5 * p1_11_2 - 0.5 * p1_6_2_2
+        residual_2 = M1_2 - p_2
+        w156 = 0.5 * (p1_11_0 + p1_6_2_0)
         yE3_1_0 = xi2_0 * w1
         yE3_1_1 = xi2_1 * w1
         yE3_1_2 = xi2_2 * w1
-        w160 = yE3_1_0 * yE3_1_0 + yE3_1_1 * yE3_1_1 + yE3_1_2 * yE3_1_2
-        c2_9, c3_5 = _stumpff_23(w160)
-        w162 = Nr3_2 * yE3_1_1 - Nr3_1 * yE3_1_2
-        w164 = Nr3_1 * yE3_1_0 - Nr3_0 * yE3_1_1
-        w165 = Nr3_0 * yE3_1_2 - Nr3_2 * yE3_1_0
+        w157 = yE3_1_0 * yE3_1_0 + yE3_1_1 * yE3_1_1 + yE3_1_2 * yE3_1_2
+        c2_9, c3_5 = _stumpff_23(w157)
+        w159 = Nr3_2 * yE3_1_1 - Nr3_1 * yE3_1_2
+        w161 = Nr3_1 * yE3_1_0 - Nr3_0 * yE3_1_1
+        w162 = Nr3_0 * yE3_1_2 - Nr3_2 * yE3_1_0
         M2_0 = (
-            w159 + w1 * (Nr3_0 - w162 * c2_9 + (yE3_1_1 * w164 - yE3_1_2 * w165) * c3_5)
+            w156 + w1 * (Nr3_0 - w159 * c2_9 + (yE3_1_1 * w161 - yE3_1_2 * w162) * c3_5)
         )
-        w166 = 0.5 * (p1_11_1 + p1_6_2_1)
+        p_2_0 = 1.01 * a_0
+        a_4_0 = gE2_1_0 * p_2_0 + gE2_1_1 * a_1 + gE2_1_2 * p_2_2
+        residual_2_0 = M2_0 - a_4_0
+        w163 = 0.5 * (p1_11_1 + p1_6_2_1)
         M2_1 = (
-            w166 + w1 * (Nr3_1 - w165 * c2_9 + (yE3_1_2 * w162 - yE3_1_0 * w164) * c3_5)
+            w163 + w1 * (Nr3_1 - w162 * c2_9 + (yE3_1_2 * w159 - yE3_1_0 * w161) * c3_5)
         )
-        w167 = 0.5 * (p1_11_2 + p1_6_2_2)
+        a_4_1 = gE2_1_3 * p_2_0 + gE2_1_4 * a_1 + gE2_1_5 * p_2_2
+        residual_2_1 = M2_1 - a_4_1
+        w164 = 0.5 * (p1_11_2 + p1_6_2_2)
         M2_2 = (
-            w167 + w1 * (Nr3_2 - w164 * c2_9 + (yE3_1_0 * w165 - yE3_1_1 * w162) * c3_5)
+            w164 + w1 * (Nr3_2 - w161 * c2_9 + (yE3_1_0 * w162 - yE3_1_1 * w159) * c3_5)
         )
-        Wf2_0 = 0.9900990099009901 * (gE2_1_0 * M2_0 + gE2_1_3 * M2_1 + gE2_1_6 * M2_2)
-        Pf2_1 = gE2_1_1 * M2_0 + gE2_1_4 * M2_1 + gE2_1_7 * M2_2
-        Wf2_2 = 100.0 * (gE2_1_2 * M2_0 + gE2_1_5 * M2_1 + gE2_1_8 * M2_2)
-        M3_0 = w159 + w1 * p1_13_0
-        M3_1 = w166 + w1 * p1_13_1
-        M3_2 = w167 + w1 * p1_13_2
-        Wf3_0 = 0.9900990099009901 * (gE3_1_0 * M3_0 + gE3_1_3 * M3_1 + gE3_1_6 * M3_2)
-        Pf3_1 = gE3_1_1 * M3_0 + gE3_1_4 * M3_1 + gE3_1_7 * M3_2
-        Wf3_2 = 100.0 * (gE3_1_2 * M3_0 + gE3_1_5 * M3_1 + gE3_1_8 * M3_2)
+        a_4_2 = gE2_1_6 * p_2_0 + gE2_1_7 * a_1 + gE2_1_8 * p_2_2
+        residual_2_2 = M2_2 - a_4_2
+        M3_0 = w156 + w1 * p1_13_0
+        p_3_0 = 1.01 * a_3_0
+        a_7_0 = gE3_1_0 * p_3_0 + gE3_1_1 * a_3_1 + gE3_1_2 * p_3_2
+        residual_3_0 = M3_0 - a_7_0
+        M3_1 = w163 + w1 * p1_13_1
+        a_7_1 = gE3_1_3 * p_3_0 + gE3_1_4 * a_3_1 + gE3_1_5 * p_3_2
+        residual_3_1 = M3_1 - a_7_1
+        M3_2 = w164 + w1 * p1_13_2
+        a_7_2 = gE3_1_6 * p_3_0 + gE3_1_7 * a_3_1 + gE3_1_8 * p_3_2
+        residual_3_2 = M3_2 - a_7_2
         M4_0 = 1.5 * p1_6_2_0 - 0.5 * p1_11_0
+        p_4_0 = 1.01 * a_5_0
+        a_9_0 = E4_2_0 * p_4_0 + E4_2_1 * a_5_1 + E4_2_2 * p_4_2
+        residual_4_0 = M4_0 - a_9_0
         M4_1 = 1.5 * p1_6_2_1 - 0.5 * p1_11_1
+        a_9_1 = E4_2_3 * p_4_0 + E4_2_4 * a_5_1 + E4_2_5 * p_4_2
+        residual_4_1 = M4_1 - a_9_1
         M4_2 = 1.5 * p1_6_2_2 - 0.5 * p1_11_2
-        Wf4_0 = 0.9900990099009901 * (E4_2_0 * M4_0 + E4_2_3 * M4_1 + E4_2_6 * M4_2)
-        Pf4_1 = E4_2_1 * M4_0 + E4_2_4 * M4_1 + E4_2_7 * M4_2
-        Wf4_2 = 100.0 * (E4_2_2 * M4_0 + E4_2_5 * M4_1 + E4_2_8 * M4_2)
-        next_xi1_0 = 0.9900990099009901 * (w131 - 0.5 * p1_6_2_0)
-        next_xi1_1 = w157 - 0.5 * p1_6_2_1
-        next_xi1_2 = 100.0 * (w158 - 0.5 * p1_6_2_2)
-        next_xi2_0 = gE2_1_0 * Wf2_0 + gE2_1_1 * Pf2_1 + gE2_1_2 * Wf2_2
-        next_xi2_1 = gE2_1_3 * Wf2_0 + gE2_1_4 * Pf2_1 + gE2_1_5 * Wf2_2
-        next_xi2_2 = gE2_1_6 * Wf2_0 + gE2_1_7 * Pf2_1 + gE2_1_8 * Wf2_2
-        next_xi3_0 = gE3_1_0 * Wf3_0 + gE3_1_1 * Pf3_1 + gE3_1_2 * Wf3_2
-        next_xi3_1 = gE3_1_3 * Wf3_0 + gE3_1_4 * Pf3_1 + gE3_1_5 * Wf3_2
-        next_xi3_2 = gE3_1_6 * Wf3_0 + gE3_1_7 * Pf3_1 + gE3_1_8 * Wf3_2
-        next_xi4_0 = E4_2_0 * Wf4_0 + E4_2_1 * Pf4_1 + E4_2_2 * Wf4_2
-        next_xi4_1 = E4_2_3 * Wf4_0 + E4_2_4 * Pf4_1 + E4_2_5 * Wf4_2
-        next_xi4_2 = E4_2_6 * Wf4_0 + E4_2_7 * Pf4_1 + E4_2_8 * Wf4_2
-        change_xi1_0 = abs(next_xi1_0 - xi1_0)
-        change_xi1_1 = abs(next_xi1_1 - xi1_1)
-        change_xi1_2 = abs(next_xi1_2 - xi1_2)
-        change_xi2_0 = abs(next_xi2_0 - xi2_0)
-        change_xi2_1 = abs(next_xi2_1 - xi2_1)
-        change_xi2_2 = abs(next_xi2_2 - xi2_2)
-        change_xi3_0 = abs(next_xi3_0 - xi3_0)
-        change_xi3_1 = abs(next_xi3_1 - xi3_1)
-        change_xi3_2 = abs(next_xi3_2 - xi3_2)
-        change_xi4_0 = abs(next_xi4_0 - xi4_0)
-        change_xi4_1 = abs(next_xi4_1 - xi4_1)
-        change_xi4_2 = abs(next_xi4_2 - xi4_2)
+        a_9_2 = E4_2_6 * p_4_0 + E4_2_7 * a_5_1 + E4_2_8 * p_4_2
+        residual_4_2 = M4_2 - a_9_2
+        s_p1_0_seen = s_p1_0
+        s_p1_1_seen = s_p1_1
+        s_p1_2_seen = s_p1_2
+        total = (
+            residual_0
+            + residual_1
+            + residual_2
+            + residual_2_0
+            + residual_2_1
+            + residual_2_2
+            + residual_3_0
+            + residual_3_1
+            + residual_3_2
+            + residual_4_0
+            + residual_4_1
+            + residual_4_2
+        )
+        if not isfinite(total):
+            raise _failed(NOT_FINITE, "the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4", 0, sweep, statistics)
+        if make_1:
+            w165 = 0.165 * xi1_2
+            w166 = (
+                0.08333333333333333 * g02 * mu0
+                + 0.08333333333333333 * g12 * mu1
+                + 0.08333333333333333 * g22 * mu2
+            )
+            w167 = 0.165 * xi1_1
+            w168 = (
+                -0.08333333333333333 * g01 * mu0
+                - 0.08333333333333333 * g11 * mu1
+                - 0.08333333333333333 * g21 * mu2
+            )
+            w169 = -0.66 * h
+            w170 = 0.33 * h
+            w171 = xi3_2 * w170
+            w172 = xi3_1 * w170
+            w173 = 0.165 * xi4_2
+            w174 = (
+                -0.08333333333333333 * g02 * mu0
+                - 0.08333333333333333 * g12 * mu1
+                - 0.08333333333333333 * g22 * mu2
+            )
+            w175 = 0.165 * xi4_1
+            w176 = (
+                0.08333333333333333 * g01 * mu0
+                + 0.08333333333333333 * g11 * mu1
+                + 0.08333333333333333 * g21 * mu2
+            )
+            w177 = -0.16666666666666666 * xi1_2
+            w178 = -0.16666666666666666 * xi1_0
+            w179 = (
+                0.08333333333333333 * g00 * mu0
+                + 0.08333333333333333 * g10 * mu1
+                + 0.08333333333333333 * g20 * mu2
+            )
+            w180 = 0.6666666666666666 * h
+            w181 = -0.3333333333333333 * h
+            w182 = xi3_2 * w181
+            w183 = xi3_0 * w181
+            w184 = -0.16666666666666666 * xi4_2
+            w185 = -0.16666666666666666 * xi4_0
+            w186 = (
+                -0.08333333333333333 * g00 * mu0
+                - 0.08333333333333333 * g10 * mu1
+                - 0.08333333333333333 * g20 * mu2
+            )
+            w187 = 0.0016666666666666668 * xi1_1
+            w188 = 0.0016666666666666668 * xi1_0
+            w189 = -0.006666666666666667 * h
+            w190 = 0.0033333333333333335 * h
+            w191 = xi3_1 * w190
+            w192 = xi3_0 * w190
+            w193 = 0.0016666666666666668 * xi4_1
+            w194 = 0.0016666666666666668 * xi4_0
+            w195 = (
+                0.16666666666666666 * g02 * mu0
+                + 0.16666666666666666 * g12 * mu1
+                + 0.16666666666666666 * g22 * mu2
+            )
+            w196 = w165 + w195
+            w197 = (
+                -0.16666666666666666 * g01 * mu0
+                - 0.16666666666666666 * g11 * mu1
+                - 0.16666666666666666 * g21 * mu2
+            )
+            w198 = w167 + w197
+            w199 = 0.33 * xi2_2
+            w200 = -0.005 * xi1_2
+            w201 = 0.33 * xi2_1
+            w202 = 0.5 * xi1_1
+            w203 = 0.165 * h
+            w204 = xi4_2 * w203
+            w205 = xi4_1 * w203
+            w206 = (
+                -0.16666666666666666 * g02 * mu0
+                - 0.16666666666666666 * g12 * mu1
+                - 0.16666666666666666 * g22 * mu2
+            )
+            w207 = w177 + w206
+            w208 = (
+                0.16666666666666666 * g00 * mu0
+                + 0.16666666666666666 * g10 * mu1
+                + 0.16666666666666666 * g20 * mu2
+            )
+            w209 = w178 + w208
+            w210 = -0.3333333333333333 * xi2_2
+            w211 = -0.3333333333333333 * xi2_0
+            w212 = -0.495 * xi1_0
+            w213 = xi4_2 * w116
+            w214 = xi4_0 * w116
+            w215 = (
+                0.16666666666666666 * g01 * mu0
+                + 0.16666666666666666 * g11 * mu1
+                + 0.16666666666666666 * g21 * mu2
+            )
+            w216 = w187 + w215
+            w217 = (
+                -0.16666666666666666 * g00 * mu0
+                - 0.16666666666666666 * g10 * mu1
+                - 0.16666666666666666 * g20 * mu2
+            )
+            w218 = w188 + w217
+            w219 = 0.0033333333333333335 * xi2_1
+            w220 = 0.0033333333333333335 * xi2_0
+            w221 = 0.0016666666666666668 * h
+            w222 = xi4_1 * w221
+            w223 = xi4_0 * w221
+            w224 = 0.33 * xi3_2
+            w225 = -0.005 * xi2_2
+            w226 = 0.33 * xi3_1
+            w227 = 0.5 * xi2_1
+            w228 = -0.33 * h
+            w229 = -0.3333333333333333 * xi3_2
+            w230 = -0.3333333333333333 * xi3_0
+            w231 = -0.495 * xi2_0
+            w232 = 0.0033333333333333335 * xi3_1
+            w233 = 0.0033333333333333335 * xi3_0
+            w234 = -0.0033333333333333335 * h
+            w235 = h * (0.25 * g02 * mu0 + 0.25 * g12 * mu1 + 0.25 * g22 * mu2 + w165)
+            w236 = h * (-0.25 * g01 * mu0 - 0.25 * g11 * mu1 - 0.25 * g21 * mu2 + w167)
+            w237 = (
+                0.3333333333333333 * g02 * mu0
+                + 0.3333333333333333 * g12 * mu1
+                + 0.3333333333333333 * g22 * mu2
+            )
+            w238 = (
+                -0.3333333333333333 * g01 * mu0
+                - 0.3333333333333333 * g11 * mu1
+                - 0.3333333333333333 * g21 * mu2
+            )
+            w239 = -0.01 * xi3_2
+            w240 = h * (-0.25 * g02 * mu0 - 0.25 * g12 * mu1 - 0.25 * g22 * mu2 + w177)
+            w241 = h * (0.25 * g00 * mu0 + 0.25 * g10 * mu1 + 0.25 * g20 * mu2 + w178)
+            w242 = (
+                -0.3333333333333333 * g02 * mu0
+                - 0.3333333333333333 * g12 * mu1
+                - 0.3333333333333333 * g22 * mu2
+            )
+            w243 = (
+                0.3333333333333333 * g00 * mu0
+                + 0.3333333333333333 * g10 * mu1
+                + 0.3333333333333333 * g20 * mu2
+            )
+            w244 = -0.99 * xi3_0
+            w245 = h * (0.25 * g01 * mu0 + 0.25 * g11 * mu1 + 0.25 * g21 * mu2 + w187)
+            w246 = h * (-0.25 * g00 * mu0 - 0.25 * g10 * mu1 - 0.25 * g20 * mu2 + w188)
+            w247 = (
+                0.3333333333333333 * g01 * mu0
+                + 0.3333333333333333 * g11 * mu1
+                + 0.3333333333333333 * g21 * mu2
+            )
+            w248 = (
+                -0.3333333333333333 * g00 * mu0
+                - 0.3333333333333333 * g10 * mu1
+                - 0.3333333333333333 * g20 * mu2
+            )
+            row_1_1 = [
+                1.01,
+                -h * (w165 + w166),
+                -h * (w167 + w168),
+                0.0,
+                -xi2_2 * w169,
+                -xi2_1 * w169,
+                0.0,
+                -w171,
+                -w172,
+                0.0,
+                -h * (w173 + w174),
+                -h * (w175 + w176),
+            ]
+            row_1_2 = [
+                -h * (w174 + w177),
+                1.0,
+                -h * (w178 + w179),
+                -xi2_2 * w180,
+                0.0,
+                -xi2_0 * w180,
+                -w182,
+                0.0,
+                -w183,
+                -h * (w166 + w184),
+                0.0,
+                -h * (w185 + w186),
+            ]
+            row_1_3 = [
+                -h * (w176 + w187),
+                -h * (w186 + w188),
+                0.01,
+                -xi2_1 * w189,
+                -xi2_0 * w189,
+                0.0,
+                -w191,
+                -w192,
+                0.0,
+                -h * (w168 + w193),
+                -h * (w179 + w194),
+                0.0,
+            ]
+            row_1_4 = [
+                0.0,
+                -h * (0.5 * xi2_2 + w196),
+                -h * (w198 - 0.005 * xi2_1),
+                1.01,
+                -h * (w195 + w200 + w199),
+                -h * (w197 + w202 + w201),
+                0.0,
+                -h * (w195 - 0.165 * xi3_2),
+                -h * (w197 - 0.165 * xi3_1),
+                0.0,
+                -w204,
+                -w205,
+            ]
+            row_1_5 = [
+                -h * (w207 - 0.495 * xi2_2),
+                0.0,
+                -h * (w209 - 0.005 * xi2_0),
+                -h * (w200 + w206 + w210),
+                1.0,
+                -h * (w208 + w212 + w211),
+                -h * (0.16666666666666666 * xi3_2 + w206),
+                0.0,
+                -h * (0.16666666666666666 * xi3_0 + w208),
+                -w213,
+                0.0,
+                -w214,
+            ]
+            row_1_6 = [
+                -h * (w216 - 0.495 * xi2_1),
+                -h * (0.5 * xi2_0 + w218),
+                0.0,
+                -h * (w202 + w215 + w219),
+                -h * (w212 + w217 + w220),
+                0.01,
+                -h * (w215 - 0.0016666666666666668 * xi3_1),
+                -h * (w217 - 0.0016666666666666668 * xi3_0),
+                0.0,
+                -w222,
+                -w223,
+                0.0,
+            ]
+            row_1_7 = [
+                0.0,
+                -h * w196,
+                -h * w198,
+                0.0,
+                -h * (w195 + w199 + 0.5 * xi3_2),
+                -h * (w197 + w201 - 0.005 * xi3_1),
+                1.01,
+                -h * (w195 + w225 + w224),
+                -h * (w197 + w227 + w226),
+                0.0,
+                -xi4_2 * w228,
+                -xi4_1 * w228,
+            ]
+            row_1_8 = [
+                -h * w207,
+                0.0,
+                -h * w209,
+                -h * (w206 + w210 - 0.495 * xi3_2),
+                0.0,
+                -h * (w208 + w211 - 0.005 * xi3_0),
+                -h * (w206 + w225 + w229),
+                1.0,
+                -h * (w208 + w231 + w230),
+                -xi4_2 * w113,
+                0.0,
+                -xi4_0 * w113,
+            ]
+            row_1_9 = [
+                -h * w216,
+                -h * w218,
+                0.0,
+                -h * (w215 + w219 - 0.495 * xi3_1),
+                -h * (w217 + w220 + 0.5 * xi3_0),
+                0.0,
+                -h * (w215 + w227 + w232),
+                -h * (w217 + w231 + w233),
+                0.01,
+                -xi4_1 * w234,
+                -xi4_0 * w234,
+                0.0,
+            ]
+            row_1_10 = [
+                0.0,
+                -w235,
+                -w236,
+                0.0,
+                -h * (w199 + w237),
+                -h * (w201 + w238),
+                0.0,
+                -h * (w224 + w237 + xi4_2),
+                -h * (w226 + w238 - 0.01 * xi4_1),
+                1.01,
+                -h * (w166 + w239 + w173),
+                -h * (xi3_1 + w168 + w175),
+            ]
+            row_1_11 = [
+                -w240,
+                0.0,
+                -w241,
+                -h * (w210 + w242),
+                0.0,
+                -h * (w211 + w243),
+                -h * (w229 + w242 - 0.99 * xi4_2),
+                0.0,
+                -h * (w230 + w243 - 0.01 * xi4_0),
+                -h * (w174 + w239 + w184),
+                1.0,
+                -h * (w179 + w244 + w185),
+            ]
+            row_1_12 = [
+                -w245,
+                -w246,
+                0.0,
+                -h * (w219 + w247),
+                -h * (w220 + w248),
+                0.0,
+                -h * (w232 + w247 - 0.99 * xi4_1),
+                -h * (w233 + w248 + xi4_0),
+                0.0,
+                -h * (xi3_1 + w176 + w193),
+                -h * (w186 + w244 + w194),
+                0.01,
+            ]
+            memory.inverses[0] = invert([row_1_1, row_1_2, row_1_3, row_1_4, row_1_5, row_1_6, row_1_7, row_1_8, row_1_9, row_1_10, row_1_11, row_1_12])
+            if statistics is not None:
+                statistics.matrices += 1
+            if memory.inverses[0] is None:
+                raise _failed(NOT_CONVERGED, "the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4", 0, sweep, statistics)
+        (
+            row_1_1,
+            row_1_2,
+            row_1_3,
+            row_1_4,
+            row_1_5,
+            row_1_6,
+            row_1_7,
+            row_1_8,
+            row_1_9,
+            row_1_10,
+            row_1_11,
+            row_1_12,
+        ) = memory.inverses[0]
+        d_xi1_0 = (
+            row_1_1[0] * residual_0
+            + row_1_1[1] * residual_1
+            + row_1_1[2] * residual_2
+            + row_1_1[3] * residual_2_0
+            + row_1_1[4] * residual_2_1
+            + row_1_1[5] * residual_2_2
+            + row_1_1[6] * residual_3_0
+            + row_1_1[7] * residual_3_1
+            + row_1_1[8] * residual_3_2
+            + row_1_1[9] * residual_4_0
+            + row_1_1[10] * residual_4_1
+            + row_1_1[11] * residual_4_2
+        )
+        d_xi1_1 = (
+            row_1_2[0] * residual_0
+            + row_1_2[1] * residual_1
+            + row_1_2[2] * residual_2
+            + row_1_2[3] * residual_2_0
+            + row_1_2[4] * residual_2_1
+            + row_1_2[5] * residual_2_2
+            + row_1_2[6] * residual_3_0
+            + row_1_2[7] * residual_3_1
+            + row_1_2[8] * residual_3_2
+            + row_1_2[9] * residual_4_0
+            + row_1_2[10] * residual_4_1
+            + row_1_2[11] * residual_4_2
+        )
+        d_xi1_2 = (
+            row_1_3[0] * residual_0
+            + row_1_3[1] * residual_1
+            + row_1_3[2] * residual_2
+            + row_1_3[3] * residual_2_0
+            + row_1_3[4] * residual_2_1
+            + row_1_3[5] * residual_2_2
+            + row_1_3[6] * residual_3_0
+            + row_1_3[7] * residual_3_1
+            + row_1_3[8] * residual_3_2
+            + row_1_3[9] * residual_4_0
+            + row_1_3[10] * residual_4_1
+            + row_1_3[11] * residual_4_2
+        )
+        d_xi2_0 = (
+            row_1_4[0] * residual_0
+            + row_1_4[1] * residual_1
+            + row_1_4[2] * residual_2
+            + row_1_4[3] * residual_2_0
+            + row_1_4[4] * residual_2_1
+            + row_1_4[5] * residual_2_2
+            + row_1_4[6] * residual_3_0
+            + row_1_4[7] * residual_3_1
+            + row_1_4[8] * residual_3_2
+            + row_1_4[9] * residual_4_0
+            + row_1_4[10] * residual_4_1
+            + row_1_4[11] * residual_4_2
+        )
+        d_xi2_1 = (
+            row_1_5[0] * residual_0
+            + row_1_5[1] * residual_1
+            + row_1_5[2] * residual_2
+            + row_1_5[3] * residual_2_0
+            + row_1_5[4] * residual_2_1
+            + row_1_5[5] * residual_2_2
+            + row_1_5[6] * residual_3_0
+            + row_1_5[7] * residual_3_1
+            + row_1_5[8] * residual_3_2
+            + row_1_5[9] * residual_4_0
+            + row_1_5[10] * residual_4_1
+            + row_1_5[11] * residual_4_2
+        )
+        d_xi2_2 = (
+            row_1_6[0] * residual_0
+            + row_1_6[1] * residual_1
+            + row_1_6[2] * residual_2
+            + row_1_6[3] * residual_2_0
+            + row_1_6[4] * residual_2_1
+            + row_1_6[5] * residual_2_2
+            + row_1_6[6] * residual_3_0
+            + row_1_6[7] * residual_3_1
+            + row_1_6[8] * residual_3_2
+            + row_1_6[9] * residual_4_0
+            + row_1_6[10] * residual_4_1
+            + row_1_6[11] * residual_4_2
+        )
+        d_xi3_0 = (
+            row_1_7[0] * residual_0
+            + row_1_7[1] * residual_1
+            + row_1_7[2] * residual_2
+            + row_1_7[3] * residual_2_0
+            + row_1_7[4] * residual_2_1
+            + row_1_7[5] * residual_2_2
+            + row_1_7[6] * residual_3_0
+            + row_1_7[7] * residual_3_1
+            + row_1_7[8] * residual_3_2
+            + row_1_7[9] * residual_4_0
+            + row_1_7[10] * residual_4_1
+            + row_1_7[11] * residual_4_2
+        )
+        d_xi3_1 = (
+            row_1_8[0] * residual_0
+            + row_1_8[1] * residual_1
+            + row_1_8[2] * residual_2
+            + row_1_8[3] * residual_2_0
+            + row_1_8[4] * residual_2_1
+            + row_1_8[5] * residual_2_2
+            + row_1_8[6] * residual_3_0
+            + row_1_8[7] * residual_3_1
+            + row_1_8[8] * residual_3_2
+            + row_1_8[9] * residual_4_0
+            + row_1_8[10] * residual_4_1
+            + row_1_8[11] * residual_4_2
+        )
+        d_xi3_2 = (
+            row_1_9[0] * residual_0
+            + row_1_9[1] * residual_1
+            + row_1_9[2] * residual_2
+            + row_1_9[3] * residual_2_0
+            + row_1_9[4] * residual_2_1
+            + row_1_9[5] * residual_2_2
+            + row_1_9[6] * residual_3_0
+            + row_1_9[7] * residual_3_1
+            + row_1_9[8] * residual_3_2
+            + row_1_9[9] * residual_4_0
+            + row_1_9[10] * residual_4_1
+            + row_1_9[11] * residual_4_2
+        )
+        d_xi4_0 = (
+            row_1_10[0] * residual_0
+            + row_1_10[1] * residual_1
+            + row_1_10[2] * residual_2
+            + row_1_10[3] * residual_2_0
+            + row_1_10[4] * residual_2_1
+            + row_1_10[5] * residual_2_2
+            + row_1_10[6] * residual_3_0
+            + row_1_10[7] * residual_3_1
+            + row_1_10[8] * residual_3_2
+            + row_1_10[9] * residual_4_0
+            + row_1_10[10] * residual_4_1
+            + row_1_10[11] * residual_4_2
+        )
+        d_xi4_1 = (
+            row_1_11[0] * residual_0
+            + row_1_11[1] * residual_1
+            + row_1_11[2] * residual_2
+            + row_1_11[3] * residual_2_0
+            + row_1_11[4] * residual_2_1
+            + row_1_11[5] * residual_2_2
+            + row_1_11[6] * residual_3_0
+            + row_1_11[7] * residual_3_1
+            + row_1_11[8] * residual_3_2
+            + row_1_11[9] * residual_4_0
+            + row_1_11[10] * residual_4_1
+            + row_1_11[11] * residual_4_2
+        )
+        d_xi4_2 = (
+            row_1_12[0] * residual_0
+            + row_1_12[1] * residual_1
+            + row_1_12[2] * residual_2
+            + row_1_12[3] * residual_2_0
+            + row_1_12[4] * residual_2_1
+            + row_1_12[5] * residual_2_2
+            + row_1_12[6] * residual_3_0
+            + row_1_12[7] * residual_3_1
+            + row_1_12[8] * residual_3_2
+            + row_1_12[9] * residual_4_0
+            + row_1_12[10] * residual_4_1
+            + row_1_12[11] * residual_4_2
+        )
+        xi1_0 += d_xi1_0
+        xi1_1 += d_xi1_1
+        xi1_2 += d_xi1_2
+        xi2_0 += d_xi2_0
+        xi2_1 += d_xi2_1
+        xi2_2 += d_xi2_2
+        xi3_0 += d_xi3_0
+        xi3_1 += d_xi3_1
+        xi3_2 += d_xi3_2
+        xi4_0 += d_xi4_0
+        xi4_1 += d_xi4_1
+        xi4_2 += d_xi4_2
         change = max(
-            change_xi1_0,
-            change_xi1_1,
-            change_xi1_2,
-            change_xi2_0,
-            change_xi2_1,
-            change_xi2_2,
-            change_xi3_0,
-            change_xi3_1,
-            change_xi3_2,
-            change_xi4_0,
-            change_xi4_1,
-            change_xi4_2,
+            abs(d_xi1_0),
+            abs(d_xi1_1),
+            abs(d_xi1_2),
+            abs(d_xi2_0),
+            abs(d_xi2_1),
+            abs(d_xi2_2),
+            abs(d_xi3_0),
+            abs(d_xi3_1),
+            abs(d_xi3_2),
+            abs(d_xi4_0),
+            abs(d_xi4_1),
+            abs(d_xi4_2),
         )
         scale = max(
             1.0,
@@ -648,85 +1201,130 @@ def _advance(state, h, memory, statistics):
             abs(xi4_1),
             abs(xi4_2),
         )
-        total = (
-            change_xi1_0
-            + change_xi1_1
-            + change_xi1_2
-            + change_xi2_0
-            + change_xi2_1
-            + change_xi2_2
-            + change_xi3_0
-            + change_xi3_1
-            + change_xi3_2
-            + change_xi4_0
-            + change_xi4_1
-            + change_xi4_2
-        )
-        if not isfinite(total):
-            raise _failed(NOT_FINITE, "the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4", 0, sweep, statistics)
         still = 0.0 < previous_1 <= change <= 5.684341886080802e-14 * scale
         if sweep == 1:
             memory.first = max(memory.first, change)
         if previous_1 > 0.0:
             rate_1 = max(change / previous_1, 0.000244140625)
         close = change * rate_1 <= 1.1102230246251565e-16 * scale
-        if still or (close and change <= 3.552713678800501e-15 * scale):
+        if still or (close and change <= 5.684341886080802e-14 * scale):
             memory.rates[0] = rate_1 if sweep > 1 else 2.0 * rate_1
             break
+        make_1 = 0.0 < 0.25 * previous_1 < change
         previous_1 = change
-        xi1_0 = next_xi1_0
-        xi1_1 = next_xi1_1
-        xi1_2 = next_xi1_2
-        xi2_0 = next_xi2_0
-        xi2_1 = next_xi2_1
-        xi2_2 = next_xi2_2
-        xi3_0 = next_xi3_0
-        xi3_1 = next_xi3_1
-        xi3_2 = next_xi3_2
-        xi4_0 = next_xi4_0
-        xi4_1 = next_xi4_1
-        xi4_2 = next_xi4_2
     else:
         raise _failed(NOT_CONVERGED, "the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4", 0, sweep, statistics)
     if statistics is not None:
         statistics.count(0, sweep)
-    xe2_1 = w133 + xi1_1 * w134 + xi4_1 * w132
-    xe2_0 = w135 + xi1_0 * w134 + xi4_0 * w132
-    xe2_2 = w136 + xi1_2 * w134 + xi4_2 * w132
-    w168 = xe2_0 * xe2_0 + xe2_1 * xe2_1 + xe2_2 * xe2_2
-    c1_5, c2_10 = _stumpff_12(w168)
-    w170 = xe2_1 * c2_10
-    w171 = xe2_1 * w170
-    w172 = xe2_2 * c2_10 * xe2_2
-    ge2_0 = 1.0 - (w171 + w172)
-    w173 = xe2_0 * c2_10
-    w174 = xe2_1 * w173
-    w176 = xe2_2 * c1_5
-    ge2_1 = w174 - w176
-    w177 = xe2_1 * c1_5
-    w178 = xe2_2 * w173
-    ge2_2 = w177 + w178
-    e2_0 = ge1_0 * ge2_0 + ge1_3 * ge2_1 + ge1_6 * ge2_2
-    ge2_3 = w174 + w176
-    w179 = xe2_0 * w173
-    ge2_4 = 1.0 - (w172 + w179)
-    w180 = xe2_2 * w170
-    w181 = xe2_0 * c1_5
-    ge2_5 = w180 - w181
-    e2_3 = ge1_0 * ge2_3 + ge1_3 * ge2_4 + ge1_6 * ge2_5
-    ge2_6 = w178 - w177
-    ge2_7 = w180 + w181
-    ge2_8 = 1.0 - (w171 + w179)
-    e2_6 = ge1_0 * ge2_6 + ge1_3 * ge2_7 + ge1_6 * ge2_8
-    e2_1 = ge1_1 * ge2_0 + ge1_4 * ge2_1 + ge1_7 * ge2_2
-    e2_4 = ge1_1 * ge2_3 + ge1_4 * ge2_4 + ge1_7 * ge2_5
-    e2_7 = ge1_1 * ge2_6 + ge1_4 * ge2_7 + ge1_7 * ge2_8
-    e2_2 = ge1_2 * ge2_0 + ge1_5 * ge2_1 + ge1_8 * ge2_2
-    e2_5 = ge1_2 * ge2_3 + ge1_5 * ge2_4 + ge1_8 * ge2_5
-    e2_8 = ge1_2 * ge2_6 + ge1_5 * ge2_7 + ge1_8 * ge2_8
-    change_0 = s_p1_0 * e2_0 + s_p1_1 * e2_1 + s_p1_2 * e2_2 - m_0
-    change_1 = s_p1_0 * e2_3 + s_p1_1 * e2_4 + s_p1_2 * e2_5 - m_1
-    change_2 = s_p1_0 * e2_6 + s_p1_1 * e2_7 + s_p1_2 * e2_8 - m_2
+    w249 = xi2_1 + xi3_1
+    w250 = w60 * w249
+    xe1_1_ = xi1_1 * w131 + w250 + xi4_1 * w133
+    w251 = xi2_0 + xi3_0
+    w252 = w60 * w251
+    xe1_0_ = xi1_0 * w131 + w252 + xi4_0 * w133
+    w253 = xi2_2 + xi3_2
+    w254 = w60 * w253
+    xe1_2_ = xi1_2 * w131 + w254 + xi4_2 * w133
+    w255 = xe1_0_ * xe1_0_ + xe1_1_ * xe1_1_ + xe1_2_ * xe1_2_
+    c1_5, c2_10 = _stumpff_12(w255)
+    w257 = xe1_1_ * c2_10
+    w258 = xe1_1_ * w257
+    w259 = xe1_2_ * c2_10 * xe1_2_
+    ge1_0_ = 1.0 - (w258 + w259)
+    xe2_1 = w250 + xi1_1 * w133 + xi4_1 * w131
+    xe2_0 = w252 + xi1_0 * w133 + xi4_0 * w131
+    xe2_2 = w254 + xi1_2 * w133 + xi4_2 * w131
+    w260 = xe2_0 * xe2_0 + xe2_1 * xe2_1 + xe2_2 * xe2_2
+    c1_6, c2_11 = _stumpff_12(w260)
+    w262 = xe2_1 * c2_11
+    w263 = xe2_1 * w262
+    w264 = xe2_2 * c2_11 * xe2_2
+    ge2_0 = 1.0 - (w263 + w264)
+    w266 = xe1_2_ * c1_5
+    w267 = xe1_0_ * c2_10
+    w268 = xe1_1_ * w267
+    ge1_3_ = w266 + w268
+    w269 = xe2_0 * c2_11
+    w270 = xe2_1 * w269
+    w272 = xe2_2 * c1_6
+    ge2_1 = w270 - w272
+    w273 = xe1_2_ * w267
+    w274 = xe1_1_ * c1_5
+    ge1_6_ = w273 - w274
+    w275 = xe2_1 * c1_6
+    w276 = xe2_2 * w269
+    ge2_2 = w275 + w276
+    e2_0 = ge1_0_ * ge2_0 + ge1_3_ * ge2_1 + ge1_6_ * ge2_2
+    ge2_3 = w270 + w272
+    w277 = xe2_0 * w269
+    ge2_4 = 1.0 - (w264 + w277)
+    w278 = xe2_2 * w262
+    w279 = xe2_0 * c1_6
+    ge2_5 = w278 - w279
+    e2_3 = ge1_0_ * ge2_3 + ge1_3_ * ge2_4 + ge1_6_ * ge2_5
+    ge2_6 = w276 - w275
+    ge2_7 = w278 + w279
+    ge2_8 = 1.0 - (w263 + w277)
+    e2_6 = ge1_0_ * ge2_6 + ge1_3_ * ge2_7 + ge1_6_ * ge2_8
+    ge1_1_ = w268 - w266
+    w280 = xe1_0_ * w267
+    ge1_4_ = 1.0 - (w259 + w280)
+    w281 = xe1_0_ * c1_5
+    w282 = xe1_2_ * w257
+    ge1_7_ = w281 + w282
+    e2_1 = ge2_0 * ge1_1_ + ge2_1 * ge1_4_ + ge2_2 * ge1_7_
+    e2_4 = ge2_3 * ge1_1_ + ge2_4 * ge1_4_ + ge2_5 * ge1_7_
+    e2_7 = ge2_6 * ge1_1_ + ge2_7 * ge1_4_ + ge2_8 * ge1_7_
+    ge1_2_ = w273 + w274
+    ge1_5_ = w282 - w281
+    ge1_8_ = 1.0 - (w258 + w280)
+    e2_2 = ge2_0 * ge1_2_ + ge2_1 * ge1_5_ + ge2_2 * ge1_8_
+    e2_5 = ge2_3 * ge1_2_ + ge2_4 * ge1_5_ + ge2_5 * ge1_8_
+    e2_8 = ge2_6 * ge1_2_ + ge2_7 * ge1_5_ + ge2_8 * ge1_8_
+    w283 = 0.165 * h
+    w284 = 0.33 * h
+    w285 = (
+        s_p1_0_seen
+        + xi1_2 * w283 * d_xi1_1
+        + xi1_1 * w283 * d_xi1_2
+        + xi2_2 * w284 * d_xi2_1
+        + xi2_1 * w284 * d_xi2_2
+    )
+    w286 = xi3_2 * w284
+    w287 = xi3_1 * w284
+    w288 = xi4_2 * w283
+    w289 = xi4_1 * w283
+    w290 = w285 + d_xi3_1 * w286 + d_xi3_2 * w287 + d_xi4_1 * w288 + d_xi4_2 * w289
+    w291 = -0.3333333333333333 * h
+    w292 = (
+        s_p1_1_seen
+        + xi1_2 * w116 * d_xi1_0
+        + xi1_0 * w116 * d_xi1_2
+        + xi2_2 * w291 * d_xi2_0
+        + xi2_0 * w291 * d_xi2_2
+    )
+    w293 = xi3_2 * w291
+    w294 = xi3_0 * w291
+    w295 = xi4_2 * w116
+    w296 = xi4_0 * w116
+    w297 = w292 + d_xi3_0 * w293 + d_xi3_2 * w294 + d_xi4_0 * w295 + d_xi4_2 * w296
+    w298 = 0.0016666666666666668 * h
+    w299 = 0.0033333333333333335 * h
+    w300 = (
+        s_p1_2_seen
+        + xi1_1 * w298 * d_xi1_0
+        + xi1_0 * w298 * d_xi1_1
+        + xi2_1 * w299 * d_xi2_0
+        + xi2_0 * w299 * d_xi2_1
+    )
+    w301 = xi3_1 * w299
+    w302 = xi3_0 * w299
+    w303 = xi4_1 * w298
+    w304 = xi4_0 * w298
+    w305 = w300 + d_xi3_0 * w301 + d_xi3_1 * w302 + d_xi4_0 * w303 + d_xi4_1 * w304
+    change_0 = e2_0 * w290 + e2_1 * w297 + e2_2 * w305 - m_0
+    change_1 = e2_3 * w290 + e2_4 * w297 + e2_5 * w305 - m_1
+    change_2 = e2_6 * w290 + e2_7 * w297 + e2_8 * w305 - m_2
     new_g00 = g00 * e2_0 + g01 * e2_3 + g02 * e2_6
     new_g01 = g00 * e2_1 + g01 * e2_4 + g02 * e2_7
     new_g02 = g00 * e2_2 + g01 * e2_5 + g02 * e2_8

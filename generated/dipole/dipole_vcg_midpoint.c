@@ -5,10 +5,10 @@
  * source:     Table 3.2a of Bogfjellmo and Marthinsen
  * order:      2, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
- * solved by:  the equations of xi1, n1: Newton's method with the matrix to first order in h, 3
- *             unknowns (2.0 sweeps of 285 operations and 1.00 matrices of 68 a step; fixed point:
- *             3.2 sweeps of 270 operations; Newton's method: 2.5 sweeps of 285 operations and 0.05
- *             matrices of 842)
+ * solved by:  the equations of xi1, n1: Newton's method, 3 unknowns (1.9 sweeps of 272 operations
+ *             and 0.05 matrices of 46 a step; fixed point: 3.2 sweeps of 270 operations; Newton's
+ *             method with the matrix to first order in h: 2.0 sweeps of 285 operations and 1.00
+ *             matrices of 68)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
  * left out:   3 Adtinv, 2 mul (zeros)
@@ -26,12 +26,12 @@
  *             1 lin, 2 seriest (factors)
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
- * operations: 54 add, 68 mul, 1 stumpff_12 a step
+ * operations: 62 add, 86 mul, 1 stumpff_12 a step
  *             2 mul a start, in steps that follow no other
- *             17 add, 47 mul, 1 div a matrix of the equations of xi1, n1
- *             75 add, 127 mul, 2 div, 2 sqrt, 1 stumpff_12, 1 stumpff_23, 1 stumpff_3 a sweep of
+ *             11 add, 31 mul, 1 div a matrix of the equations of xi1, n1
+ *             72 add, 117 mul, 2 div, 2 sqrt, 1 stumpff_12, 1 stumpff_23, 1 stumpff_3 a sweep of
  *             the equations of xi1, n1
- * stack:      at most 2624 bytes, without what the mathematical library takes
+ * stack:      at most 2880 bytes, without what the mathematical library takes
  * made by:    orderconds emit dipole --method vcg:midpoint --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -131,7 +131,7 @@ static inline double stumpff_series_1(double z)
 }
 
 /* For z > 1/16 and s = sqrt(z): c_3 = (s - sin(s))/s^3 */
-static double stumpff_3_far(double z)
+static inline double stumpff_3_far(double z)
 {
     if (z <= 4.0) {
         return stumpff_series_3(z);
@@ -147,7 +147,7 @@ static inline double stumpff_3(double z)
 }
 
 /* For z > 1/16 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
-static void stumpff_23_far(double z, double *c2, double *c3)
+static inline void stumpff_23_far(double z, double *c2, double *c3)
 {
     if (z <= 1.0) {
         *c2 = stumpff_series_2(z);
@@ -174,7 +174,7 @@ static inline void stumpff_23(double z, double *c2, double *c3)
 }
 
 /* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
-static void stumpff_12_far(double z, double *c1, double *c2)
+static inline void stumpff_12_far(double z, double *c1, double *c2)
 {
     if (z <= 1.0) {
         *c1 = stumpff_series_1(z);
@@ -219,35 +219,72 @@ static void count_sweeps(dipole_vcg_midpoint_statistics *statistics, size_t bloc
     }
 }
 
-/* What one step of a run leaves for the next: solutions of its equations, the latest first. */
+static void count_matrix(dipole_vcg_midpoint_statistics *statistics)
+{
+    if (statistics != NULL) {
+        statistics->matrices++;
+    }
+}
+
+/* What one step of a run leaves for the next: solutions of its equations, the latest first, and inverses of Newton's matrices. */
 struct memory {
     size_t known;
-    double first;
-    double past[9][3];
+    double first; /* by how much the guess was off */
+    size_t degree;
+    double guess[3];
+    double differences[3][14];
     double rate_1;
+    int made_1;
+    double inverse_1[9];
 };
 
-/* Factors of the last solutions, by how many are known, in the value of their polynomial a step later. */
-static const double weights[9][9] = {
-    {1.0},
-    {2.0, -1.0},
-    {3.0, -3.0, 1.0},
-    {4.0, -6.0, 4.0, -1.0},
-    {5.0, -10.0, 10.0, -5.0, 1.0},
-    {6.0, -15.0, 20.0, -15.0, 6.0, -1.0},
-    {7.0, -21.0, 35.0, -35.0, 21.0, -7.0, 1.0},
-    {8.0, -28.0, 56.0, -70.0, 56.0, -28.0, 8.0, -1.0},
-    {9.0, -36.0, 84.0, -126.0, 126.0, -84.0, 36.0, -9.0, 1.0}
-};
-
-static inline double extrapolated(const struct memory *memory, size_t i)
+/* The size of a backward difference. */
+static inline double size_of(const struct memory *memory, size_t k)
 {
-    const double *const weight = weights[memory->known - 1];
-    double total = weight[0] * memory->past[0][i];
-    for (size_t k = 1; k < memory->known; k++) {
-        total += weight[k] * memory->past[k][i];
+    double size = 0.0;
+    for (size_t i = 0; i < 3; i++) {
+        size += fabs(memory->differences[i][k]);
     }
-    return total;
+    return size;
+}
+
+/* Take up a solution and guess the next: the polynomial through the last ones, continued by a step. */
+static inline void remember(struct memory *memory, const double solution[static 3])
+{
+    if (memory->known > 1) {
+        double moved = 0.0;
+        for (size_t i = 0; i < 3; i++) {
+            moved += fabs(solution[i] - memory->differences[i][0]);
+        }
+        if (memory->first > 0.5 * moved) {
+            memory->known = memory->degree = 0;
+        }
+    }
+    memory->first = 0.0;
+    const size_t last = memory->known < 14 ? memory->known : 13, k = memory->degree;
+    for (size_t i = 0; i < 3; i++) {
+        double *const differences = memory->differences[i];
+        double d = solution[i], sum = 0.0;
+        for (size_t j = 0; j <= k; j++) {
+            const double before = differences[j];
+            differences[j] = d;
+            sum += d;
+            d -= before;
+        }
+        for (size_t j = k + 1; j <= last; j++) {
+            const double before = differences[j];
+            differences[j] = d;
+            d -= before;
+        }
+        memory->guess[i] = sum;
+    }
+    memory->known = last + 1;
+    /* the degree of the next guess grows while the differences fall */
+    if (k + 1 < memory->known && size_of(memory, k + 1) < size_of(memory, k)) {
+        memory->degree = k + 1;
+    } else if (k > 0 && size_of(memory, k) > size_of(memory, k - 1)) {
+        memory->degree = k - 1;
+    }
 }
 
 static inline int advance(double state[static 12], double h, struct memory *memory,
@@ -273,144 +310,132 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double m_2 = g02 * mu0 + g12 * mu1 + g22 * mu2;
     double xi1_0, xi1_1, xi1_2;
     if (memory->known > 0) {
-        xi1_0 = extrapolated(memory, 0);
-        xi1_1 = extrapolated(memory, 1);
-        xi1_2 = extrapolated(memory, 2);
+        xi1_0 = memory->guess[0];
+        xi1_1 = memory->guess[1];
+        xi1_2 = memory->guess[2];
     } else {
-        const double Wxi0_0 = 0.9900990099009901 * m_0;
-        const double Wxi0_2 = 100.0 * m_2;
-        xi1_0 = Wxi0_0;
+        xi1_0 = 0.9900990099009901 * m_0;
         xi1_1 = m_1;
-        xi1_2 = Wxi0_2;
+        xi1_2 = 100.0 * m_2;
     }
-    const double w20 = 0.5 * h;
-    const double w49 = -0.5 * h;
-    /* the equations of xi1, n1: Newton's method with the matrix to first order in h in xi1_0, xi1_1, xi1_2 */
-    double s_mu_0, xe1_0, xe1_1, xe1_2, w43, s_mu_2, s_mu_1;
+    const double w1 = 0.5 * h;
+    const double w27 = -0.5 * h;
+    /* the equations of xi1, n1: Newton's method in xi1_0, xi1_1, xi1_2 */
+    double s_mu_0_seen, s_mu_1_seen, s_mu_2_seen, d_xi1_0, d_xi1_1, d_xi1_2;
     double previous_1 = 0.0;
     double rate_1 = memory->known > 0 ? memory->rate_1 : 1.0;
-    const double Wxi0_0_ = 0.9900990099009901 * m_0;
-    const double w1 = h * Wxi0_0_;
-    const double w2 = 0.01 * xi1_0;
-    const double w3 = 50.0 * h;
-    const double w4 = w2 * w3 - 0.5 * w1;
-    const double w5 = 0.5 * h;
-    const double w6 = -100.0 * xi1_0;
-    const double w7 = 0.5 * w1 + 0.01 * (w5 * w6);
-    const double w8 = 1.0 - w4 * w7;
-    const double Wxi0_2_ = 100.0 * m_2;
-    const double w9 = h * Wxi0_2_;
-    const double w10 = 0.49504950495049505 * h;
-    const double w11 = 0.5 * w9 + 0.99 * xi1_2 * w10;
-    const double w12 = h * m_1;
-    const double w13 = 0.5 * w12 + 0.01 * xi1_1 * w3;
-    const double xE1_1_2 = xi1_2 * w5;
-    const double w14 = xE1_1_2 + 0.5 * w9;
-    const double w15 = w7 * w13 - w14;
-    const double w16 = 99.0 * xi1_1;
-    const double w17 = 0.01 * (w10 * w16) - 0.5 * w12;
-    const double w18 = w13 - w4 * w14;
-    const double w19 = 1.0 / (w8 - w11 * w15 - w17 * w18);
-    const double inverse_1_0 = w8 * w19;
-    const double inverse_1_1 = w19 * (w11 + w4 * w17);
-    const double inverse_1_2 = w19 * (w17 + w7 * w11);
-    const double inverse_1_3 = w15 * w19;
-    const double inverse_1_4 = w19 * (1.0 - w13 * w17);
-    const double inverse_1_5 = w19 * (w7 - w14 * w17);
-    const double inverse_1_6 = w18 * w19;
-    const double inverse_1_7 = w19 * (w4 + w11 * w13);
-    const double inverse_1_8 = w19 * (1.0 + w11 * w14);
+    int make_1 = !memory->made_1;
     for (size_t sweep = 1;; sweep++) {
-        const double xE1_1_1 = xi1_1 * w20;
-        const double xE1_1_0 = xi1_0 * w20;
-        const double xE1_1_2_ = xi1_2 * w20;
-        const double w21 = xE1_1_0 * xE1_1_0 + xE1_1_1 * xE1_1_1 + xE1_1_2_ * xE1_1_2_;
-        double c1_1, c2_1;
-        stumpff_12(w21, &c1_1, &c2_1);
-        const double w23 = xE1_1_1 * c2_1;
-        const double w24 = xE1_1_1 * w23;
-        const double w25 = xE1_1_2_ * c2_1 * xE1_1_2_;
-        const double gE1_1_0 = 1.0 - (w24 + w25);
         const double p_2 = 0.01 * xi1_2;
-        const double w26 = 99.0 * xi1_1;
-        const double w27 = xE1_1_0 * c2_1;
-        const double w28 = xE1_1_1 * w27;
-        const double w30 = xE1_1_2_ * c1_1;
-        const double gE1_1_1 = w28 - w30;
-        const double w31 = xE1_1_0 * w27;
-        const double gE1_1_4 = 1.0 - (w25 + w31);
-        const double w32 = xE1_1_0 * c1_1;
-        const double w33 = xE1_1_2_ * w23;
-        const double gE1_1_7 = w32 + w33;
+        const double xE1_1_1 = xi1_1 * w1;
+        const double xE1_1_0 = xi1_0 * w1;
+        const double xE1_1_2 = xi1_2 * w1;
+        const double w2 = xE1_1_0 * xE1_1_0 + xE1_1_1 * xE1_1_1 + xE1_1_2 * xE1_1_2;
+        double c1_1, c2_1;
+        stumpff_12(w2, &c1_1, &c2_1);
+        const double w4 = xE1_1_0 * c2_1;
+        const double w5 = xE1_1_1 * w4;
+        const double w7 = xE1_1_2 * c1_1;
+        const double gE1_1_1 = w5 - w7;
+        const double w8 = xE1_1_0 * w4;
+        const double w9 = xE1_1_2 * c2_1 * xE1_1_2;
+        const double gE1_1_4 = 1.0 - (w8 + w9);
+        const double w10 = xE1_1_0 * c1_1;
+        const double w11 = xE1_1_1 * c2_1;
+        const double w12 = xE1_1_2 * w11;
+        const double gE1_1_7 = w10 + w12;
         const double Q1_7 = g20 * gE1_1_1 + g21 * gE1_1_4 + g22 * gE1_1_7;
-        const double w34 = xE1_1_1 * c1_1;
-        const double w35 = xE1_1_2_ * w27;
-        const double gE1_1_2 = w34 + w35;
-        const double gE1_1_5 = w33 - w32;
-        const double gE1_1_8 = 1.0 - (w24 + w31);
+        const double w13 = xE1_1_1 * c1_1;
+        const double w14 = xE1_1_2 * w4;
+        const double gE1_1_2 = w13 + w14;
+        const double gE1_1_5 = w12 - w10;
+        const double w15 = xE1_1_1 * w11;
+        const double gE1_1_8 = 1.0 - (w8 + w15);
         const double Q1_8 = g20 * gE1_1_2 + g21 * gE1_1_5 + g22 * gE1_1_8;
-        const double w36 = 1.5 - 2.0 * Q1_8;
-        const double w37 = 1.0 / sqrt(1.01 + 1.5 * (w36 - 0.2 * Q1_7));
-        const double w38 = w37 * w37 * (0.5 * w37);
-        const double w39 = 1.0 / sqrt(1.01 + 1.5 * (w36 + 0.2 * Q1_7));
-        const double w40 = w39 * w39 * (0.5 * w39);
-        const double w41 = -1.0 - 2.0 * (1.5 * w38 - 1.5 * w40);
-        const double w42 = -0.3 * w38 - 0.3 * w40;
-        const double Nr1_0 = Q1_7 * w41 - Q1_8 * w42 + p_2 * w26;
-        s_mu_0 = m_0 + h * Nr1_0;
-        xe1_0 = h * xi1_0;
-        xe1_1 = h * xi1_1;
-        xe1_2 = h * xi1_2;
-        w43 = xe1_0 * xe1_0 + xe1_1 * xe1_1 + xe1_2 * xe1_2;
-        const double c3_1 = stumpff_3(0.25 * w43);
-        const double w44 = 0.25 * c3_1;
-        const double w45 = 0.01 * xi1_0;
-        const double gE1_1_3 = w28 + w30;
-        const double gE1_1_6 = w35 - w34;
+        const double w16 = 1.5 - 2.0 * Q1_8;
+        const double w17 = 1.0 / sqrt(1.01 + 1.5 * (w16 - 0.2 * Q1_7));
+        const double w18 = w17 * w17 * (0.5 * w17);
+        const double w19 = 1.0 / sqrt(1.01 + 1.5 * (w16 + 0.2 * Q1_7));
+        const double w20 = w19 * w19 * (0.5 * w19);
+        const double w21 = -1.0 - 2.0 * (1.5 * w18 - 1.5 * w20);
+        const double w22 = -0.3 * w18 - 0.3 * w20;
+        const double Nr1_0 = Q1_7 * w21 - Q1_8 * w22 + 99.0 * xi1_1 * p_2;
+        const double s_mu_0 = m_0 + h * Nr1_0;
+        const double xe1_0 = h * xi1_0;
+        const double xe1_1 = h * xi1_1;
+        const double xe1_2 = h * xi1_2;
+        const double w23 = xe1_0 * xe1_0 + xe1_1 * xe1_1 + xe1_2 * xe1_2;
+        const double c3_1 = stumpff_3(0.25 * w23);
+        const double w24 = 0.25 * c3_1;
+        const double gE1_1_0 = 1.0 - (w9 + w15);
+        const double gE1_1_3 = w5 + w7;
+        const double gE1_1_6 = w14 - w13;
         const double Q1_6 = g20 * gE1_1_0 + g21 * gE1_1_3 + g22 * gE1_1_6;
-        const double Nr1_2 = xi1_1 * w45 + w42 * Q1_6;
-        s_mu_2 = m_2 + h * Nr1_2;
-        const double w46 = xe1_0 * s_mu_2 - s_mu_0 * xe1_2;
-        const double w47 = -100.0 * xi1_0;
-        const double Nr1_1 = p_2 * w47 - w41 * Q1_6;
-        s_mu_1 = m_1 + h * Nr1_1;
-        const double w48 = s_mu_0 * xe1_1 - xe1_0 * s_mu_1;
-        const double y1_2_0 = xi1_0 * w49;
-        const double y1_2_1 = xi1_1 * w49;
-        const double y1_2_2 = xi1_2 * w49;
-        const double w50 = y1_2_0 * y1_2_0 + y1_2_1 * y1_2_1 + y1_2_2 * y1_2_2;
+        const double Nr1_2 = 0.01 * xi1_0 * xi1_1 + w22 * Q1_6;
+        const double s_mu_2 = m_2 + h * Nr1_2;
+        const double w25 = xe1_0 * s_mu_2 - s_mu_0 * xe1_2;
+        const double Nr1_1 = -100.0 * xi1_0 * p_2 - w21 * Q1_6;
+        const double s_mu_1 = m_1 + h * Nr1_1;
+        const double w26 = s_mu_0 * xe1_1 - xe1_0 * s_mu_1;
+        const double s_mu_2_0 = s_mu_0 + w24 * (xe1_2 * w25 - xe1_1 * w26);
+        const double y1_2_0 = xi1_0 * w27;
+        const double y1_2_1 = xi1_1 * w27;
+        const double y1_2_2 = xi1_2 * w27;
+        const double w28 = y1_2_0 * y1_2_0 + y1_2_1 * y1_2_1 + y1_2_2 * y1_2_2;
         double c2_2, c3_2;
-        stumpff_23(w50, &c2_2, &c3_2);
-        const double w52 = Nr1_2 * y1_2_1 - Nr1_1 * y1_2_2;
-        const double w54 = Nr1_1 * y1_2_0 - Nr1_0 * y1_2_1;
-        const double w55 = Nr1_0 * y1_2_2 - Nr1_2 * y1_2_0;
-        const double M1_2_0 = s_mu_0 + w44 * (xe1_2 * w46 - xe1_1 * w48)
-            + w49 * (Nr1_0 + w52 * c2_2 + (y1_2_1 * w54 - y1_2_2 * w55) * c3_2);
-        const double Wf1_0 = 0.9900990099009901 * M1_2_0;
-        const double w56 = xe1_2 * s_mu_1 - xe1_1 * s_mu_2;
-        const double M1_2_1 = s_mu_1 + w44 * (xe1_0 * w48 - xe1_2 * w56)
-            + w49 * (Nr1_1 + w55 * c2_2 + (y1_2_2 * w52 - y1_2_0 * w54) * c3_2);
-        const double M1_2_2 = s_mu_2 + w44 * (xe1_1 * w56 - xe1_0 * w46)
-            + w49 * (Nr1_2 + w54 * c2_2 + (y1_2_0 * w55 - y1_2_1 * w52) * c3_2);
-        const double Wf1_2 = 100.0 * M1_2_2;
-        const double next_xi1_0 = gE1_1_0 * Wf1_0 + gE1_1_1 * M1_2_1 + gE1_1_2 * Wf1_2;
-        const double next_xi1_1 = gE1_1_3 * Wf1_0 + gE1_1_4 * M1_2_1 + gE1_1_5 * Wf1_2;
-        const double next_xi1_2 = gE1_1_6 * Wf1_0 + gE1_1_7 * M1_2_1 + gE1_1_8 * Wf1_2;
-        const double residual_xi1_0 = next_xi1_0 - xi1_0;
-        const double residual_xi1_1 = next_xi1_1 - xi1_1;
-        const double residual_xi1_2 = next_xi1_2 - xi1_2;
-        if (!isfinite(residual_xi1_0 + residual_xi1_1 + residual_xi1_2)) {
+        stumpff_23(w28, &c2_2, &c3_2);
+        const double w30 = Nr1_2 * y1_2_1 - Nr1_1 * y1_2_2;
+        const double w32 = Nr1_1 * y1_2_0 - Nr1_0 * y1_2_1;
+        const double w33 = Nr1_0 * y1_2_2 - Nr1_2 * y1_2_0;
+        const double M1_2_0 = s_mu_2_0
+            + w27 * (Nr1_0 + w30 * c2_2 + (y1_2_1 * w32 - y1_2_2 * w33) * c3_2);
+        const double residual_0 = M1_2_0 - 1.01 * xi1_0;
+        const double w34 = xe1_2 * s_mu_1 - xe1_1 * s_mu_2;
+        const double s_mu_2_1 = s_mu_1 + w24 * (xe1_0 * w26 - xe1_2 * w34);
+        const double M1_2_1 = s_mu_2_1
+            + w27 * (Nr1_1 + w33 * c2_2 + (y1_2_2 * w30 - y1_2_0 * w32) * c3_2);
+        const double residual_1 = M1_2_1 - xi1_1;
+        const double s_mu_2_2 = s_mu_2 + w24 * (xe1_1 * w34 - xe1_0 * w25);
+        const double M1_2_2 = s_mu_2_2
+            + w27 * (Nr1_2 + w32 * c2_2 + (y1_2_0 * w33 - y1_2_1 * w30) * c3_2);
+        const double residual_2 = M1_2_2 - p_2;
+        s_mu_0_seen = s_mu_0;
+        s_mu_1_seen = s_mu_1;
+        s_mu_2_seen = s_mu_2;
+        if (!isfinite(residual_0 + residual_1 + residual_2)) {
             count_sweeps(statistics, 0, sweep, 1);
             return DIPOLE_VCG_MIDPOINT_NOT_FINITE;
         }
-        const double change_xi1_0 = inverse_1_0 * residual_xi1_0 + inverse_1_1 * residual_xi1_1
-            + inverse_1_2 * residual_xi1_2;
-        const double change_xi1_1 = inverse_1_3 * residual_xi1_0 + inverse_1_4 * residual_xi1_1
-            + inverse_1_5 * residual_xi1_2;
-        const double change_xi1_2 = inverse_1_6 * residual_xi1_0 + inverse_1_7 * residual_xi1_1
-            + inverse_1_8 * residual_xi1_2;
-        const double change = greater(fabs(change_xi1_0), greater(fabs(change_xi1_1),
-            fabs(change_xi1_2)));
+        if (make_1) {
+            const double w35 = 0.005 * h;
+            const double w36 = xi1_0 * w35;
+            const double w37 = 0.01 - y1_2_0 * w36;
+            const double w38 = 0.495 * h;
+            const double w39 = xi1_2 * w38;
+            const double w40 = xi1_1 * w35;
+            const double w41 = y1_2_0 * w40 + 0.01 * y1_2_2;
+            const double w42 = xi1_1 * w38;
+            const double w43 = w40 + y1_2_2 * w36;
+            const double w44 = 1.0 / (1.01 * w37 - w39 * w41 - w42 * w43);
+            memory->inverse_1[0] = w37 * w44;
+            memory->inverse_1[1] = w44 * (w36 * w42 + 0.01 * w39);
+            memory->inverse_1[2] = w44 * (w42 + y1_2_0 * w39);
+            memory->inverse_1[3] = w41 * w44;
+            memory->inverse_1[4] = w44 * (0.0101 - w40 * w42);
+            memory->inverse_1[5] = w44 * (y1_2_2 * w42 + 1.01 * y1_2_0);
+            memory->inverse_1[6] = w43 * w44;
+            memory->inverse_1[7] = w44 * (w39 * w40 + 1.01 * w36);
+            memory->inverse_1[8] = w44 * (1.01 - y1_2_2 * w39);
+            memory->made_1 = 1;
+            count_matrix(statistics);
+        }
+        d_xi1_0 = memory->inverse_1[0] * residual_0 + memory->inverse_1[1] * residual_1
+            + memory->inverse_1[2] * residual_2;
+        d_xi1_1 = memory->inverse_1[3] * residual_0 + memory->inverse_1[4] * residual_1
+            + memory->inverse_1[5] * residual_2;
+        d_xi1_2 = memory->inverse_1[6] * residual_0 + memory->inverse_1[7] * residual_1
+            + memory->inverse_1[8] * residual_2;
+        const double change = greater(fabs(d_xi1_0), greater(fabs(d_xi1_1), fabs(d_xi1_2)));
         const double scale = greater(greater(1.0, fabs(xi1_0)), greater(fabs(xi1_1), fabs(xi1_2)));
         const int still = previous_1 > 0.0 && change >= previous_1;
         if (sweep == 1) {
@@ -421,9 +446,9 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         }
         const int close = change <= 5.684341886080802e-14 * scale
             && change * rate_1 <= 1.1102230246251565e-16 * scale;
-        xi1_0 += change_xi1_0;
-        xi1_1 += change_xi1_1;
-        xi1_2 += change_xi1_2;
+        xi1_0 += d_xi1_0;
+        xi1_1 += d_xi1_1;
+        xi1_2 += d_xi1_2;
         if (close || (still && change <= 5.684341886080802e-14 * scale)) {
             count_sweeps(statistics, 0, sweep, 0);
             memory->rate_1 = sweep > 1 ? rate_1 : 2.0 * rate_1;
@@ -433,33 +458,43 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             count_sweeps(statistics, 0, sweep, 1);
             return DIPOLE_VCG_MIDPOINT_NOT_CONVERGED;
         }
+        make_1 = 0;
         previous_1 = change;
     }
+    const double xe1_1_ = h * xi1_1;
+    const double xe1_0_ = h * xi1_0;
+    const double xe1_2_ = h * xi1_2;
+    const double w45 = xe1_0_ * xe1_0_ + xe1_1_ * xe1_1_ + xe1_2_ * xe1_2_;
     double c1_2, c2_3;
-    stumpff_12(w43, &c1_2, &c2_3);
-    const double w58 = xe1_1 * c2_3;
-    const double w59 = xe1_1 * w58;
-    const double w60 = xe1_2 * c2_3 * xe1_2;
-    const double ge1_0 = 1.0 - (w59 + w60);
-    const double w62 = xe1_2 * c1_2;
-    const double w63 = xe1_0 * c2_3;
-    const double w64 = xe1_1 * w63;
-    const double ge1_3 = w62 + w64;
-    const double w65 = xe1_2 * w63;
-    const double w66 = xe1_1 * c1_2;
-    const double ge1_6 = w65 - w66;
-    const double ge1_1 = w64 - w62;
-    const double w67 = xe1_0 * w63;
-    const double ge1_4 = 1.0 - (w60 + w67);
-    const double w68 = xe1_0 * c1_2;
-    const double w69 = xe1_2 * w58;
-    const double ge1_7 = w68 + w69;
-    const double ge1_2 = w65 + w66;
-    const double ge1_5 = w69 - w68;
-    const double ge1_8 = 1.0 - (w59 + w67);
-    const double change_0 = s_mu_0 * ge1_0 + s_mu_1 * ge1_1 + s_mu_2 * ge1_2 - m_0;
-    const double change_1 = s_mu_0 * ge1_3 + s_mu_1 * ge1_4 + s_mu_2 * ge1_5 - m_1;
-    const double change_2 = s_mu_0 * ge1_6 + s_mu_1 * ge1_7 + s_mu_2 * ge1_8 - m_2;
+    stumpff_12(w45, &c1_2, &c2_3);
+    const double w47 = xe1_1_ * c2_3;
+    const double w48 = xe1_1_ * w47;
+    const double w49 = xe1_2_ * c2_3 * xe1_2_;
+    const double ge1_0 = 1.0 - (w48 + w49);
+    const double w51 = xe1_2_ * c1_2;
+    const double w52 = xe1_0_ * c2_3;
+    const double w53 = xe1_1_ * w52;
+    const double ge1_3 = w51 + w53;
+    const double w54 = xe1_2_ * w52;
+    const double w55 = xe1_1_ * c1_2;
+    const double ge1_6 = w54 - w55;
+    const double ge1_1 = w53 - w51;
+    const double w56 = xe1_0_ * w52;
+    const double ge1_4 = 1.0 - (w49 + w56);
+    const double w57 = xe1_0_ * c1_2;
+    const double w58 = xe1_2_ * w47;
+    const double ge1_7 = w57 + w58;
+    const double ge1_2 = w54 + w55;
+    const double ge1_5 = w58 - w57;
+    const double ge1_8 = 1.0 - (w48 + w56);
+    const double w59 = 0.99 * h;
+    const double w60 = s_mu_0_seen + xi1_2 * w59 * d_xi1_1 + xi1_1 * w59 * d_xi1_2;
+    const double w61 = s_mu_1_seen - d_xi1_0 * xe1_2_ - d_xi1_2 * xe1_0_;
+    const double w62 = 0.01 * h;
+    const double w63 = s_mu_2_seen + xi1_1 * w62 * d_xi1_0 + xi1_0 * w62 * d_xi1_1;
+    const double change_0 = ge1_0 * w60 + ge1_1 * w61 + ge1_2 * w63 - m_0;
+    const double change_1 = ge1_3 * w60 + ge1_4 * w61 + ge1_5 * w63 - m_1;
+    const double change_2 = ge1_6 * w60 + ge1_7 * w61 + ge1_8 * w63 - m_2;
     const double new_g00 = g00 * ge1_0 + g01 * ge1_3 + g02 * ge1_6;
     const double new_g01 = g00 * ge1_1 + g01 * ge1_4 + g02 * ge1_7;
     const double new_g02 = g00 * ge1_2 + g01 * ge1_5 + g02 * ge1_8;
@@ -477,18 +512,9 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         && isfinite(new_g22) && isfinite(new_mu0) && isfinite(new_mu1) && isfinite(new_mu2))) {
         return DIPOLE_VCG_MIDPOINT_NOT_FINITE;
     }
-    const double moved = greater(fabs(xi1_0 - memory->past[0][0]),
-        greater(fabs(xi1_1 - memory->past[0][1]), fabs(xi1_2 - memory->past[0][2])));
-    memmove(memory->past[1], memory->past[0], 8 * sizeof memory->past[0]);
-    memory->past[0][0] = xi1_0;
-    memory->past[0][1] = xi1_1;
-    memory->past[0][2] = xi1_2;
-    if (memory->known > 1 && memory->first > 0.5 * moved) {
-        memory->known = 1;
-    } else if (memory->known < 9) {
-        memory->known++;
-    }
-    memory->first = 0.0;
+    const double solution[3] = {xi1_0, xi1_1, xi1_2};
+    remember(memory, solution);
+    memory->made_1 = 0;
     state[0] = new_g00;
     state[1] = new_g01;
     state[2] = new_g02;

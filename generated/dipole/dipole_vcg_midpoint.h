@@ -20,6 +20,7 @@ typedef struct {
     size_t sweeps[1]; /* by block: the equations of xi1, n1 */
     size_t most; /* the most that one block took in one step */
     size_t failed; /* 1 + the block that failed, 0 if none has */
+    size_t matrices; /* how often a matrix of Newton's method was made */
 } dipole_vcg_midpoint_statistics;
 
 /* Make one step of size h. When the status is not DIPOLE_VCG_MIDPOINT_OK, the state is as it was. */

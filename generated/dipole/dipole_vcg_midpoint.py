@@ -5,10 +5,10 @@ source:     Table 3.2a of Bogfjellmo and Marthinsen
 order:      2, certificate: exact (every order condition up to it is zero in exact
             arithmetic)
 scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
-solved by:  the equations of xi1, n1: Newton's method with the matrix to first order
-            in h, 3 unknowns (2.0 sweeps of 285 operations and 1.00 matrices of 68 a
-            step; fixed point: 3.2 sweeps of 270 operations; Newton's method: 2.5
-            sweeps of 285 operations and 0.05 matrices of 842)
+solved by:  the equations of xi1, n1: Newton's method, 3 unknowns (1.9 sweeps of 272
+            operations and 0.05 matrices of 46 a step; fixed point: 3.2 sweeps of
+            270 operations; Newton's method with the matrix to first order in h: 2.0
+            sweeps of 285 operations and 1.00 matrices of 68)
 state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
 left out:   3 Adtinv, 2 mul (zeros)
@@ -26,10 +26,10 @@ left out:   3 Adtinv, 2 mul (zeros)
             1 lin, 2 seriest (factors)
             parameters, folded: beta = 1, depth = 3/2
             the time: the scene does not depend on it
-operations: 54 add, 68 mul, 1 stumpff_12 a step
+operations: 62 add, 86 mul, 1 stumpff_12 a step
             2 mul a start, in steps that follow no other
-            17 add, 47 mul, 1 div a matrix of the equations of xi1, n1
-            75 add, 127 mul, 2 div, 2 sqrt, 1 stumpff_12, 1 stumpff_23, 1 stumpff_3
+            11 add, 31 mul, 1 div a matrix of the equations of xi1, n1
+            72 add, 117 mul, 2 div, 2 sqrt, 1 stumpff_12, 1 stumpff_23, 1 stumpff_3
             a sweep of the equations of xi1, n1
 made by:    orderconds emit dipole --method vcg:midpoint --target python -o .
 version:    orderconds 0.1.0
@@ -69,7 +69,8 @@ class Statistics:
     """Sweeps over the equations, added up over all steps that are given this object.
 
     sweeps: by block; most: the most that one block took in one step; failed: 1 + the
-    block that failed, 0 if none has.
+    block that failed, 0 if none has; matrices: how often a matrix of Newton's method
+    was made.
     """
 
     labels = [
@@ -78,6 +79,7 @@ class Statistics:
 
     def __init__(self):
         self.sweeps, self.most, self.failed = [0] * 1, 0, 0
+        self.matrices = 0
 
     def count(self, block, sweeps):
         """Add the sweeps of one block in one step."""
@@ -97,13 +99,15 @@ def _failed(status, label, block, sweep, statistics):
 class _Memory:
     """What one step of a run leaves for the next.
 
-    past: solutions of its equations, the latest first.
+    past: solutions of its equations, the latest first; inverses: of Newton's matrices, by
+    block.
     """
 
     def __init__(self):
         self.past = []
         self.first = 0.0
         self.rates = [1.0] * 1
+        self.inverses = [None] * 1
 
     def keep(self, found):
         """Add a solution; alone where the one before it was expected too far off."""
@@ -257,161 +261,139 @@ def _advance(state, h, memory, statistics):
     if memory.past:
         xi1_0, xi1_1, xi1_2 = memory.extrapolated()
     else:
-        Wxi0_0 = 0.9900990099009901 * m_0
-        Wxi0_2 = 100.0 * m_2
-        xi1_0 = Wxi0_0
+        xi1_0 = 0.9900990099009901 * m_0
         xi1_1 = m_1
-        xi1_2 = Wxi0_2
-    w20 = 0.5 * h
-    w49 = -0.5 * h
-    # the equations of xi1, n1: Newton's method with the matrix to first order in h in xi1_0, xi1_1, xi1_2
+        xi1_2 = 100.0 * m_2
+    w1 = 0.5 * h
+    w27 = -0.5 * h
+    # the equations of xi1, n1: Newton's method in xi1_0, xi1_1, xi1_2
     previous_1 = 0.0
     rate_1 = memory.rates[0] if memory.past else 1.0
-    Wxi0_0_ = 0.9900990099009901 * m_0
-    w1 = h * Wxi0_0_
-    w2 = 0.01 * xi1_0
-    w3 = 50.0 * h
-    w4 = w2 * w3 - 0.5 * w1
-    w5 = 0.5 * h
-    w6 = -100.0 * xi1_0
-    w7 = 0.5 * w1 + 0.01 * (w5 * w6)
-    w8 = 1.0 - w4 * w7
-    Wxi0_2_ = 100.0 * m_2
-    w9 = h * Wxi0_2_
-    w10 = 0.49504950495049505 * h
-    w11 = 0.5 * w9 + 0.99 * xi1_2 * w10
-    w12 = h * m_1
-    w13 = 0.5 * w12 + 0.01 * xi1_1 * w3
-    xE1_1_2 = xi1_2 * w5
-    w14 = xE1_1_2 + 0.5 * w9
-    w15 = w7 * w13 - w14
-    w16 = 99.0 * xi1_1
-    w17 = 0.01 * (w10 * w16) - 0.5 * w12
-    w18 = w13 - w4 * w14
-    w19 = 1.0 / (w8 - w11 * w15 - w17 * w18)
-    row_1_1 = [
-        w8 * w19,
-        w19 * (w11 + w4 * w17),
-        w19 * (w17 + w7 * w11),
-    ]
-    row_1_2 = [
-        w15 * w19,
-        w19 * (1.0 - w13 * w17),
-        w19 * (w7 - w14 * w17),
-    ]
-    row_1_3 = [
-        w18 * w19,
-        w19 * (w4 + w11 * w13),
-        w19 * (1.0 + w11 * w14),
-    ]
+    make_1 = memory.inverses[0] is None
     for sweep in range(1, 101):
-        xE1_1_1 = xi1_1 * w20
-        xE1_1_0 = xi1_0 * w20
-        xE1_1_2_ = xi1_2 * w20
-        w21 = xE1_1_0 * xE1_1_0 + xE1_1_1 * xE1_1_1 + xE1_1_2_ * xE1_1_2_
-        c1_1, c2_1 = _stumpff_12(w21)
-        w23 = xE1_1_1 * c2_1
-        w24 = xE1_1_1 * w23
-        w25 = xE1_1_2_ * c2_1 * xE1_1_2_
-        gE1_1_0 = 1.0 - (w24 + w25)
         p_2 = 0.01 * xi1_2
-        w26 = 99.0 * xi1_1
-        w27 = xE1_1_0 * c2_1
-        w28 = xE1_1_1 * w27
-        w30 = xE1_1_2_ * c1_1
-        gE1_1_1 = w28 - w30
-        w31 = xE1_1_0 * w27
-        gE1_1_4 = 1.0 - (w25 + w31)
-        w32 = xE1_1_0 * c1_1
-        w33 = xE1_1_2_ * w23
-        gE1_1_7 = w32 + w33
+        xE1_1_1 = xi1_1 * w1
+        xE1_1_0 = xi1_0 * w1
+        xE1_1_2 = xi1_2 * w1
+        w2 = xE1_1_0 * xE1_1_0 + xE1_1_1 * xE1_1_1 + xE1_1_2 * xE1_1_2
+        c1_1, c2_1 = _stumpff_12(w2)
+        w4 = xE1_1_0 * c2_1
+        w5 = xE1_1_1 * w4
+        w7 = xE1_1_2 * c1_1
+        gE1_1_1 = w5 - w7
+        w8 = xE1_1_0 * w4
+        w9 = xE1_1_2 * c2_1 * xE1_1_2
+        gE1_1_4 = 1.0 - (w8 + w9)
+        w10 = xE1_1_0 * c1_1
+        w11 = xE1_1_1 * c2_1
+        w12 = xE1_1_2 * w11
+        gE1_1_7 = w10 + w12
         Q1_7 = g20 * gE1_1_1 + g21 * gE1_1_4 + g22 * gE1_1_7
-        w34 = xE1_1_1 * c1_1
-        w35 = xE1_1_2_ * w27
-        gE1_1_2 = w34 + w35
-        gE1_1_5 = w33 - w32
-        gE1_1_8 = 1.0 - (w24 + w31)
+        w13 = xE1_1_1 * c1_1
+        w14 = xE1_1_2 * w4
+        gE1_1_2 = w13 + w14
+        gE1_1_5 = w12 - w10
+        w15 = xE1_1_1 * w11
+        gE1_1_8 = 1.0 - (w8 + w15)
         Q1_8 = g20 * gE1_1_2 + g21 * gE1_1_5 + g22 * gE1_1_8
-        w36 = 1.5 - 2.0 * Q1_8
-        w37 = 1.0 / sqrt(1.01 + 1.5 * (w36 - 0.2 * Q1_7))
-        w38 = w37 * w37 * (0.5 * w37)
-        w39 = 1.0 / sqrt(1.01 + 1.5 * (w36 + 0.2 * Q1_7))
-        w40 = w39 * w39 * (0.5 * w39)
-        w41 = -1.0 - 2.0 * (1.5 * w38 - 1.5 * w40)
-        w42 = -0.3 * w38 - 0.3 * w40
-        Nr1_0 = Q1_7 * w41 - Q1_8 * w42 + p_2 * w26
+        w16 = 1.5 - 2.0 * Q1_8
+        w17 = 1.0 / sqrt(1.01 + 1.5 * (w16 - 0.2 * Q1_7))
+        w18 = w17 * w17 * (0.5 * w17)
+        w19 = 1.0 / sqrt(1.01 + 1.5 * (w16 + 0.2 * Q1_7))
+        w20 = w19 * w19 * (0.5 * w19)
+        w21 = -1.0 - 2.0 * (1.5 * w18 - 1.5 * w20)
+        w22 = -0.3 * w18 - 0.3 * w20
+        Nr1_0 = Q1_7 * w21 - Q1_8 * w22 + 99.0 * xi1_1 * p_2
         s_mu_0 = m_0 + h * Nr1_0
         xe1_0 = h * xi1_0
         xe1_1 = h * xi1_1
         xe1_2 = h * xi1_2
-        w43 = xe1_0 * xe1_0 + xe1_1 * xe1_1 + xe1_2 * xe1_2
-        c3_1 = _stumpff_3(0.25 * w43)
-        w44 = 0.25 * c3_1
-        w45 = 0.01 * xi1_0
-        gE1_1_3 = w28 + w30
-        gE1_1_6 = w35 - w34
+        w23 = xe1_0 * xe1_0 + xe1_1 * xe1_1 + xe1_2 * xe1_2
+        c3_1 = _stumpff_3(0.25 * w23)
+        w24 = 0.25 * c3_1
+        gE1_1_0 = 1.0 - (w9 + w15)
+        gE1_1_3 = w5 + w7
+        gE1_1_6 = w14 - w13
         Q1_6 = g20 * gE1_1_0 + g21 * gE1_1_3 + g22 * gE1_1_6
-        Nr1_2 = xi1_1 * w45 + w42 * Q1_6
+        Nr1_2 = 0.01 * xi1_0 * xi1_1 + w22 * Q1_6
         s_mu_2 = m_2 + h * Nr1_2
-        w46 = xe1_0 * s_mu_2 - s_mu_0 * xe1_2
-        w47 = -100.0 * xi1_0
-        Nr1_1 = p_2 * w47 - w41 * Q1_6
+        w25 = xe1_0 * s_mu_2 - s_mu_0 * xe1_2
+        Nr1_1 = -100.0 * xi1_0 * p_2 - w21 * Q1_6
         s_mu_1 = m_1 + h * Nr1_1
-        w48 = s_mu_0 * xe1_1 - xe1_0 * s_mu_1
-        y1_2_0 = xi1_0 * w49
-        y1_2_1 = xi1_1 * w49
-        y1_2_2 = xi1_2 * w49
-        w50 = y1_2_0 * y1_2_0 + y1_2_1 * y1_2_1 + y1_2_2 * y1_2_2
-        c2_2, c3_2 = _stumpff_23(w50)
-        w52 = Nr1_2 * y1_2_1 - Nr1_1 * y1_2_2
-        w54 = Nr1_1 * y1_2_0 - Nr1_0 * y1_2_1
-        w55 = Nr1_0 * y1_2_2 - Nr1_2 * y1_2_0
+        w26 = s_mu_0 * xe1_1 - xe1_0 * s_mu_1
+        s_mu_2_0 = s_mu_0 + w24 * (xe1_2 * w25 - xe1_1 * w26)
+        y1_2_0 = xi1_0 * w27
+        y1_2_1 = xi1_1 * w27
+        y1_2_2 = xi1_2 * w27
+        w28 = y1_2_0 * y1_2_0 + y1_2_1 * y1_2_1 + y1_2_2 * y1_2_2
+        c2_2, c3_2 = _stumpff_23(w28)
+        w30 = Nr1_2 * y1_2_1 - Nr1_1 * y1_2_2
+        w32 = Nr1_1 * y1_2_0 - Nr1_0 * y1_2_1
+        w33 = Nr1_0 * y1_2_2 - Nr1_2 * y1_2_0
         M1_2_0 = (
-            s_mu_0
-            + w44 * (xe1_2 * w46 - xe1_1 * w48)
-            + w49 * (Nr1_0 + w52 * c2_2 + (y1_2_1 * w54 - y1_2_2 * w55) * c3_2)
+            s_mu_2_0 + w27 * (Nr1_0 + w30 * c2_2 + (y1_2_1 * w32 - y1_2_2 * w33) * c3_2)
         )
-        Wf1_0 = 0.9900990099009901 * M1_2_0
-        w56 = xe1_2 * s_mu_1 - xe1_1 * s_mu_2
+        residual_0 = M1_2_0 - 1.01 * xi1_0
+        w34 = xe1_2 * s_mu_1 - xe1_1 * s_mu_2
+        s_mu_2_1 = s_mu_1 + w24 * (xe1_0 * w26 - xe1_2 * w34)
         M1_2_1 = (
-            s_mu_1
-            + w44 * (xe1_0 * w48 - xe1_2 * w56)
-            + w49 * (Nr1_1 + w55 * c2_2 + (y1_2_2 * w52 - y1_2_0 * w54) * c3_2)
+            s_mu_2_1 + w27 * (Nr1_1 + w33 * c2_2 + (y1_2_2 * w30 - y1_2_0 * w32) * c3_2)
         )
+        residual_1 = M1_2_1 - xi1_1
+        s_mu_2_2 = s_mu_2 + w24 * (xe1_1 * w34 - xe1_0 * w25)
         M1_2_2 = (
-            s_mu_2
-            + w44 * (xe1_1 * w56 - xe1_0 * w46)
-            + w49 * (Nr1_2 + w54 * c2_2 + (y1_2_0 * w55 - y1_2_1 * w52) * c3_2)
+            s_mu_2_2 + w27 * (Nr1_2 + w32 * c2_2 + (y1_2_0 * w33 - y1_2_1 * w30) * c3_2)
         )
-        Wf1_2 = 100.0 * M1_2_2
-        next_xi1_0 = gE1_1_0 * Wf1_0 + gE1_1_1 * M1_2_1 + gE1_1_2 * Wf1_2
-        next_xi1_1 = gE1_1_3 * Wf1_0 + gE1_1_4 * M1_2_1 + gE1_1_5 * Wf1_2
-        next_xi1_2 = gE1_1_6 * Wf1_0 + gE1_1_7 * M1_2_1 + gE1_1_8 * Wf1_2
-        residual_xi1_0 = next_xi1_0 - xi1_0
-        residual_xi1_1 = next_xi1_1 - xi1_1
-        residual_xi1_2 = next_xi1_2 - xi1_2
-        total = residual_xi1_0 + residual_xi1_1 + residual_xi1_2
+        residual_2 = M1_2_2 - p_2
+        s_mu_0_seen = s_mu_0
+        s_mu_1_seen = s_mu_1
+        s_mu_2_seen = s_mu_2
+        total = residual_0 + residual_1 + residual_2
         if not isfinite(total):
             raise _failed(NOT_FINITE, "the equations of xi1, n1", 0, sweep, statistics)
-        change_xi1_0 = (
-            row_1_1[0] * residual_xi1_0
-            + row_1_1[1] * residual_xi1_1
-            + row_1_1[2] * residual_xi1_2
+        if make_1:
+            w35 = 0.005 * h
+            w36 = xi1_0 * w35
+            w37 = 0.01 - y1_2_0 * w36
+            w38 = 0.495 * h
+            w39 = xi1_2 * w38
+            w40 = xi1_1 * w35
+            w41 = y1_2_0 * w40 + 0.01 * y1_2_2
+            w42 = xi1_1 * w38
+            w43 = w40 + y1_2_2 * w36
+            w44 = 1.0 / (1.01 * w37 - w39 * w41 - w42 * w43)
+            row_1_1 = [
+                w37 * w44,
+                w44 * (w36 * w42 + 0.01 * w39),
+                w44 * (w42 + y1_2_0 * w39),
+            ]
+            row_1_2 = [
+                w41 * w44,
+                w44 * (0.0101 - w40 * w42),
+                w44 * (y1_2_2 * w42 + 1.01 * y1_2_0),
+            ]
+            row_1_3 = [
+                w43 * w44,
+                w44 * (w39 * w40 + 1.01 * w36),
+                w44 * (1.01 - y1_2_2 * w39),
+            ]
+            memory.inverses[0] = [row_1_1, row_1_2, row_1_3]
+            if statistics is not None:
+                statistics.matrices += 1
+        row_1_1, row_1_2, row_1_3 = memory.inverses[0]
+        d_xi1_0 = (
+            row_1_1[0] * residual_0 + row_1_1[1] * residual_1 + row_1_1[2] * residual_2
         )
-        change_xi1_1 = (
-            row_1_2[0] * residual_xi1_0
-            + row_1_2[1] * residual_xi1_1
-            + row_1_2[2] * residual_xi1_2
+        d_xi1_1 = (
+            row_1_2[0] * residual_0 + row_1_2[1] * residual_1 + row_1_2[2] * residual_2
         )
-        change_xi1_2 = (
-            row_1_3[0] * residual_xi1_0
-            + row_1_3[1] * residual_xi1_1
-            + row_1_3[2] * residual_xi1_2
+        d_xi1_2 = (
+            row_1_3[0] * residual_0 + row_1_3[1] * residual_1 + row_1_3[2] * residual_2
         )
-        xi1_0 += change_xi1_0
-        xi1_1 += change_xi1_1
-        xi1_2 += change_xi1_2
-        change = max(abs(change_xi1_0), abs(change_xi1_1), abs(change_xi1_2))
+        xi1_0 += d_xi1_0
+        xi1_1 += d_xi1_1
+        xi1_2 += d_xi1_2
+        change = max(abs(d_xi1_0), abs(d_xi1_1), abs(d_xi1_2))
         scale = max(1.0, abs(xi1_0), abs(xi1_1), abs(xi1_2))
         still = 0.0 < previous_1 <= change <= 5.684341886080802e-14 * scale
         if sweep == 1:
@@ -422,35 +404,45 @@ def _advance(state, h, memory, statistics):
         if still or (close and change <= 5.684341886080802e-14 * scale):
             memory.rates[0] = rate_1 if sweep > 1 else 2.0 * rate_1
             break
+        make_1 = 0.0 < 0.25 * previous_1 < change
         previous_1 = change
     else:
         raise _failed(NOT_CONVERGED, "the equations of xi1, n1", 0, sweep, statistics)
     if statistics is not None:
         statistics.count(0, sweep)
-    c1_2, c2_3 = _stumpff_12(w43)
-    w58 = xe1_1 * c2_3
-    w59 = xe1_1 * w58
-    w60 = xe1_2 * c2_3 * xe1_2
-    ge1_0 = 1.0 - (w59 + w60)
-    w62 = xe1_2 * c1_2
-    w63 = xe1_0 * c2_3
-    w64 = xe1_1 * w63
-    ge1_3 = w62 + w64
-    w65 = xe1_2 * w63
-    w66 = xe1_1 * c1_2
-    ge1_6 = w65 - w66
-    ge1_1 = w64 - w62
-    w67 = xe1_0 * w63
-    ge1_4 = 1.0 - (w60 + w67)
-    w68 = xe1_0 * c1_2
-    w69 = xe1_2 * w58
-    ge1_7 = w68 + w69
-    ge1_2 = w65 + w66
-    ge1_5 = w69 - w68
-    ge1_8 = 1.0 - (w59 + w67)
-    change_0 = s_mu_0 * ge1_0 + s_mu_1 * ge1_1 + s_mu_2 * ge1_2 - m_0
-    change_1 = s_mu_0 * ge1_3 + s_mu_1 * ge1_4 + s_mu_2 * ge1_5 - m_1
-    change_2 = s_mu_0 * ge1_6 + s_mu_1 * ge1_7 + s_mu_2 * ge1_8 - m_2
+    xe1_1_ = h * xi1_1
+    xe1_0_ = h * xi1_0
+    xe1_2_ = h * xi1_2
+    w45 = xe1_0_ * xe1_0_ + xe1_1_ * xe1_1_ + xe1_2_ * xe1_2_
+    c1_2, c2_3 = _stumpff_12(w45)
+    w47 = xe1_1_ * c2_3
+    w48 = xe1_1_ * w47
+    w49 = xe1_2_ * c2_3 * xe1_2_
+    ge1_0 = 1.0 - (w48 + w49)
+    w51 = xe1_2_ * c1_2
+    w52 = xe1_0_ * c2_3
+    w53 = xe1_1_ * w52
+    ge1_3 = w51 + w53
+    w54 = xe1_2_ * w52
+    w55 = xe1_1_ * c1_2
+    ge1_6 = w54 - w55
+    ge1_1 = w53 - w51
+    w56 = xe1_0_ * w52
+    ge1_4 = 1.0 - (w49 + w56)
+    w57 = xe1_0_ * c1_2
+    w58 = xe1_2_ * w47
+    ge1_7 = w57 + w58
+    ge1_2 = w54 + w55
+    ge1_5 = w58 - w57
+    ge1_8 = 1.0 - (w48 + w56)
+    w59 = 0.99 * h
+    w60 = s_mu_0_seen + xi1_2 * w59 * d_xi1_1 + xi1_1 * w59 * d_xi1_2
+    w61 = s_mu_1_seen - d_xi1_0 * xe1_2_ - d_xi1_2 * xe1_0_
+    w62 = 0.01 * h
+    w63 = s_mu_2_seen + xi1_1 * w62 * d_xi1_0 + xi1_0 * w62 * d_xi1_1
+    change_0 = ge1_0 * w60 + ge1_1 * w61 + ge1_2 * w63 - m_0
+    change_1 = ge1_3 * w60 + ge1_4 * w61 + ge1_5 * w63 - m_1
+    change_2 = ge1_6 * w60 + ge1_7 * w61 + ge1_8 * w63 - m_2
     new_g00 = g00 * ge1_0 + g01 * ge1_3 + g02 * ge1_6
     new_g01 = g00 * ge1_1 + g01 * ge1_4 + g02 * ge1_7
     new_g02 = g00 * ge1_2 + g01 * ge1_5 + g02 * ge1_8

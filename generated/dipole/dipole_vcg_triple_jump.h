@@ -20,6 +20,7 @@ typedef struct {
     size_t sweeps[3]; /* by block: the equations of xi1, n1, the equations of xi2, n2, the equations of xi3, n3 */
     size_t most; /* the most that one block took in one step */
     size_t failed; /* 1 + the block that failed, 0 if none has */
+    size_t matrices; /* how often a matrix of Newton's method was made */
 } dipole_vcg_triple_jump_statistics;
 
 /* Make one step of size h. When the status is not DIPOLE_VCG_TRIPLE_JUMP_OK, the state is as it was. */

@@ -6,18 +6,18 @@ source:     Yoshida 1990; Hairer, Lubich and Wanner, (II.4.4); Table 3.2b of
 order:      4, certificate: exact (every order condition up to it is zero in exact
             arithmetic)
 scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
-solved by:  the equations of xi1, n1: Newton's method with the matrix to first order
-            in h, 3 unknowns (1.9 sweeps of 304 operations and 1.00 matrices of 105
-            a step; fixed point: 3.2 sweeps of 289 operations; Newton's method: 2.5
-            sweeps of 304 operations and 0.05 matrices of 1048)
-solved by:  the equations of xi2, n2: Newton's method with the matrix to first order
-            in h, 3 unknowns (2.0 sweeps of 394 operations and 1.00 matrices of 111
-            a step; fixed point: 3.4 sweeps of 379 operations; Newton's method: 2.5
-            sweeps of 394 operations and 0.05 matrices of 1499)
-solved by:  the equations of xi3, n3: Newton's method with the matrix to first order
-            in h, 3 unknowns (1.9 sweeps of 400 operations and 1.00 matrices of 109
-            a step; fixed point: 3.2 sweeps of 385 operations; Newton's method: 2.4
-            sweeps of 400 operations and 0.05 matrices of 1499)
+solved by:  the equations of xi1, n1: Newton's method, 3 unknowns (2.1 sweeps of 291
+            operations and 0.05 matrices of 106 a step; fixed point: 3.2 sweeps of
+            289 operations; Newton's method with the matrix to first order in h: 1.9
+            sweeps of 304 operations and 1.00 matrices of 105)
+solved by:  the equations of xi2, n2: Newton's method, 3 unknowns (2.0 sweeps of 381
+            operations and 0.05 matrices of 73 a step; fixed point: 3.4 sweeps of
+            379 operations; Newton's method with the matrix to first order in h: 2.0
+            sweeps of 394 operations and 1.00 matrices of 111)
+solved by:  the equations of xi3, n3: Newton's method, 3 unknowns (2.0 sweeps of 387
+            operations and 0.05 matrices of 124 a step; fixed point: 3.2 sweeps of
+            385 operations; Newton's method with the matrix to first order in h: 1.9
+            sweeps of 400 operations and 1.00 matrices of 109)
 state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
 left out:   7 Adtinv, 3 exp, 7 mul (zeros)
@@ -37,16 +37,16 @@ left out:   7 Adtinv, 3 exp, 7 mul (zeros)
             1 lin (sharing)
             parameters, folded: beta = 1, depth = 3/2
             the time: the scene does not depend on it
-operations: 120 add, 170 mul, 3 stumpff_12 a step
+operations: 220 add, 343 mul, 5 stumpff_12, 4 sqrt, 4 div a step
             2 mul a start, in steps that follow no other
-            29 add, 72 mul, 1 div a matrix of the equations of xi1, n1
-            84 add, 137 mul, 2 div, 2 sqrt, 1 stumpff_12, 2 stumpff_23 a sweep of
+            29 add, 73 mul, 1 div a matrix of the equations of xi1, n1
+            81 add, 127 mul, 2 div, 2 sqrt, 1 stumpff_12, 2 stumpff_23 a sweep of
             the equations of xi1, n1
-            32 add, 75 mul, 1 div a matrix of the equations of xi2, n2
-            120 add, 191 mul, 2 div, 2 sqrt, 1 stumpff_12, 2 stumpff_23 a sweep of
+            23 add, 46 mul, 1 div a matrix of the equations of xi2, n2
+            117 add, 181 mul, 2 div, 2 sqrt, 1 stumpff_12, 2 stumpff_23 a sweep of
             the equations of xi2, n2
-            32 add, 73 mul, 1 div a matrix of the equations of xi3, n3
-            126 add, 191 mul, 2 div, 2 sqrt, 1 stumpff_12, 2 stumpff_23 a sweep of
+            41 add, 79 mul, 1 div a matrix of the equations of xi3, n3
+            123 add, 181 mul, 2 div, 2 sqrt, 1 stumpff_12, 2 stumpff_23 a sweep of
             the equations of xi3, n3
 made by:    orderconds emit dipole --method vcg:triple_jump --target python -o .
 version:    orderconds 0.1.0
@@ -86,7 +86,8 @@ class Statistics:
     """Sweeps over the equations, added up over all steps that are given this object.
 
     sweeps: by block; most: the most that one block took in one step; failed: 1 + the
-    block that failed, 0 if none has.
+    block that failed, 0 if none has; matrices: how often a matrix of Newton's method
+    was made.
     """
 
     labels = [
@@ -97,6 +98,7 @@ class Statistics:
 
     def __init__(self):
         self.sweeps, self.most, self.failed = [0] * 3, 0, 0
+        self.matrices = 0
 
     def count(self, block, sweeps):
         """Add the sweeps of one block in one step."""
@@ -116,13 +118,15 @@ def _failed(status, label, block, sweep, statistics):
 class _Memory:
     """What one step of a run leaves for the next.
 
-    past: solutions of its equations, the latest first.
+    past: solutions of its equations, the latest first; inverses: of Newton's matrices, by
+    block.
     """
 
     def __init__(self):
         self.past = []
         self.first = 0.0
         self.rates = [1.0] * 3
+        self.inverses = [None] * 3
 
     def keep(self, found):
         """Add a solution; alone where the one before it was expected too far off."""
@@ -282,187 +286,171 @@ def _advance(state, h, memory, statistics):
         xi3_0 = Wxi0_0
         xi3_1 = m_1
         xi3_2 = Wxi0_2
-    w46 = 0.6756035959798288 * h
-    w69 = 1.3512071919596575 * h
-    w70 = -1.3512071919596575 * h
-    w79 = -0.6756035959798288 * h
-    # the equations of xi1, n1: Newton's method with the matrix to first order in h in xi1_0, xi1_1, xi1_2
+    w1 = 0.6756035959798288 * h
+    w23 = 1.3512071919596575 * h
+    w24 = -1.3512071919596575 * h
+    w31 = -0.6756035959798288 * h
+    # the equations of xi1, n1: Newton's method in xi1_0, xi1_1, xi1_2
     previous_1 = 0.0
     rate_1 = memory.rates[0] if memory.past else 1.0
-    w1 = 100.0 * m_0
-    Wxi0_0_ = 0.9900990099009901 * m_0
-    w2 = h * Wxi0_0_
-    w3 = h * w1 - w2
-    w4 = -50.0 * h
-    w5 = m_0 * w4
-    w6 = 1.3512071919596575 * w5
-    w7 = 0.01 * xi1_0
-    w8 = 67.56035959798288 * h
-    w9 = 0.6756035959798288 * w3 + w6 + w7 * w8
-    w10 = h * m_0
-    w11 = w2 - w10
-    w12 = -0.5 * h
-    w13 = m_0 * w12
-    w14 = -1.3512071919596575 * w13
-    w15 = 0.6756035959798288 * h
-    w16 = -100.0 * xi1_0
-    w17 = 0.6756035959798288 * w11 + w14 + 0.01 * (w15 * w16)
-    w18 = 1.0 - w9 * w17
-    Wxi0_2_ = 100.0 * m_2
-    w19 = h * Wxi0_2_
-    w20 = 0.9900990099009901 * m_2
-    w21 = w19 - h * w20
-    w22 = -0.49504950495049505 * h
-    w23 = m_2 * w22
-    w24 = -1.3512071919596575 * w23
-    w25 = 0.668914451465177 * h
-    w26 = 0.6756035959798288 * w21 + w24 + 0.99 * xi1_2 * w25
-    w27 = h * m_1
-    w28 = 100.0 * m_1
-    w29 = w27 - h * w28
-    w30 = m_1 * w4
-    w31 = -1.3512071919596575 * w30
-    w32 = 0.6756035959798288 * w29 + w31 + 0.01 * xi1_1 * w8
-    xE1_1_2 = xi1_2 * w15
-    w33 = h * m_2 - w19
-    w34 = m_2 * w12
-    w35 = 1.3512071919596575 * w34
-    w36 = xE1_1_2 - (0.6756035959798288 * w33 + w35)
-    w37 = w17 * w32 - w36
-    w38 = 0.9900990099009901 * m_1
-    w39 = h * w38 - w27
-    w40 = m_1 * w22
-    w41 = 1.3512071919596575 * w40
-    w42 = 99.0 * xi1_1
-    w43 = 0.6756035959798288 * w39 + w41 + 0.01 * (w25 * w42)
-    w44 = w32 - w9 * w36
-    w45 = 1.0 / (w18 - w26 * w37 - w43 * w44)
-    row_1_1 = [
-        w18 * w45,
-        w45 * (w26 + w9 * w43),
-        w45 * (w43 + w17 * w26),
-    ]
-    row_1_2 = [
-        w37 * w45,
-        w45 * (1.0 - w32 * w43),
-        w45 * (w17 - w36 * w43),
-    ]
-    row_1_3 = [
-        w44 * w45,
-        w45 * (w9 + w26 * w32),
-        w45 * (1.0 + w26 * w36),
-    ]
+    make_1 = memory.inverses[0] is None
     for sweep in range(1, 101):
-        xE1_1_1 = xi1_1 * w46
-        xE1_1_0 = xi1_0 * w46
-        xE1_1_2_ = xi1_2 * w46
-        w47 = xE1_1_0 * xE1_1_0 + xE1_1_1 * xE1_1_1 + xE1_1_2_ * xE1_1_2_
-        c1_1, c2_1 = _stumpff_12(w47)
-        w49 = xE1_1_1 * c2_1
-        w50 = xE1_1_1 * w49
-        w51 = xE1_1_2_ * c2_1 * xE1_1_2_
-        gE1_1_0 = 1.0 - (w50 + w51)
         p_2 = 0.01 * xi1_2
-        w52 = 99.0 * xi1_1
-        w53 = xE1_1_0 * c2_1
-        w54 = xE1_1_1 * w53
-        w56 = xE1_1_2_ * c1_1
-        gE1_1_1 = w54 - w56
-        w57 = xE1_1_0 * w53
-        gE1_1_4 = 1.0 - (w51 + w57)
-        w58 = xE1_1_0 * c1_1
-        w59 = xE1_1_2_ * w49
-        gE1_1_7 = w58 + w59
+        xE1_1_1 = xi1_1 * w1
+        xE1_1_0 = xi1_0 * w1
+        xE1_1_2 = xi1_2 * w1
+        w2 = xE1_1_0 * xE1_1_0 + xE1_1_1 * xE1_1_1 + xE1_1_2 * xE1_1_2
+        c1_1, c2_1 = _stumpff_12(w2)
+        w4 = xE1_1_0 * c2_1
+        w5 = xE1_1_1 * w4
+        w7 = xE1_1_2 * c1_1
+        gE1_1_1 = w5 - w7
+        w8 = xE1_1_0 * w4
+        w9 = xE1_1_2 * c2_1 * xE1_1_2
+        gE1_1_4 = 1.0 - (w8 + w9)
+        w10 = xE1_1_0 * c1_1
+        w11 = xE1_1_1 * c2_1
+        w12 = xE1_1_2 * w11
+        gE1_1_7 = w10 + w12
         Q1_7 = g20 * gE1_1_1 + g21 * gE1_1_4 + g22 * gE1_1_7
-        w60 = xE1_1_1 * c1_1
-        w61 = xE1_1_2_ * w53
-        gE1_1_2 = w60 + w61
-        gE1_1_5 = w59 - w58
-        gE1_1_8 = 1.0 - (w50 + w57)
+        w13 = xE1_1_1 * c1_1
+        w14 = xE1_1_2 * w4
+        gE1_1_2 = w13 + w14
+        gE1_1_5 = w12 - w10
+        w15 = xE1_1_1 * w11
+        gE1_1_8 = 1.0 - (w8 + w15)
         Q1_8 = g20 * gE1_1_2 + g21 * gE1_1_5 + g22 * gE1_1_8
-        w62 = 1.5 - 2.0 * Q1_8
-        w63 = 1.0 / sqrt(1.01 + 1.5 * (w62 - 0.2 * Q1_7))
-        w64 = w63 * w63 * (0.5 * w63)
-        w65 = 1.0 / sqrt(1.01 + 1.5 * (w62 + 0.2 * Q1_7))
-        w66 = w65 * w65 * (0.5 * w65)
-        w67 = -1.0 - 2.0 * (1.5 * w64 - 1.5 * w66)
-        w68 = -0.3 * w64 - 0.3 * w66
-        Nr1_0 = Q1_7 * w67 - Q1_8 * w68 + p_2 * w52
-        s_mu_0 = m_0 + Nr1_0 * w69
-        y1_0 = xi1_0 * w70
-        y1_1 = xi1_1 * w70
-        y1_2 = xi1_2 * w70
-        w71 = y1_0 * y1_0 + y1_1 * y1_1 + y1_2 * y1_2
-        c2_2, c3_1 = _stumpff_23(w71)
-        w73 = 0.01 * xi1_0
-        gE1_1_3 = w54 + w56
-        gE1_1_6 = w61 - w60
+        w16 = 1.5 - 2.0 * Q1_8
+        w17 = 1.0 / sqrt(1.01 + 1.5 * (w16 - 0.2 * Q1_7))
+        w18 = w17 * w17 * (0.5 * w17)
+        w19 = 1.0 / sqrt(1.01 + 1.5 * (w16 + 0.2 * Q1_7))
+        w20 = w19 * w19 * (0.5 * w19)
+        w21 = -1.0 - 2.0 * (1.5 * w18 - 1.5 * w20)
+        w22 = -0.3 * w18 - 0.3 * w20
+        Nr1_0 = Q1_7 * w21 - Q1_8 * w22 + 99.0 * xi1_1 * p_2
+        s_mu_0 = m_0 + Nr1_0 * w23
+        y1_0 = xi1_0 * w24
+        y1_1 = xi1_1 * w24
+        y1_2 = xi1_2 * w24
+        w25 = y1_0 * y1_0 + y1_1 * y1_1 + y1_2 * y1_2
+        c2_2, c3_1 = _stumpff_23(w25)
+        gE1_1_0 = 1.0 - (w9 + w15)
+        gE1_1_3 = w5 + w7
+        gE1_1_6 = w14 - w13
         Q1_6 = g20 * gE1_1_0 + g21 * gE1_1_3 + g22 * gE1_1_6
-        Nr1_2 = xi1_1 * w73 + w68 * Q1_6
-        s_mu_2 = m_2 + w69 * Nr1_2
-        w74 = -100.0 * xi1_0
-        Nr1_1 = p_2 * w74 - w67 * Q1_6
-        s_mu_1 = m_1 + w69 * Nr1_1
-        w75 = y1_1 * s_mu_2 - y1_2 * s_mu_1
-        w77 = y1_0 * s_mu_1 - s_mu_0 * y1_1
-        w78 = s_mu_0 * y1_2 - y1_0 * s_mu_2
-        y1_2_0 = xi1_0 * w79
-        y1_2_1 = xi1_1 * w79
-        y1_2_2 = xi1_2 * w79
-        w80 = y1_2_0 * y1_2_0 + y1_2_1 * y1_2_1 + y1_2_2 * y1_2_2
-        c2_3, c3_2 = _stumpff_23(w80)
-        w82 = Nr1_2 * y1_2_1 - Nr1_1 * y1_2_2
-        w84 = Nr1_1 * y1_2_0 - Nr1_0 * y1_2_1
-        w85 = Nr1_0 * y1_2_2 - Nr1_2 * y1_2_0
+        Nr1_2 = 0.01 * xi1_0 * xi1_1 + w22 * Q1_6
+        s_mu_2 = m_2 + w23 * Nr1_2
+        Nr1_1 = -100.0 * xi1_0 * p_2 - w21 * Q1_6
+        s_mu_1 = m_1 + w23 * Nr1_1
+        w27 = y1_1 * s_mu_2 - y1_2 * s_mu_1
+        w29 = y1_0 * s_mu_1 - s_mu_0 * y1_1
+        w30 = s_mu_0 * y1_2 - y1_0 * s_mu_2
+        p1_4_0 = s_mu_0 - w27 * c2_2 + (y1_1 * w29 - y1_2 * w30) * c3_1
+        y1_2_0 = xi1_0 * w31
+        y1_2_1 = xi1_1 * w31
+        y1_2_2 = xi1_2 * w31
+        w32 = y1_2_0 * y1_2_0 + y1_2_1 * y1_2_1 + y1_2_2 * y1_2_2
+        c2_3, c3_2 = _stumpff_23(w32)
+        w34 = Nr1_2 * y1_2_1 - Nr1_1 * y1_2_2
+        w36 = Nr1_1 * y1_2_0 - Nr1_0 * y1_2_1
+        w37 = Nr1_0 * y1_2_2 - Nr1_2 * y1_2_0
         M1_0 = (
-            s_mu_0
-            - w75 * c2_2
-            + (y1_1 * w77 - y1_2 * w78) * c3_1
-            + w79 * (Nr1_0 - w82 * c2_3 + (y1_2_1 * w84 - y1_2_2 * w85) * c3_2)
+            p1_4_0 + w31 * (Nr1_0 - w34 * c2_3 + (y1_2_1 * w36 - y1_2_2 * w37) * c3_2)
         )
+        p_0 = 1.01 * xi1_0
+        a_2_0 = gE1_1_0 * p_0 + xi1_1 * gE1_1_1 + p_2 * gE1_1_2
+        residual_0 = M1_0 - a_2_0
+        p1_4_1 = s_mu_1 - w30 * c2_2 + (y1_2 * w27 - y1_0 * w29) * c3_1
         M1_1 = (
-            s_mu_1
-            - w78 * c2_2
-            + (y1_2 * w75 - y1_0 * w77) * c3_1
-            + w79 * (Nr1_1 - w85 * c2_3 + (y1_2_2 * w82 - y1_2_0 * w84) * c3_2)
+            p1_4_1 + w31 * (Nr1_1 - w37 * c2_3 + (y1_2_2 * w34 - y1_2_0 * w36) * c3_2)
         )
+        a_2_1 = gE1_1_3 * p_0 + xi1_1 * gE1_1_4 + p_2 * gE1_1_5
+        residual_1 = M1_1 - a_2_1
+        p1_4_2 = s_mu_2 - w29 * c2_2 + (y1_0 * w30 - y1_1 * w27) * c3_1
         M1_2 = (
-            s_mu_2
-            - w77 * c2_2
-            + (y1_0 * w78 - y1_1 * w75) * c3_1
-            + w79 * (Nr1_2 - w84 * c2_3 + (y1_2_0 * w85 - y1_2_1 * w82) * c3_2)
+            p1_4_2 + w31 * (Nr1_2 - w36 * c2_3 + (y1_2_0 * w37 - y1_2_1 * w34) * c3_2)
         )
-        Wf1_0 = 0.9900990099009901 * (gE1_1_0 * M1_0 + gE1_1_3 * M1_1 + gE1_1_6 * M1_2)
-        Pf1_1 = gE1_1_1 * M1_0 + gE1_1_4 * M1_1 + gE1_1_7 * M1_2
-        Wf1_2 = 100.0 * (gE1_1_2 * M1_0 + gE1_1_5 * M1_1 + gE1_1_8 * M1_2)
-        next_xi1_0 = gE1_1_0 * Wf1_0 + gE1_1_1 * Pf1_1 + gE1_1_2 * Wf1_2
-        next_xi1_1 = gE1_1_3 * Wf1_0 + gE1_1_4 * Pf1_1 + gE1_1_5 * Wf1_2
-        next_xi1_2 = gE1_1_6 * Wf1_0 + gE1_1_7 * Pf1_1 + gE1_1_8 * Wf1_2
-        residual_xi1_0 = next_xi1_0 - xi1_0
-        residual_xi1_1 = next_xi1_1 - xi1_1
-        residual_xi1_2 = next_xi1_2 - xi1_2
-        total = residual_xi1_0 + residual_xi1_1 + residual_xi1_2
+        a_2_2 = gE1_1_6 * p_0 + xi1_1 * gE1_1_7 + p_2 * gE1_1_8
+        residual_2 = M1_2 - a_2_2
+        s_mu_0_seen = s_mu_0
+        s_mu_1_seen = s_mu_1
+        s_mu_2_seen = s_mu_2
+        total = residual_0 + residual_1 + residual_2
         if not isfinite(total):
             raise _failed(NOT_FINITE, "the equations of xi1, n1", 0, sweep, statistics)
-        change_xi1_0 = (
-            row_1_1[0] * residual_xi1_0
-            + row_1_1[1] * residual_xi1_1
-            + row_1_1[2] * residual_xi1_2
+        if make_1:
+            w38 = (
+                0.6756035959798288 * g00 * mu0
+                + 0.6756035959798288 * g10 * mu1
+                + 0.6756035959798288 * g20 * mu2
+            )
+            w39 = h * (w38 - 1.3512071919596575 * xi1_0)
+            w40 = (
+                -0.6756035959798288 * g00 * mu0
+                - 0.6756035959798288 * g10 * mu1
+                - 0.6756035959798288 * g20 * mu2
+            )
+            w41 = h * (0.013512071919596576 * xi1_0 + w40)
+            w42 = 0.01 - w39 * w41
+            w43 = (
+                0.6756035959798288 * g02 * mu0
+                + 0.6756035959798288 * g12 * mu1
+                + 0.6756035959798288 * g22 * mu2
+            )
+            w44 = h * (1.337695120040061 * xi1_2 + w43)
+            w45 = (
+                0.6756035959798288 * g01 * mu0
+                + 0.6756035959798288 * g11 * mu1
+                + 0.6756035959798288 * g21 * mu2
+            )
+            w46 = h * (0.013512071919596576 * xi1_1 + w45)
+            w47 = (
+                -0.6756035959798288 * g02 * mu0
+                - 0.6756035959798288 * g12 * mu1
+                - 0.6756035959798288 * g22 * mu2
+            )
+            w48 = h * (w47 - 1.3512071919596575 * xi1_2)
+            w49 = w39 * w46 + 0.01 * w48
+            w50 = (
+                -0.6756035959798288 * g01 * mu0
+                - 0.6756035959798288 * g11 * mu1
+                - 0.6756035959798288 * g21 * mu2
+            )
+            w51 = h * (1.337695120040061 * xi1_1 + w50)
+            w52 = w46 + w41 * w48
+            w53 = 1.0 / (1.01 * w42 - w44 * w49 - w51 * w52)
+            row_1_1 = [
+                w42 * w53,
+                w53 * (w41 * w51 + 0.01 * w44),
+                w53 * (w51 + w39 * w44),
+            ]
+            row_1_2 = [
+                w49 * w53,
+                w53 * (0.0101 - w46 * w51),
+                w53 * (w48 * w51 + 1.01 * w39),
+            ]
+            row_1_3 = [
+                w52 * w53,
+                w53 * (w44 * w46 + 1.01 * w41),
+                w53 * (1.01 - w44 * w48),
+            ]
+            memory.inverses[0] = [row_1_1, row_1_2, row_1_3]
+            if statistics is not None:
+                statistics.matrices += 1
+        row_1_1, row_1_2, row_1_3 = memory.inverses[0]
+        d_xi1_0 = (
+            row_1_1[0] * residual_0 + row_1_1[1] * residual_1 + row_1_1[2] * residual_2
         )
-        change_xi1_1 = (
-            row_1_2[0] * residual_xi1_0
-            + row_1_2[1] * residual_xi1_1
-            + row_1_2[2] * residual_xi1_2
+        d_xi1_1 = (
+            row_1_2[0] * residual_0 + row_1_2[1] * residual_1 + row_1_2[2] * residual_2
         )
-        change_xi1_2 = (
-            row_1_3[0] * residual_xi1_0
-            + row_1_3[1] * residual_xi1_1
-            + row_1_3[2] * residual_xi1_2
+        d_xi1_2 = (
+            row_1_3[0] * residual_0 + row_1_3[1] * residual_1 + row_1_3[2] * residual_2
         )
-        xi1_0 += change_xi1_0
-        xi1_1 += change_xi1_1
-        xi1_2 += change_xi1_2
-        change = max(abs(change_xi1_0), abs(change_xi1_1), abs(change_xi1_2))
+        xi1_0 += d_xi1_0
+        xi1_1 += d_xi1_1
+        xi1_2 += d_xi1_2
+        change = max(abs(d_xi1_0), abs(d_xi1_1), abs(d_xi1_2))
         scale = max(1.0, abs(xi1_0), abs(xi1_1), abs(xi1_2))
         still = 0.0 < previous_1 <= change <= 5.684341886080802e-14 * scale
         if sweep == 1:
@@ -473,242 +461,248 @@ def _advance(state, h, memory, statistics):
         if still or (close and change <= 5.684341886080802e-14 * scale):
             memory.rates[0] = rate_1 if sweep > 1 else 2.0 * rate_1
             break
+        make_1 = 0.0 < 0.25 * previous_1 < change
         previous_1 = change
     else:
         raise _failed(NOT_CONVERGED, "the equations of xi1, n1", 0, sweep, statistics)
     if statistics is not None:
         statistics.count(0, sweep)
-    xe1_1 = xi1_1 * w69
-    xe1_0 = xi1_0 * w69
-    w124 = xe1_0 * xe1_0
-    w125 = xe1_1 * xe1_1
-    w126 = w124 + w125
-    xe1_2 = xi1_2 * w69
-    w127 = xe1_2 * xe1_2
-    w128 = w126 + w127
-    c1_2, c2_4 = _stumpff_12(w128)
-    w130 = xe1_1 * c2_4
-    w131 = xe1_1 * w130
-    w132 = xe1_2 * c2_4
-    w133 = xe1_2 * w132
-    w134 = w131 + w133
-    ge1_0 = 1.0 - w134
-    w135 = -0.8512071919596577 * h
-    w142 = xe1_2 * c1_2
-    w143 = xe1_0 * c2_4
-    w144 = xe1_1 * w143
-    ge1_3 = w142 + w144
-    w149 = xe1_2 * w143
-    w150 = xe1_1 * c1_2
-    ge1_6 = w149 - w150
-    ge1_2 = w149 + w150
-    w153 = xe1_2 * w130
-    w154 = xe1_0 * c1_2
-    ge1_5 = w153 - w154
-    w155 = xe1_0 * w143
-    w156 = w131 + w155
-    ge1_8 = 1.0 - w156
-    ge1_1 = w144 - w142
-    w160 = w133 + w155
-    ge1_4 = 1.0 - w160
-    ge1_7 = w153 + w154
-    w168 = -1.7024143839193153 * h
-    w172 = 1.7024143839193153 * h
-    w179 = 0.8512071919596577 * h
-    # the equations of xi2, n2: Newton's method with the matrix to first order in h in xi2_0, xi2_1, xi2_2
+    xe1_1 = xi1_1 * w23
+    xe1_0 = xi1_0 * w23
+    w54 = xe1_0 * xe1_0
+    w55 = xe1_1 * xe1_1
+    w56 = w54 + w55
+    xe1_2 = xi1_2 * w23
+    w57 = xe1_2 * xe1_2
+    w58 = w56 + w57
+    c1_2, c2_4 = _stumpff_12(w58)
+    w60 = xe1_1 * c2_4
+    w61 = xe1_1 * w60
+    w62 = xe1_2 * c2_4
+    w63 = xe1_2 * w62
+    w64 = w61 + w63
+    ge1_0 = 1.0 - w64
+    w65 = 1.337695120040061 * h
+    w66 = xi1_2 * w65
+    w67 = d_xi1_1 * w66
+    w68 = s_mu_0_seen + w67
+    w69 = xi1_1 * w65
+    w70 = d_xi1_2 * w69
+    w71 = w68 + w70
+    w73 = xe1_1 * c1_2
+    w74 = xe1_0 * c2_4
+    w75 = xe1_2 * w74
+    ge1_2 = w73 + w75
+    w76 = -0.8512071919596577 * h
+    w82 = xe1_2 * w60
+    w83 = xe1_0 * c1_2
+    ge1_5 = w82 - w83
+    w88 = xe1_0 * w74
+    w89 = w61 + w88
+    ge1_8 = 1.0 - w89
+    w95 = xe1_1 * w74
+    w96 = xe1_2 * c1_2
+    ge1_1 = w95 - w96
+    w97 = w63 + w88
+    ge1_4 = 1.0 - w97
+    ge1_7 = w82 + w83
+    w105 = -1.7024143839193153 * h
+    y1_2_ = xi1_2 * w24
+    w107 = d_xi1_0 * y1_2_
+    w108 = s_mu_1_seen + w107
+    y1_0_ = xi1_0 * w24
+    w109 = d_xi1_2 * y1_0_
+    w110 = w108 + w109
+    ge1_3 = w95 + w96
+    ge1_6 = w75 - w73
+    w112 = 0.013512071919596576 * h
+    w113 = xi1_1 * w112
+    w114 = d_xi1_0 * w113
+    w115 = s_mu_2_seen + w114
+    w116 = xi1_0 * w112
+    w117 = d_xi1_1 * w116
+    w118 = w115 + w117
+    w120 = 1.7024143839193153 * h
+    w127 = 0.8512071919596577 * h
+    # the equations of xi2, n2: Newton's method in xi2_0, xi2_1, xi2_2
     previous_2 = 0.0
     rate_2 = memory.rates[1] if memory.past else 1.0
-    w86 = 0.8512071919596577 * h
-    w87 = -1.7024143839193153 * h
-    w88 = w86 + w87
-    Wxi0_0__ = 0.9900990099009901 * m_0
-    w89 = h * Wxi0_0__
-    w90 = h * m_0
-    w91 = w89 - w90
-    w92 = -0.5 * h
-    w93 = m_0 * w92
-    w94 = (
-        -0.01 * (100.0 * xi2_0 * w88)
-        - 0.8512071919596577 * w91
-        + 1.7024143839193153 * w93
-    )
-    w95 = 85.12071919596576 * h - 170.24143839193152 * h
-    w96 = 100.0 * m_0
-    w97 = h * w96 - w89
-    w98 = -50.0 * h
-    w99 = m_0 * w98
-    w100 = 0.01 * xi2_0 * w95 - 0.8512071919596577 * w97 - 1.7024143839193153 * w99
-    w101 = 1.0 - w94 * w100
-    w102 = 0.842779397979859 * h - 1.685558795959718 * h
-    Wxi0_2__ = 100.0 * m_2
-    w103 = h * Wxi0_2__
-    w104 = 0.9900990099009901 * m_2
-    w105 = w103 - h * w104
-    w106 = -0.49504950495049505 * h
-    w107 = m_2 * w106
-    w108 = 0.99 * xi2_2 * w102 - 0.8512071919596577 * w105 + 1.7024143839193153 * w107
-    w109 = h * m_2 - w103
-    w110 = m_2 * w92
-    w111 = -0.8512071919596577 * w109 - xi2_2 * w88 - 1.7024143839193153 * w110
-    w112 = h * m_1
-    w113 = 100.0 * m_1
-    w114 = w112 - h * w113
-    w115 = m_1 * w98
-    w116 = 0.01 * xi2_1 * w95 - 0.8512071919596577 * w114 + 1.7024143839193153 * w115
-    w117 = w111 + w94 * w116
-    w118 = 0.9900990099009901 * m_1
-    w119 = h * w118 - w112
-    w120 = m_1 * w106
-    w121 = (
-        0.01 * (99.0 * xi2_1 * w102)
-        - 0.8512071919596577 * w119
-        - 1.7024143839193153 * w120
-    )
-    w122 = w116 + w100 * w111
-    w123 = 1.0 / (w101 - w108 * w117 - w121 * w122)
-    row_2_1 = [
-        w101 * w123,
-        w123 * (w108 + w100 * w121),
-        w123 * (w121 + w94 * w108),
-    ]
-    row_2_2 = [
-        w117 * w123,
-        w123 * (1.0 - w116 * w121),
-        w123 * (w94 + w111 * w121),
-    ]
-    row_2_3 = [
-        w122 * w123,
-        w123 * (w100 + w108 * w116),
-        w123 * (1.0 - w108 * w111),
-    ]
+    make_2 = memory.inverses[1] is None
     for sweep in range(1, 101):
-        xE2_2_1 = xi2_1 * w135
-        xE2_2_0 = xi2_0 * w135
-        xE2_2_2 = xi2_2 * w135
-        w136 = xE2_2_0 * xE2_2_0 + xE2_2_1 * xE2_2_1 + xE2_2_2 * xE2_2_2
-        c1_3, c2_5 = _stumpff_12(w136)
-        w138 = xE2_2_1 * c2_5
-        w139 = xE2_2_1 * w138
-        w140 = xE2_2_2 * c2_5 * xE2_2_2
-        gE2_2_0 = 1.0 - (w139 + w140)
-        w145 = xE2_2_0 * c2_5
-        w146 = xE2_2_1 * w145
-        w148 = xE2_2_2 * c1_3
-        gE2_2_1 = w146 - w148
-        w151 = xE2_2_1 * c1_3
-        w152 = xE2_2_2 * w145
-        gE2_2_2 = w151 + w152
-        E2_2_0 = ge1_0 * gE2_2_0 + ge1_3 * gE2_2_1 + ge1_6 * gE2_2_2
-        E2_2_2 = gE2_2_0 * ge1_2 + gE2_2_1 * ge1_5 + gE2_2_2 * ge1_8
-        gE2_2_3 = w146 + w148
-        w157 = xE2_2_0 * w145
-        gE2_2_4 = 1.0 - (w140 + w157)
-        w158 = xE2_2_2 * w138
-        w159 = xE2_2_0 * c1_3
-        gE2_2_5 = w158 - w159
+        xE2_2_1 = xi2_1 * w76
+        xE2_2_0 = xi2_0 * w76
+        xE2_2_2 = xi2_2 * w76
+        w77 = xE2_2_0 * xE2_2_0 + xE2_2_1 * xE2_2_1 + xE2_2_2 * xE2_2_2
+        c1_3, c2_5 = _stumpff_12(w77)
+        w79 = xE2_2_1 * c2_5
+        w80 = xE2_2_1 * w79
+        w81 = xE2_2_2 * c2_5 * xE2_2_2
+        gE2_2_0 = 1.0 - (w80 + w81)
+        w84 = xE2_2_0 * c2_5
+        w85 = xE2_2_1 * w84
+        w87 = xE2_2_2 * c1_3
+        gE2_2_1 = w85 - w87
+        w90 = xE2_2_1 * c1_3
+        w91 = xE2_2_2 * w84
+        gE2_2_2 = w90 + w91
+        E2_2_2 = ge1_2 * gE2_2_0 + ge1_5 * gE2_2_1 + ge1_8 * gE2_2_2
+        gE2_2_3 = w85 + w87
+        w92 = xE2_2_0 * w84
+        gE2_2_4 = 1.0 - (w81 + w92)
+        w93 = xE2_2_2 * w79
+        w94 = xE2_2_0 * c1_3
+        gE2_2_5 = w93 - w94
         E2_2_5 = ge1_2 * gE2_2_3 + ge1_5 * gE2_2_4 + ge1_8 * gE2_2_5
-        gE2_2_6 = w152 - w151
-        gE2_2_7 = w158 + w159
-        gE2_2_8 = 1.0 - (w139 + w157)
+        gE2_2_6 = w91 - w90
+        gE2_2_7 = w93 + w94
+        gE2_2_8 = 1.0 - (w80 + w92)
         E2_2_8 = ge1_2 * gE2_2_6 + ge1_5 * gE2_2_7 + ge1_8 * gE2_2_8
-        p_2_2 = 0.01 * (xi2_0 * E2_2_2 + xi2_1 * E2_2_5 + xi2_2 * E2_2_8)
+        a_3_2 = xi2_0 * E2_2_2 + xi2_1 * E2_2_5 + xi2_2 * E2_2_8
+        p_2_2 = 0.01 * a_3_2
         E2_2_1 = gE2_2_0 * ge1_1 + gE2_2_1 * ge1_4 + gE2_2_2 * ge1_7
         E2_2_4 = gE2_2_3 * ge1_1 + gE2_2_4 * ge1_4 + gE2_2_5 * ge1_7
         E2_2_7 = gE2_2_6 * ge1_1 + gE2_2_7 * ge1_4 + gE2_2_8 * ge1_7
         a_3_1 = xi2_0 * E2_2_1 + xi2_1 * E2_2_4 + xi2_2 * E2_2_7
         Q2_7 = g20 * E2_2_1 + g21 * E2_2_4 + g22 * E2_2_7
         Q2_8 = g20 * E2_2_2 + g21 * E2_2_5 + g22 * E2_2_8
-        w161 = 1.5 - 2.0 * Q2_8
-        w162 = 1.0 / sqrt(1.01 + 1.5 * (w161 - 0.2 * Q2_7))
-        w163 = w162 * w162 * (0.5 * w162)
-        w164 = 1.0 / sqrt(1.01 + 1.5 * (w161 + 0.2 * Q2_7))
-        w165 = w164 * w164 * (0.5 * w164)
-        w166 = -1.0 - 2.0 * (1.5 * w163 - 1.5 * w165)
-        w167 = -0.3 * w163 - 0.3 * w165
-        Nr2_0 = Q2_7 * w166 - Q2_8 * w167 + 99.0 * a_3_1 * p_2_2
-        w169 = Nr2_0 * w168
-        s_m2_4_0 = s_mu_0 + w169
-        E2_2_3 = ge1_0 * gE2_2_3 + ge1_3 * gE2_2_4 + ge1_6 * gE2_2_5
-        E2_2_6 = ge1_0 * gE2_2_6 + ge1_3 * gE2_2_7 + ge1_6 * gE2_2_8
+        w98 = 1.5 - 2.0 * Q2_8
+        w99 = 1.0 / sqrt(1.01 + 1.5 * (w98 - 0.2 * Q2_7))
+        w100 = w99 * w99 * (0.5 * w99)
+        w101 = 1.0 / sqrt(1.01 + 1.5 * (w98 + 0.2 * Q2_7))
+        w102 = w101 * w101 * (0.5 * w101)
+        w103 = -1.0 - 2.0 * (1.5 * w100 - 1.5 * w102)
+        w104 = -0.3 * w100 - 0.3 * w102
+        Nr2_0 = Q2_7 * w103 - Q2_8 * w104 + 99.0 * a_3_1 * p_2_2
+        w106 = Nr2_0 * w105
+        s_m2_4_0 = w71 + w106
+        E2_2_0 = ge1_0 * gE2_2_0 + gE2_2_1 * ge1_3 + gE2_2_2 * ge1_6
+        E2_2_3 = ge1_0 * gE2_2_3 + gE2_2_4 * ge1_3 + gE2_2_5 * ge1_6
+        E2_2_6 = ge1_0 * gE2_2_6 + gE2_2_7 * ge1_3 + gE2_2_8 * ge1_6
         a_3_0 = xi2_0 * E2_2_0 + xi2_1 * E2_2_3 + xi2_2 * E2_2_6
         Q2_6 = g20 * E2_2_0 + g21 * E2_2_3 + g22 * E2_2_6
-        Nr2_1 = -100.0 * a_3_0 * p_2_2 - w166 * Q2_6
-        w170 = w168 * Nr2_1
-        s_m2_4_1 = s_mu_1 + w170
-        Nr2_2 = 0.01 * a_3_0 * a_3_1 + w167 * Q2_6
-        w171 = w168 * Nr2_2
-        s_m2_4_2 = s_mu_2 + w171
+        Nr2_1 = -100.0 * a_3_0 * p_2_2 - w103 * Q2_6
+        w111 = w105 * Nr2_1
+        s_m2_4_1 = w110 + w111
+        Nr2_2 = 0.01 * a_3_0 * a_3_1 + w104 * Q2_6
+        w119 = w105 * Nr2_2
+        s_m2_4_2 = w118 + w119
         m2_4_2_0 = ge1_0 * s_m2_4_0 + ge1_1 * s_m2_4_1 + ge1_2 * s_m2_4_2
-        y2_0 = xi2_0 * w172
-        y2_1 = xi2_1 * w172
-        y2_2 = xi2_2 * w172
-        w173 = y2_0 * y2_0 + y2_1 * y2_1 + y2_2 * y2_2
-        c2_6, c3_3 = _stumpff_23(w173)
-        m2_4_2_2 = ge1_6 * s_m2_4_0 + ge1_7 * s_m2_4_1 + ge1_8 * s_m2_4_2
-        m2_4_2_1 = ge1_3 * s_m2_4_0 + ge1_4 * s_m2_4_1 + ge1_5 * s_m2_4_2
-        w175 = y2_1 * m2_4_2_2 - y2_2 * m2_4_2_1
-        w177 = y2_0 * m2_4_2_1 - m2_4_2_0 * y2_1
-        w178 = m2_4_2_0 * y2_2 - y2_0 * m2_4_2_2
+        y2_0 = xi2_0 * w120
+        y2_1 = xi2_1 * w120
+        y2_2 = xi2_2 * w120
+        w121 = y2_0 * y2_0 + y2_1 * y2_1 + y2_2 * y2_2
+        c2_6, c3_3 = _stumpff_23(w121)
+        m2_4_2_2 = ge1_7 * s_m2_4_1 + s_m2_4_0 * ge1_6 + ge1_8 * s_m2_4_2
+        m2_4_2_1 = ge1_4 * s_m2_4_1 + s_m2_4_0 * ge1_3 + ge1_5 * s_m2_4_2
+        w123 = y2_1 * m2_4_2_2 - y2_2 * m2_4_2_1
+        w125 = y2_0 * m2_4_2_1 - m2_4_2_0 * y2_1
+        w126 = m2_4_2_0 * y2_2 - y2_0 * m2_4_2_2
+        p2_5_0 = m2_4_2_0 - w123 * c2_6 + (y2_1 * w125 - y2_2 * w126) * c3_3
         m2_3_0 = ge1_0 * Nr2_0 + ge1_1 * Nr2_1 + ge1_2 * Nr2_2
-        y2_2_0 = xi2_0 * w179
-        y2_2_1 = xi2_1 * w179
-        y2_2_2 = xi2_2 * w179
-        w180 = y2_2_0 * y2_2_0 + y2_2_1 * y2_2_1 + y2_2_2 * y2_2_2
-        c2_7, c3_4 = _stumpff_23(w180)
-        m2_3_2 = ge1_6 * Nr2_0 + ge1_7 * Nr2_1 + ge1_8 * Nr2_2
-        m2_3_1 = ge1_3 * Nr2_0 + ge1_4 * Nr2_1 + ge1_5 * Nr2_2
-        w182 = y2_2_1 * m2_3_2 - y2_2_2 * m2_3_1
-        w184 = y2_2_0 * m2_3_1 - m2_3_0 * y2_2_1
-        w185 = m2_3_0 * y2_2_2 - y2_2_0 * m2_3_2
+        y2_2_0 = xi2_0 * w127
+        y2_2_1 = xi2_1 * w127
+        y2_2_2 = xi2_2 * w127
+        w128 = y2_2_0 * y2_2_0 + y2_2_1 * y2_2_1 + y2_2_2 * y2_2_2
+        c2_7, c3_4 = _stumpff_23(w128)
+        m2_3_2 = ge1_7 * Nr2_1 + Nr2_0 * ge1_6 + ge1_8 * Nr2_2
+        m2_3_1 = ge1_4 * Nr2_1 + Nr2_0 * ge1_3 + ge1_5 * Nr2_2
+        w130 = y2_2_1 * m2_3_2 - y2_2_2 * m2_3_1
+        w132 = y2_2_0 * m2_3_1 - m2_3_0 * y2_2_1
+        w133 = m2_3_0 * y2_2_2 - y2_2_0 * m2_3_2
         M2_0 = (
-            m2_4_2_0
-            - w175 * c2_6
-            + (y2_1 * w177 - y2_2 * w178) * c3_3
-            + w179 * (m2_3_0 - w182 * c2_7 + (y2_2_1 * w184 - y2_2_2 * w185) * c3_4)
+            p2_5_0
+            + w127 * (m2_3_0 - w130 * c2_7 + (y2_2_1 * w132 - y2_2_2 * w133) * c3_4)
         )
+        p_2_0 = 1.01 * a_3_0
+        a_6_0 = E2_2_0 * p_2_0 + E2_2_1 * a_3_1 + E2_2_2 * p_2_2
+        residual_2_0 = M2_0 - a_6_0
+        p2_5_1 = m2_4_2_1 - w126 * c2_6 + (y2_2 * w123 - y2_0 * w125) * c3_3
         M2_1 = (
-            m2_4_2_1
-            - w178 * c2_6
-            + (y2_2 * w175 - y2_0 * w177) * c3_3
-            + w179 * (m2_3_1 - w185 * c2_7 + (y2_2_2 * w182 - y2_2_0 * w184) * c3_4)
+            p2_5_1
+            + w127 * (m2_3_1 - w133 * c2_7 + (y2_2_2 * w130 - y2_2_0 * w132) * c3_4)
         )
+        a_6_1 = E2_2_3 * p_2_0 + E2_2_4 * a_3_1 + E2_2_5 * p_2_2
+        residual_2_1 = M2_1 - a_6_1
+        p2_5_2 = m2_4_2_2 - w125 * c2_6 + (y2_0 * w126 - y2_1 * w123) * c3_3
         M2_2 = (
-            m2_4_2_2
-            - w177 * c2_6
-            + (y2_0 * w178 - y2_1 * w175) * c3_3
-            + w179 * (m2_3_2 - w184 * c2_7 + (y2_2_0 * w185 - y2_2_1 * w182) * c3_4)
+            p2_5_2
+            + w127 * (m2_3_2 - w132 * c2_7 + (y2_2_0 * w133 - y2_2_1 * w130) * c3_4)
         )
-        Wf2_0 = 0.9900990099009901 * (E2_2_0 * M2_0 + E2_2_3 * M2_1 + E2_2_6 * M2_2)
-        Pf2_1 = E2_2_1 * M2_0 + E2_2_4 * M2_1 + E2_2_7 * M2_2
-        Wf2_2 = 100.0 * (E2_2_2 * M2_0 + E2_2_5 * M2_1 + E2_2_8 * M2_2)
-        next_xi2_0 = E2_2_0 * Wf2_0 + E2_2_1 * Pf2_1 + E2_2_2 * Wf2_2
-        next_xi2_1 = E2_2_3 * Wf2_0 + E2_2_4 * Pf2_1 + E2_2_5 * Wf2_2
-        next_xi2_2 = E2_2_6 * Wf2_0 + E2_2_7 * Pf2_1 + E2_2_8 * Wf2_2
-        residual_xi2_0 = next_xi2_0 - xi2_0
-        residual_xi2_1 = next_xi2_1 - xi2_1
-        residual_xi2_2 = next_xi2_2 - xi2_2
-        total = residual_xi2_0 + residual_xi2_1 + residual_xi2_2
+        a_6_2 = E2_2_6 * p_2_0 + E2_2_7 * a_3_1 + E2_2_8 * p_2_2
+        residual_2_2 = M2_2 - a_6_2
+        total = residual_2_0 + residual_2_1 + residual_2_2
         if not isfinite(total):
             raise _failed(NOT_FINITE, "the equations of xi2, n2", 1, sweep, statistics)
-        change_xi2_0 = (
-            row_2_1[0] * residual_xi2_0
-            + row_2_1[1] * residual_xi2_1
-            + row_2_1[2] * residual_xi2_2
+        if make_2:
+            w134 = -1.337695120040061 * xi1_0
+            w135 = (
+                h
+                * (w134 - 0.8512071919596577 * s_mu_0_seen + 1.7024143839193153 * xi2_0)
+            )
+            w136 = (
+                h
+                * (0.8512071919596577 * s_mu_0_seen + w134 - 0.01702414383919315 * xi2_0)
+            )
+            w137 = 0.01 - w135 * w136
+            w138 = -0.013512071919596576 * xi1_2
+            w139 = (
+                h
+                * (w138 - 0.8512071919596577 * s_mu_2_seen - 1.6853902400801222 * xi2_2)
+            )
+            w140 = 1.3512071919596575 * xi1_1
+            w141 = (
+                h
+                * (w140 - 0.8512071919596577 * s_mu_1_seen - 0.01702414383919315 * xi2_1)
+            )
+            w142 = (
+                h
+                * (0.8512071919596577 * s_mu_2_seen + w138 + 1.7024143839193153 * xi2_2)
+            )
+            w143 = w135 * w141 + 0.01 * w142
+            w144 = (
+                h
+                * (0.8512071919596577 * s_mu_1_seen + w140 - 1.6853902400801222 * xi2_1)
+            )
+            w145 = w141 + w136 * w142
+            w146 = 1.0 / (1.01 * w137 - w139 * w143 - w144 * w145)
+            row_2_1 = [
+                w137 * w146,
+                w146 * (w136 * w144 + 0.01 * w139),
+                w146 * (w144 + w135 * w139),
+            ]
+            row_2_2 = [
+                w143 * w146,
+                w146 * (0.0101 - w141 * w144),
+                w146 * (w142 * w144 + 1.01 * w135),
+            ]
+            row_2_3 = [
+                w145 * w146,
+                w146 * (w139 * w141 + 1.01 * w136),
+                w146 * (1.01 - w139 * w142),
+            ]
+            memory.inverses[1] = [row_2_1, row_2_2, row_2_3]
+            if statistics is not None:
+                statistics.matrices += 1
+        row_2_1, row_2_2, row_2_3 = memory.inverses[1]
+        d_xi2_0 = (
+            row_2_1[0] * residual_2_0
+            + row_2_1[1] * residual_2_1
+            + row_2_1[2] * residual_2_2
         )
-        change_xi2_1 = (
-            row_2_2[0] * residual_xi2_0
-            + row_2_2[1] * residual_xi2_1
-            + row_2_2[2] * residual_xi2_2
+        d_xi2_1 = (
+            row_2_2[0] * residual_2_0
+            + row_2_2[1] * residual_2_1
+            + row_2_2[2] * residual_2_2
         )
-        change_xi2_2 = (
-            row_2_3[0] * residual_xi2_0
-            + row_2_3[1] * residual_xi2_1
-            + row_2_3[2] * residual_xi2_2
+        d_xi2_2 = (
+            row_2_3[0] * residual_2_0
+            + row_2_3[1] * residual_2_1
+            + row_2_3[2] * residual_2_2
         )
-        xi2_0 += change_xi2_0
-        xi2_1 += change_xi2_1
-        xi2_2 += change_xi2_2
-        change = max(abs(change_xi2_0), abs(change_xi2_1), abs(change_xi2_2))
+        xi2_0 += d_xi2_0
+        xi2_1 += d_xi2_1
+        xi2_2 += d_xi2_2
+        change = max(abs(d_xi2_0), abs(d_xi2_1), abs(d_xi2_2))
         scale = max(1.0, abs(xi2_0), abs(xi2_1), abs(xi2_2))
         still = 0.0 < previous_2 <= change <= 5.684341886080802e-14 * scale
         if sweep == 1:
@@ -719,269 +713,529 @@ def _advance(state, h, memory, statistics):
         if still or (close and change <= 5.684341886080802e-14 * scale):
             memory.rates[1] = rate_2 if sweep > 1 else 2.0 * rate_2
             break
+        make_2 = 0.0 < 0.25 * previous_2 < change
         previous_2 = change
     else:
         raise _failed(NOT_CONVERGED, "the equations of xi2, n2", 1, sweep, statistics)
     if statistics is not None:
         statistics.count(1, sweep)
-    xe2_1 = xi2_1 * w168
-    xe2_0 = xi2_0 * w168
-    w221 = xe2_0 * xe2_0
-    w222 = xe2_1 * xe2_1
-    w223 = w221 + w222
-    xe2_2 = xi2_2 * w168
-    w224 = xe2_2 * xe2_2
-    w225 = w223 + w224
-    c1_4, c2_8 = _stumpff_12(w225)
-    w227 = xe2_1 * c2_8
-    w228 = xe2_1 * w227
-    w229 = xe2_2 * c2_8
-    w230 = xe2_2 * w229
-    w231 = w228 + w230
-    ge2_0 = 1.0 - w231
-    w232 = ge1_0 * ge2_0
-    w233 = xe2_0 * c2_8
-    w234 = xe2_1 * w233
-    w236 = xe2_2 * c1_4
-    ge2_1 = w234 - w236
-    w237 = ge1_3 * ge2_1
-    w238 = w232 + w237
-    w239 = xe2_1 * c1_4
-    w240 = xe2_2 * w233
-    ge2_2 = w239 + w240
-    w241 = ge1_6 * ge2_2
-    e2_0 = w238 + w241
-    ge2_3 = w234 + w236
-    w247 = ge1_0 * ge2_3
-    w248 = xe2_0 * w233
-    w249 = w230 + w248
-    ge2_4 = 1.0 - w249
-    w250 = ge1_3 * ge2_4
-    w251 = w247 + w250
-    w252 = xe2_2 * w227
-    w253 = xe2_0 * c1_4
-    ge2_5 = w252 - w253
-    w254 = ge1_6 * ge2_5
-    e2_3 = w251 + w254
-    ge2_6 = w240 - w239
-    w259 = ge1_0 * ge2_6
-    ge2_7 = w252 + w253
-    w260 = ge1_3 * ge2_7
-    w261 = w259 + w260
-    w262 = w228 + w248
-    ge2_8 = 1.0 - w262
-    w263 = ge1_6 * ge2_8
-    e2_6 = w261 + w263
-    w266 = ge1_2 * ge2_0
-    w267 = ge1_5 * ge2_1
+    xe2_1 = xi2_1 * w105
+    xe2_0 = xi2_0 * w105
+    w147 = xe2_0 * xe2_0
+    w148 = xe2_1 * xe2_1
+    w149 = w147 + w148
+    xe2_2 = xi2_2 * w105
+    w150 = xe2_2 * xe2_2
+    w151 = w149 + w150
+    c1_4, c2_8 = _stumpff_12(w151)
+    w153 = xe2_1 * c2_8
+    w154 = xe2_1 * w153
+    w155 = xe2_2 * c2_8
+    w156 = xe2_2 * w155
+    w157 = w154 + w156
+    ge2_0 = 1.0 - w157
+    w158 = ge1_0 * ge2_0
+    w159 = xe2_0 * c2_8
+    w160 = xe2_1 * w159
+    w162 = xe2_2 * c1_4
+    ge2_1 = w160 - w162
+    w163 = ge1_3 * ge2_1
+    w164 = w158 + w163
+    w165 = xe2_1 * c1_4
+    w166 = xe2_2 * w159
+    ge2_2 = w165 + w166
+    w167 = ge1_6 * ge2_2
+    e2_0 = w164 + w167
+    xE2_2_1_ = xi2_1 * w76
+    xE2_2_0_ = xi2_0 * w76
+    w168 = xE2_2_0_ * xE2_2_0_
+    w169 = xE2_2_1_ * xE2_2_1_
+    w170 = w168 + w169
+    xE2_2_2_ = xi2_2 * w76
+    w171 = xE2_2_2_ * xE2_2_2_
+    w172 = w170 + w171
+    c1_5, c2_9 = _stumpff_12(w172)
+    w174 = xE2_2_1_ * c2_9
+    w175 = xE2_2_1_ * w174
+    w176 = xE2_2_2_ * c2_9
+    w177 = xE2_2_2_ * w176
+    w178 = w175 + w177
+    gE2_2_0_ = 1.0 - w178
+    w179 = ge1_2 * gE2_2_0_
+    w180 = xE2_2_0_ * c2_9
+    w181 = xE2_2_1_ * w180
+    w183 = xE2_2_2_ * c1_5
+    gE2_2_1_ = w181 - w183
+    w184 = ge1_5 * gE2_2_1_
+    w185 = w179 + w184
+    w186 = xE2_2_1_ * c1_5
+    w187 = xE2_2_2_ * w180
+    gE2_2_2_ = w186 + w187
+    w188 = ge1_8 * gE2_2_2_
+    E2_2_2_ = w185 + w188
+    w189 = xi2_0 * E2_2_2_
+    gE2_2_3_ = w181 + w183
+    w190 = ge1_2 * gE2_2_3_
+    w191 = xE2_2_0_ * w180
+    w192 = w177 + w191
+    gE2_2_4_ = 1.0 - w192
+    w193 = ge1_5 * gE2_2_4_
+    w194 = w190 + w193
+    w195 = xE2_2_2_ * w174
+    w196 = xE2_2_0_ * c1_5
+    gE2_2_5_ = w195 - w196
+    w197 = ge1_8 * gE2_2_5_
+    E2_2_5_ = w194 + w197
+    w198 = xi2_1 * E2_2_5_
+    w199 = w189 + w198
+    gE2_2_6_ = w187 - w186
+    w200 = ge1_2 * gE2_2_6_
+    gE2_2_7_ = w195 + w196
+    w201 = ge1_5 * gE2_2_7_
+    w202 = w200 + w201
+    w203 = w175 + w191
+    gE2_2_8_ = 1.0 - w203
+    w204 = ge1_8 * gE2_2_8_
+    E2_2_8_ = w202 + w204
+    w205 = xi2_2 * E2_2_8_
+    a_3_2_ = w199 + w205
+    p_2_2_ = 0.01 * a_3_2_
+    w206 = ge1_1 * gE2_2_0_
+    w207 = ge1_4 * gE2_2_1_
+    w208 = w206 + w207
+    w209 = ge1_7 * gE2_2_2_
+    E2_2_1_ = w208 + w209
+    w210 = xi2_0 * E2_2_1_
+    w211 = ge1_1 * gE2_2_3_
+    w212 = ge1_4 * gE2_2_4_
+    w213 = w211 + w212
+    w214 = ge1_7 * gE2_2_5_
+    E2_2_4_ = w213 + w214
+    w215 = xi2_1 * E2_2_4_
+    w216 = w210 + w215
+    w217 = ge1_1 * gE2_2_6_
+    w218 = ge1_4 * gE2_2_7_
+    w219 = w217 + w218
+    w220 = ge1_7 * gE2_2_8_
+    E2_2_7_ = w219 + w220
+    w221 = xi2_2 * E2_2_7_
+    a_3_1_ = w216 + w221
+    w222 = 99.0 * a_3_1_
+    w223 = p_2_2_ * w222
+    w224 = g20 * E2_2_1_
+    w225 = g21 * E2_2_4_
+    w226 = w224 + w225
+    w227 = g22 * E2_2_7_
+    Q2_7_ = w226 + w227
+    w228 = g20 * E2_2_2_
+    w229 = g21 * E2_2_5_
+    w230 = w228 + w229
+    w231 = g22 * E2_2_8_
+    Q2_8_ = w230 + w231
+    w232 = -2.0 * Q2_8_
+    w233 = 1.5 + w232
+    w234 = -0.2 * Q2_7_
+    w235 = w233 + w234
+    w236 = 1.5 * w235
+    w237 = 1.01 + w236
+    w238 = sqrt(w237)
+    w239 = 1.0 / w238
+    w240 = w239 * w239
+    w241 = 0.5 * w239
+    w242 = w240 * w241
+    w243 = 1.5 * w242
+    w244 = 0.2 * Q2_7_
+    w245 = w233 + w244
+    w246 = 1.5 * w245
+    w247 = 1.01 + w246
+    w248 = sqrt(w247)
+    w249 = 1.0 / w248
+    w250 = w249 * w249
+    w251 = 0.5 * w249
+    w252 = w250 * w251
+    w253 = 1.5 * w252
+    w254 = w243 - w253
+    w255 = -2.0 * w254
+    w256 = w255 - 1.0
+    w257 = Q2_7_ * w256
+    w258 = -0.3 * w242
+    w259 = -0.3 * w252
+    w260 = w258 + w259
+    w261 = Q2_8_ * w260
+    w262 = w257 - w261
+    Nr2_0_ = w223 + w262
+    w263 = w105 * Nr2_0_
+    p_2_ = 0.01 * xi1_2
+    w264 = 99.0 * xi1_1
+    w265 = p_2_ * w264
+    xE1_1_1_ = xi1_1 * w1
+    xE1_1_0_ = xi1_0 * w1
+    w266 = xE1_1_0_ * xE1_1_0_
+    w267 = xE1_1_1_ * xE1_1_1_
     w268 = w266 + w267
-    w269 = ge1_8 * ge2_2
-    e2_2 = w268 + w269
-    w270 = ge1_2 * ge2_3
-    w271 = ge1_5 * ge2_4
-    w272 = w270 + w271
-    w273 = ge1_8 * ge2_5
-    e2_5 = w272 + w273
-    w274 = ge1_2 * ge2_6
-    w275 = ge1_5 * ge2_7
-    w276 = w274 + w275
-    w277 = ge1_8 * ge2_8
-    e2_8 = w276 + w277
-    w281 = ge1_1 * ge2_0
-    w282 = ge1_4 * ge2_1
-    w283 = w281 + w282
-    w284 = ge1_7 * ge2_2
-    e2_1 = w283 + w284
-    w285 = ge1_1 * ge2_3
-    w286 = ge1_4 * ge2_4
-    w287 = w285 + w286
-    w288 = ge1_7 * ge2_5
-    e2_4 = w287 + w288
-    w289 = ge1_1 * ge2_6
-    w290 = ge1_4 * ge2_7
+    xE1_1_2_ = xi1_2 * w1
+    w269 = xE1_1_2_ * xE1_1_2_
+    w270 = w268 + w269
+    c1_6, c2_10 = _stumpff_12(w270)
+    w272 = xE1_1_0_ * c2_10
+    w273 = xE1_1_1_ * w272
+    w275 = xE1_1_2_ * c1_6
+    gE1_1_1_ = w273 - w275
+    w276 = g20 * gE1_1_1_
+    w277 = xE1_1_0_ * w272
+    w278 = xE1_1_2_ * c2_10
+    w279 = xE1_1_2_ * w278
+    w280 = w277 + w279
+    gE1_1_4_ = 1.0 - w280
+    w281 = g21 * gE1_1_4_
+    w282 = w276 + w281
+    w283 = xE1_1_0_ * c1_6
+    w284 = xE1_1_1_ * c2_10
+    w285 = xE1_1_2_ * w284
+    gE1_1_7_ = w283 + w285
+    w286 = g22 * gE1_1_7_
+    Q1_7_ = w282 + w286
+    w287 = xE1_1_1_ * c1_6
+    w288 = xE1_1_2_ * w272
+    gE1_1_2_ = w287 + w288
+    w289 = g20 * gE1_1_2_
+    gE1_1_5_ = w285 - w283
+    w290 = g21 * gE1_1_5_
     w291 = w289 + w290
-    w292 = ge1_7 * ge2_8
-    e2_7 = w291 + w292
-    # the equations of xi3, n3: Newton's method with the matrix to first order in h in xi3_0, xi3_1, xi3_2
+    w292 = xE1_1_1_ * w284
+    w293 = w277 + w292
+    gE1_1_8_ = 1.0 - w293
+    w294 = g22 * gE1_1_8_
+    Q1_8_ = w291 + w294
+    w295 = -2.0 * Q1_8_
+    w296 = 1.5 + w295
+    w297 = -0.2 * Q1_7_
+    w298 = w296 + w297
+    w299 = 1.5 * w298
+    w300 = 1.01 + w299
+    w301 = sqrt(w300)
+    w302 = 1.0 / w301
+    w303 = w302 * w302
+    w304 = 0.5 * w302
+    w305 = w303 * w304
+    w306 = 1.5 * w305
+    w307 = 0.2 * Q1_7_
+    w308 = w296 + w307
+    w309 = 1.5 * w308
+    w310 = 1.01 + w309
+    w311 = sqrt(w310)
+    w312 = 1.0 / w311
+    w313 = w312 * w312
+    w314 = 0.5 * w312
+    w315 = w313 * w314
+    w316 = 1.5 * w315
+    w317 = w306 - w316
+    w318 = -2.0 * w317
+    w319 = w318 - 1.0
+    w320 = Q1_7_ * w319
+    w321 = -0.3 * w305
+    w322 = -0.3 * w315
+    w323 = w321 + w322
+    w324 = Q1_8_ * w323
+    w325 = w320 - w324
+    Nr1_0_ = w265 + w325
+    w326 = ge1_2 * ge2_0
+    w327 = ge1_5 * ge2_1
+    w328 = w326 + w327
+    w329 = ge1_8 * ge2_2
+    e2_2 = w328 + w329
+    ge2_3 = w160 + w162
+    w335 = ge1_2 * ge2_3
+    w336 = xe2_0 * w159
+    w337 = w156 + w336
+    ge2_4 = 1.0 - w337
+    w338 = ge1_5 * ge2_4
+    w339 = w335 + w338
+    w340 = xe2_2 * w153
+    w341 = xe2_0 * c1_4
+    ge2_5 = w340 - w341
+    w342 = ge1_8 * ge2_5
+    e2_5 = w339 + w342
+    ge2_6 = w166 - w165
+    w347 = ge1_2 * ge2_6
+    ge2_7 = w340 + w341
+    w348 = ge1_5 * ge2_7
+    w349 = w347 + w348
+    w350 = w154 + w336
+    ge2_8 = 1.0 - w350
+    w351 = ge1_8 * ge2_8
+    e2_8 = w349 + w351
+    w357 = ge1_1 * ge2_0
+    w358 = ge1_4 * ge2_1
+    w359 = w357 + w358
+    w360 = ge1_7 * ge2_2
+    e2_1 = w359 + w360
+    w361 = ge1_1 * ge2_3
+    w362 = ge1_4 * ge2_4
+    w363 = w361 + w362
+    w364 = ge1_7 * ge2_5
+    e2_4 = w363 + w364
+    w365 = ge1_1 * ge2_6
+    w366 = ge1_4 * ge2_7
+    w367 = w365 + w366
+    w368 = ge1_7 * ge2_8
+    e2_7 = w367 + w368
+    w376 = ge1_0 * gE2_2_0_
+    w377 = ge1_3 * gE2_2_1_
+    w378 = w376 + w377
+    w379 = ge1_6 * gE2_2_2_
+    E2_2_0_ = w378 + w379
+    w380 = xi2_0 * E2_2_0_
+    w381 = ge1_0 * gE2_2_3_
+    w382 = ge1_3 * gE2_2_4_
+    w383 = w381 + w382
+    w384 = ge1_6 * gE2_2_5_
+    E2_2_3_ = w383 + w384
+    w385 = xi2_1 * E2_2_3_
+    w386 = w380 + w385
+    w387 = ge1_0 * gE2_2_6_
+    w388 = ge1_3 * gE2_2_7_
+    w389 = w387 + w388
+    w390 = ge1_6 * gE2_2_8_
+    E2_2_6_ = w389 + w390
+    w391 = xi2_2 * E2_2_6_
+    a_3_0_ = w386 + w391
+    w392 = -100.0 * a_3_0_
+    w393 = p_2_2_ * w392
+    w394 = g20 * E2_2_0_
+    w395 = g21 * E2_2_3_
+    w396 = w394 + w395
+    w397 = g22 * E2_2_6_
+    Q2_6_ = w396 + w397
+    w398 = w256 * Q2_6_
+    Nr2_1_ = w393 - w398
+    w399 = w105 * Nr2_1_
+    w400 = -100.0 * xi1_0
+    w401 = p_2_ * w400
+    w402 = w279 + w292
+    gE1_1_0_ = 1.0 - w402
+    w403 = g20 * gE1_1_0_
+    gE1_1_3_ = w273 + w275
+    w404 = g21 * gE1_1_3_
+    w405 = w403 + w404
+    gE1_1_6_ = w288 - w287
+    w406 = g22 * gE1_1_6_
+    Q1_6_ = w405 + w406
+    w407 = w319 * Q1_6_
+    Nr1_1_ = w401 - w407
+    w408 = ge1_0 * ge2_3
+    w409 = ge1_3 * ge2_4
+    w410 = w408 + w409
+    w411 = ge1_6 * ge2_5
+    e2_3 = w410 + w411
+    w412 = ge1_0 * ge2_6
+    w413 = ge1_3 * ge2_7
+    w414 = w412 + w413
+    w415 = ge1_6 * ge2_8
+    e2_6 = w414 + w415
+    w416 = 0.01 * a_3_0_
+    w417 = a_3_1_ * w416
+    w418 = w260 * Q2_6_
+    Nr2_2_ = w417 + w418
+    w419 = w105 * Nr2_2_
+    w420 = 0.01 * xi1_0
+    w421 = xi1_1 * w420
+    w422 = w323 * Q1_6_
+    Nr1_2_ = w421 + w422
+    # the equations of xi3, n3: Newton's method in xi3_0, xi3_1, xi3_2
     previous_3 = 0.0
     rate_3 = memory.rates[2] if memory.past else 1.0
-    w186 = -0.5 * h
-    w187 = m_0 * w186
-    w188 = -1.3512071919596575 * w187
-    Wxi0_0___ = 0.9900990099009901 * m_0
-    w189 = w46 * Wxi0_0___
-    w190 = h * m_0
-    w191 = w69 + w79
-    w192 = w189 - 0.6756035959798288 * w190 - 0.01 * (100.0 * xi3_0 * w191) + w188
-    w193 = -50.0 * h
-    w194 = m_0 * w193
-    w195 = 1.3512071919596575 * w194
-    w196 = 100.0 * m_0
-    w197 = 135.12071919596576 * h - 67.56035959798288 * h
-    w198 = w46 * w196 - w189 + 0.01 * xi3_0 * w197 + w195
-    w199 = 1.0 - w192 * w198
-    w200 = -0.49504950495049505 * h
-    w201 = m_2 * w200
-    w202 = -1.3512071919596575 * w201
-    w203 = 0.9900990099009901 * m_2
-    w204 = 1.337828902930354 * h - 0.668914451465177 * h
-    w205 = 67.56035959798288 * m_2 * h - w46 * w203 + 0.99 * xi3_2 * w204 + w202
-    w206 = m_2 * w186
-    w207 = 1.3512071919596575 * w206
-    Wxi0_2___ = 100.0 * m_2
-    w208 = 0.6756035959798288 * m_2 * h - w46 * Wxi0_2___ - xi3_2 * w191 + w207
-    w209 = m_1 * w193
-    w210 = -1.3512071919596575 * w209
-    w211 = 100.0 * m_1
-    w212 = m_1 * w46 - w46 * w211 + 0.01 * xi3_1 * w197 + w210
-    w213 = w208 + w192 * w212
-    w214 = m_1 * w200
-    w215 = 1.3512071919596575 * w214
-    w216 = 0.9900990099009901 * m_1
-    w217 = h * m_1
-    w218 = w46 * w216 - 0.6756035959798288 * w217 + 0.01 * (99.0 * xi3_1 * w204) + w215
-    w219 = w212 + w198 * w208
-    w220 = 1.0 / (w199 - w205 * w213 - w218 * w219)
-    row_3_1 = [
-        w199 * w220,
-        w220 * (w205 + w198 * w218),
-        w220 * (w218 + w192 * w205),
-    ]
-    row_3_2 = [
-        w213 * w220,
-        w220 * (1.0 - w212 * w218),
-        w220 * (w192 + w208 * w218),
-    ]
-    row_3_3 = [
-        w219 * w220,
-        w220 * (w198 + w205 * w212),
-        w220 * (1.0 - w205 * w208),
-    ]
+    make_3 = memory.inverses[2] is None
     for sweep in range(1, 101):
-        xE3_3_1 = xi3_1 * w46
-        xE3_3_0 = xi3_0 * w46
-        xE3_3_2 = xi3_2 * w46
-        w242 = xE3_3_0 * xE3_3_0 + xE3_3_1 * xE3_3_1 + xE3_3_2 * xE3_3_2
-        c1_5, c2_9 = _stumpff_12(w242)
-        w244 = xE3_3_1 * c2_9
-        w245 = xE3_3_1 * w244
-        w246 = xE3_3_2 * c2_9 * xE3_3_2
-        gE3_3_0 = 1.0 - (w245 + w246)
-        w255 = xE3_3_0 * c2_9
-        w256 = xE3_3_1 * w255
-        w258 = xE3_3_2 * c1_5
-        gE3_3_1 = w256 - w258
-        w264 = xE3_3_1 * c1_5
-        w265 = xE3_3_2 * w255
-        gE3_3_2 = w264 + w265
-        E3_3_0 = e2_0 * gE3_3_0 + e2_3 * gE3_3_1 + e2_6 * gE3_3_2
-        E3_3_2 = gE3_3_0 * e2_2 + gE3_3_1 * e2_5 + gE3_3_2 * e2_8
-        gE3_3_3 = w256 + w258
-        w278 = xE3_3_0 * w255
-        gE3_3_4 = 1.0 - (w246 + w278)
-        w279 = xE3_3_2 * w244
-        w280 = xE3_3_0 * c1_5
-        gE3_3_5 = w279 - w280
+        xE3_3_1 = xi3_1 * w1
+        xE3_3_0 = xi3_0 * w1
+        xE3_3_2 = xi3_2 * w1
+        w330 = xE3_3_0 * xE3_3_0 + xE3_3_1 * xE3_3_1 + xE3_3_2 * xE3_3_2
+        c1_7, c2_11 = _stumpff_12(w330)
+        w332 = xE3_3_1 * c2_11
+        w333 = xE3_3_1 * w332
+        w334 = xE3_3_2 * c2_11 * xE3_3_2
+        gE3_3_0 = 1.0 - (w333 + w334)
+        w343 = xE3_3_0 * c2_11
+        w344 = xE3_3_1 * w343
+        w346 = xE3_3_2 * c1_7
+        gE3_3_1 = w344 - w346
+        w352 = xE3_3_1 * c1_7
+        w353 = xE3_3_2 * w343
+        gE3_3_2 = w352 + w353
+        E3_3_2 = e2_2 * gE3_3_0 + e2_5 * gE3_3_1 + e2_8 * gE3_3_2
+        gE3_3_3 = w344 + w346
+        w354 = xE3_3_0 * w343
+        gE3_3_4 = 1.0 - (w334 + w354)
+        w355 = xE3_3_2 * w332
+        w356 = xE3_3_0 * c1_7
+        gE3_3_5 = w355 - w356
         E3_3_5 = e2_2 * gE3_3_3 + e2_5 * gE3_3_4 + e2_8 * gE3_3_5
-        gE3_3_6 = w265 - w264
-        gE3_3_7 = w279 + w280
-        gE3_3_8 = 1.0 - (w245 + w278)
+        gE3_3_6 = w353 - w352
+        gE3_3_7 = w355 + w356
+        gE3_3_8 = 1.0 - (w333 + w354)
         E3_3_8 = e2_2 * gE3_3_6 + e2_5 * gE3_3_7 + e2_8 * gE3_3_8
-        p_3_2 = 0.01 * (xi3_0 * E3_3_2 + xi3_1 * E3_3_5 + xi3_2 * E3_3_8)
+        a_5_2 = xi3_0 * E3_3_2 + xi3_1 * E3_3_5 + xi3_2 * E3_3_8
+        p_3_2 = 0.01 * a_5_2
         E3_3_1 = gE3_3_0 * e2_1 + gE3_3_1 * e2_4 + gE3_3_2 * e2_7
         E3_3_4 = gE3_3_3 * e2_1 + gE3_3_4 * e2_4 + gE3_3_5 * e2_7
         E3_3_7 = gE3_3_6 * e2_1 + gE3_3_7 * e2_4 + gE3_3_8 * e2_7
         a_5_1 = xi3_0 * E3_3_1 + xi3_1 * E3_3_4 + xi3_2 * E3_3_7
         Q3_7 = g20 * E3_3_1 + g21 * E3_3_4 + g22 * E3_3_7
         Q3_8 = g20 * E3_3_2 + g21 * E3_3_5 + g22 * E3_3_8
-        w293 = 1.5 - 2.0 * Q3_8
-        w294 = 1.0 / sqrt(1.01 + 1.5 * (w293 - 0.2 * Q3_7))
-        w295 = w294 * w294 * (0.5 * w294)
-        w296 = 1.0 / sqrt(1.01 + 1.5 * (w293 + 0.2 * Q3_7))
-        w297 = w296 * w296 * (0.5 * w296)
-        w298 = -1.0 - 2.0 * (1.5 * w295 - 1.5 * w297)
-        w299 = -0.3 * w295 - 0.3 * w297
-        Nr3_0 = Q3_7 * w298 - Q3_8 * w299 + 99.0 * a_5_1 * p_3_2
-        s_m3_5_0 = m_0 + w69 * (Nr1_0 + Nr3_0) + w169
-        E3_3_3 = e2_0 * gE3_3_3 + e2_3 * gE3_3_4 + e2_6 * gE3_3_5
-        E3_3_6 = e2_0 * gE3_3_6 + e2_3 * gE3_3_7 + e2_6 * gE3_3_8
+        w369 = 1.5 - 2.0 * Q3_8
+        w370 = 1.0 / sqrt(1.01 + 1.5 * (w369 - 0.2 * Q3_7))
+        w371 = w370 * w370 * (0.5 * w370)
+        w372 = 1.0 / sqrt(1.01 + 1.5 * (w369 + 0.2 * Q3_7))
+        w373 = w372 * w372 * (0.5 * w372)
+        w374 = -1.0 - 2.0 * (1.5 * w371 - 1.5 * w373)
+        w375 = -0.3 * w371 - 0.3 * w373
+        Nr3_0 = Q3_7 * w374 - Q3_8 * w375 + 99.0 * a_5_1 * p_3_2
+        s_m3_5_0 = m_0 + w23 * (Nr1_0_ + Nr3_0) + w263
+        E3_3_0 = e2_0 * gE3_3_0 + gE3_3_1 * e2_3 + gE3_3_2 * e2_6
+        E3_3_3 = e2_0 * gE3_3_3 + gE3_3_4 * e2_3 + gE3_3_5 * e2_6
+        E3_3_6 = e2_0 * gE3_3_6 + gE3_3_7 * e2_3 + gE3_3_8 * e2_6
         a_5_0 = xi3_0 * E3_3_0 + xi3_1 * E3_3_3 + xi3_2 * E3_3_6
         Q3_6 = g20 * E3_3_0 + g21 * E3_3_3 + g22 * E3_3_6
-        Nr3_1 = -100.0 * a_5_0 * p_3_2 - w298 * Q3_6
-        s_m3_5_1 = m_1 + w69 * (Nr1_1 + Nr3_1) + w170
-        Nr3_2 = 0.01 * a_5_0 * a_5_1 + w299 * Q3_6
-        s_m3_5_2 = m_2 + w69 * (Nr1_2 + Nr3_2) + w171
+        Nr3_1 = -100.0 * a_5_0 * p_3_2 - w374 * Q3_6
+        s_m3_5_1 = m_1 + w23 * (Nr1_1_ + Nr3_1) + w399
+        Nr3_2 = 0.01 * a_5_0 * a_5_1 + w375 * Q3_6
+        s_m3_5_2 = m_2 + w23 * (Nr1_2_ + Nr3_2) + w419
         m3_5_2_0 = e2_0 * s_m3_5_0 + e2_1 * s_m3_5_1 + e2_2 * s_m3_5_2
-        y3_0 = xi3_0 * w70
-        y3_1 = xi3_1 * w70
-        y3_2 = xi3_2 * w70
-        w300 = y3_0 * y3_0 + y3_1 * y3_1 + y3_2 * y3_2
-        c2_10, c3_5 = _stumpff_23(w300)
-        m3_5_2_2 = e2_6 * s_m3_5_0 + e2_7 * s_m3_5_1 + e2_8 * s_m3_5_2
-        m3_5_2_1 = e2_3 * s_m3_5_0 + e2_4 * s_m3_5_1 + e2_5 * s_m3_5_2
-        w302 = y3_1 * m3_5_2_2 - y3_2 * m3_5_2_1
-        w304 = y3_0 * m3_5_2_1 - m3_5_2_0 * y3_1
-        w305 = m3_5_2_0 * y3_2 - y3_0 * m3_5_2_2
+        y3_0 = xi3_0 * w24
+        y3_1 = xi3_1 * w24
+        y3_2 = xi3_2 * w24
+        w423 = y3_0 * y3_0 + y3_1 * y3_1 + y3_2 * y3_2
+        c2_12, c3_5 = _stumpff_23(w423)
+        m3_5_2_2 = e2_7 * s_m3_5_1 + s_m3_5_0 * e2_6 + e2_8 * s_m3_5_2
+        m3_5_2_1 = e2_4 * s_m3_5_1 + s_m3_5_0 * e2_3 + e2_5 * s_m3_5_2
+        w425 = y3_1 * m3_5_2_2 - y3_2 * m3_5_2_1
+        w427 = y3_0 * m3_5_2_1 - m3_5_2_0 * y3_1
+        w428 = m3_5_2_0 * y3_2 - y3_0 * m3_5_2_2
+        p3_6_0 = m3_5_2_0 - w425 * c2_12 + (y3_1 * w427 - y3_2 * w428) * c3_5
         m3_4_0 = e2_0 * Nr3_0 + e2_1 * Nr3_1 + e2_2 * Nr3_2
-        y3_2_0 = xi3_0 * w79
-        y3_2_1 = xi3_1 * w79
-        y3_2_2 = xi3_2 * w79
-        w306 = y3_2_0 * y3_2_0 + y3_2_1 * y3_2_1 + y3_2_2 * y3_2_2
-        c2_11, c3_6 = _stumpff_23(w306)
-        m3_4_2 = e2_6 * Nr3_0 + e2_7 * Nr3_1 + e2_8 * Nr3_2
-        m3_4_1 = e2_3 * Nr3_0 + e2_4 * Nr3_1 + e2_5 * Nr3_2
-        w308 = y3_2_1 * m3_4_2 - y3_2_2 * m3_4_1
-        w310 = y3_2_0 * m3_4_1 - m3_4_0 * y3_2_1
-        w311 = m3_4_0 * y3_2_2 - y3_2_0 * m3_4_2
+        y3_2_0 = xi3_0 * w31
+        y3_2_1 = xi3_1 * w31
+        y3_2_2 = xi3_2 * w31
+        w429 = y3_2_0 * y3_2_0 + y3_2_1 * y3_2_1 + y3_2_2 * y3_2_2
+        c2_13, c3_6 = _stumpff_23(w429)
+        m3_4_2 = e2_7 * Nr3_1 + Nr3_0 * e2_6 + e2_8 * Nr3_2
+        m3_4_1 = e2_4 * Nr3_1 + Nr3_0 * e2_3 + e2_5 * Nr3_2
+        w431 = y3_2_1 * m3_4_2 - y3_2_2 * m3_4_1
+        w433 = y3_2_0 * m3_4_1 - m3_4_0 * y3_2_1
+        w434 = m3_4_0 * y3_2_2 - y3_2_0 * m3_4_2
         M3_0 = (
-            m3_5_2_0
-            - w302 * c2_10
-            + (y3_1 * w304 - y3_2 * w305) * c3_5
-            + w79 * (m3_4_0 - w308 * c2_11 + (y3_2_1 * w310 - y3_2_2 * w311) * c3_6)
+            p3_6_0
+            + w31 * (m3_4_0 - w431 * c2_13 + (y3_2_1 * w433 - y3_2_2 * w434) * c3_6)
         )
+        p_3_0 = 1.01 * a_5_0
+        a_8_0 = E3_3_0 * p_3_0 + E3_3_1 * a_5_1 + E3_3_2 * p_3_2
+        residual_3_0 = M3_0 - a_8_0
+        p3_6_1 = m3_5_2_1 - w428 * c2_12 + (y3_2 * w425 - y3_0 * w427) * c3_5
         M3_1 = (
-            m3_5_2_1
-            - w305 * c2_10
-            + (y3_2 * w302 - y3_0 * w304) * c3_5
-            + w79 * (m3_4_1 - w311 * c2_11 + (y3_2_2 * w308 - y3_2_0 * w310) * c3_6)
+            p3_6_1
+            + w31 * (m3_4_1 - w434 * c2_13 + (y3_2_2 * w431 - y3_2_0 * w433) * c3_6)
         )
+        a_8_1 = E3_3_3 * p_3_0 + E3_3_4 * a_5_1 + E3_3_5 * p_3_2
+        residual_3_1 = M3_1 - a_8_1
+        p3_6_2 = m3_5_2_2 - w427 * c2_12 + (y3_0 * w428 - y3_1 * w425) * c3_5
         M3_2 = (
-            m3_5_2_2
-            - w304 * c2_10
-            + (y3_0 * w305 - y3_1 * w302) * c3_5
-            + w79 * (m3_4_2 - w310 * c2_11 + (y3_2_0 * w311 - y3_2_1 * w308) * c3_6)
+            p3_6_2
+            + w31 * (m3_4_2 - w433 * c2_13 + (y3_2_0 * w434 - y3_2_1 * w431) * c3_6)
         )
-        Wf3_0 = 0.9900990099009901 * (E3_3_0 * M3_0 + E3_3_3 * M3_1 + E3_3_6 * M3_2)
-        Pf3_1 = E3_3_1 * M3_0 + E3_3_4 * M3_1 + E3_3_7 * M3_2
-        Wf3_2 = 100.0 * (E3_3_2 * M3_0 + E3_3_5 * M3_1 + E3_3_8 * M3_2)
-        next_xi3_0 = E3_3_0 * Wf3_0 + E3_3_1 * Pf3_1 + E3_3_2 * Wf3_2
-        next_xi3_1 = E3_3_3 * Wf3_0 + E3_3_4 * Pf3_1 + E3_3_5 * Wf3_2
-        next_xi3_2 = E3_3_6 * Wf3_0 + E3_3_7 * Pf3_1 + E3_3_8 * Wf3_2
-        residual_xi3_0 = next_xi3_0 - xi3_0
-        residual_xi3_1 = next_xi3_1 - xi3_1
-        residual_xi3_2 = next_xi3_2 - xi3_2
-        total = residual_xi3_0 + residual_xi3_1 + residual_xi3_2
+        a_8_2 = E3_3_6 * p_3_0 + E3_3_7 * a_5_1 + E3_3_8 * p_3_2
+        residual_3_2 = M3_2 - a_8_2
+        s_m3_5_0_seen = s_m3_5_0
+        s_m3_5_1_seen = s_m3_5_1
+        s_m3_5_2_seen = s_m3_5_2
+        total = residual_3_0 + residual_3_1 + residual_3_2
         if not isfinite(total):
             raise _failed(NOT_FINITE, "the equations of xi3, n3", 2, sweep, statistics)
-        change_xi3_0 = (
-            row_3_1[0] * residual_xi3_0
-            + row_3_1[1] * residual_xi3_1
-            + row_3_1[2] * residual_xi3_2
+        if make_3:
+            w435 = 1.6853902400801222 * xi2_0
+            w436 = (
+                0.6756035959798288 * g00 * mu0
+                + 0.6756035959798288 * g10 * mu1
+                + 0.6756035959798288 * g20 * mu2
+            )
+            w437 = -1.337695120040061 * xi1_0
+            w438 = h * (w436 + w437 + w435 - 1.3512071919596575 * xi3_0)
+            w439 = (
+                -0.6756035959798288 * g00 * mu0
+                - 0.6756035959798288 * g10 * mu1
+                - 0.6756035959798288 * g20 * mu2
+            )
+            w440 = h * (w437 + w439 + w435 + 0.013512071919596576 * xi3_0)
+            w441 = 0.01 - w438 * w440
+            w442 = 0.01702414383919315 * xi2_2
+            w443 = (
+                0.6756035959798288 * g02 * mu0
+                + 0.6756035959798288 * g12 * mu1
+                + 0.6756035959798288 * g22 * mu2
+            )
+            w444 = -0.013512071919596576 * xi1_2
+            w445 = h * (w443 + w444 + w442 + 1.337695120040061 * xi3_2)
+            w446 = -1.7024143839193153 * xi2_1
+            w447 = (
+                0.6756035959798288 * g01 * mu0
+                + 0.6756035959798288 * g11 * mu1
+                + 0.6756035959798288 * g21 * mu2
+            )
+            w448 = 1.3512071919596575 * xi1_1
+            w449 = h * (w447 + w448 + w446 + 0.013512071919596576 * xi3_1)
+            w450 = (
+                -0.6756035959798288 * g02 * mu0
+                - 0.6756035959798288 * g12 * mu1
+                - 0.6756035959798288 * g22 * mu2
+            )
+            w451 = h * (w444 + w450 + w442 - 1.3512071919596575 * xi3_2)
+            w452 = w438 * w449 + 0.01 * w451
+            w453 = (
+                -0.6756035959798288 * g01 * mu0
+                - 0.6756035959798288 * g11 * mu1
+                - 0.6756035959798288 * g21 * mu2
+            )
+            w454 = h * (w448 + w453 + w446 + 1.337695120040061 * xi3_1)
+            w455 = w449 + w440 * w451
+            w456 = 1.0 / (1.01 * w441 - w445 * w452 - w454 * w455)
+            row_3_1 = [
+                w441 * w456,
+                w456 * (w440 * w454 + 0.01 * w445),
+                w456 * (w454 + w438 * w445),
+            ]
+            row_3_2 = [
+                w452 * w456,
+                w456 * (0.0101 - w449 * w454),
+                w456 * (w451 * w454 + 1.01 * w438),
+            ]
+            row_3_3 = [
+                w455 * w456,
+                w456 * (w445 * w449 + 1.01 * w440),
+                w456 * (1.01 - w445 * w451),
+            ]
+            memory.inverses[2] = [row_3_1, row_3_2, row_3_3]
+            if statistics is not None:
+                statistics.matrices += 1
+        row_3_1, row_3_2, row_3_3 = memory.inverses[2]
+        d_xi3_0 = (
+            row_3_1[0] * residual_3_0
+            + row_3_1[1] * residual_3_1
+            + row_3_1[2] * residual_3_2
         )
-        change_xi3_1 = (
-            row_3_2[0] * residual_xi3_0
-            + row_3_2[1] * residual_xi3_1
-            + row_3_2[2] * residual_xi3_2
+        d_xi3_1 = (
+            row_3_2[0] * residual_3_0
+            + row_3_2[1] * residual_3_1
+            + row_3_2[2] * residual_3_2
         )
-        change_xi3_2 = (
-            row_3_3[0] * residual_xi3_0
-            + row_3_3[1] * residual_xi3_1
-            + row_3_3[2] * residual_xi3_2
+        d_xi3_2 = (
+            row_3_3[0] * residual_3_0
+            + row_3_3[1] * residual_3_1
+            + row_3_3[2] * residual_3_2
         )
-        xi3_0 += change_xi3_0
-        xi3_1 += change_xi3_1
-        xi3_2 += change_xi3_2
-        change = max(abs(change_xi3_0), abs(change_xi3_1), abs(change_xi3_2))
+        xi3_0 += d_xi3_0
+        xi3_1 += d_xi3_1
+        xi3_2 += d_xi3_2
+        change = max(abs(d_xi3_0), abs(d_xi3_1), abs(d_xi3_2))
         scale = max(1.0, abs(xi3_0), abs(xi3_1), abs(xi3_2))
         still = 0.0 < previous_3 <= change <= 5.684341886080802e-14 * scale
         if sweep == 1:
@@ -992,38 +1246,39 @@ def _advance(state, h, memory, statistics):
         if still or (close and change <= 5.684341886080802e-14 * scale):
             memory.rates[2] = rate_3 if sweep > 1 else 2.0 * rate_3
             break
+        make_3 = 0.0 < 0.25 * previous_3 < change
         previous_3 = change
     else:
         raise _failed(NOT_CONVERGED, "the equations of xi3, n3", 2, sweep, statistics)
     if statistics is not None:
         statistics.count(2, sweep)
-    xe3_1 = xi3_1 * w69
-    xe3_0 = xi3_0 * w69
-    xe3_2 = xi3_2 * w69
-    w312 = xe3_0 * xe3_0 + xe3_1 * xe3_1 + xe3_2 * xe3_2
-    c1_6, c2_12 = _stumpff_12(w312)
-    w314 = xe3_1 * c2_12
-    w315 = xe3_1 * w314
-    w316 = xe3_2 * c2_12 * xe3_2
-    ge3_0 = 1.0 - (w315 + w316)
-    w317 = xe3_0 * c2_12
-    w318 = xe3_1 * w317
-    w320 = xe3_2 * c1_6
-    ge3_1 = w318 - w320
-    w321 = xe3_1 * c1_6
-    w322 = xe3_2 * w317
-    ge3_2 = w321 + w322
+    xe3_1 = xi3_1 * w23
+    xe3_0 = xi3_0 * w23
+    xe3_2 = xi3_2 * w23
+    w457 = xe3_0 * xe3_0 + xe3_1 * xe3_1 + xe3_2 * xe3_2
+    c1_8, c2_14 = _stumpff_12(w457)
+    w459 = xe3_1 * c2_14
+    w460 = xe3_1 * w459
+    w461 = xe3_2 * c2_14 * xe3_2
+    ge3_0 = 1.0 - (w460 + w461)
+    w462 = xe3_0 * c2_14
+    w463 = xe3_1 * w462
+    w465 = xe3_2 * c1_8
+    ge3_1 = w463 - w465
+    w466 = xe3_1 * c1_8
+    w467 = xe3_2 * w462
+    ge3_2 = w466 + w467
     e3_0 = e2_0 * ge3_0 + e2_3 * ge3_1 + e2_6 * ge3_2
-    ge3_3 = w318 + w320
-    w323 = xe3_0 * w317
-    ge3_4 = 1.0 - (w316 + w323)
-    w324 = xe3_2 * w314
-    w325 = xe3_0 * c1_6
-    ge3_5 = w324 - w325
+    ge3_3 = w463 + w465
+    w468 = xe3_0 * w462
+    ge3_4 = 1.0 - (w461 + w468)
+    w469 = xe3_2 * w459
+    w470 = xe3_0 * c1_8
+    ge3_5 = w469 - w470
     e3_3 = e2_0 * ge3_3 + e2_3 * ge3_4 + e2_6 * ge3_5
-    ge3_6 = w322 - w321
-    ge3_7 = w324 + w325
-    ge3_8 = 1.0 - (w315 + w323)
+    ge3_6 = w467 - w466
+    ge3_7 = w469 + w470
+    ge3_8 = 1.0 - (w460 + w468)
     e3_6 = e2_0 * ge3_6 + e2_3 * ge3_7 + e2_6 * ge3_8
     e3_1 = e2_1 * ge3_0 + e2_4 * ge3_1 + e2_7 * ge3_2
     e3_4 = e2_1 * ge3_3 + e2_4 * ge3_4 + e2_7 * ge3_5
@@ -1031,9 +1286,14 @@ def _advance(state, h, memory, statistics):
     e3_2 = e2_2 * ge3_0 + e2_5 * ge3_1 + e2_8 * ge3_2
     e3_5 = e2_2 * ge3_3 + e2_5 * ge3_4 + e2_8 * ge3_5
     e3_8 = e2_2 * ge3_6 + e2_5 * ge3_7 + e2_8 * ge3_8
-    change_0 = s_m3_5_0 * e3_0 + s_m3_5_1 * e3_1 + s_m3_5_2 * e3_2 - m_0
-    change_1 = s_m3_5_0 * e3_3 + s_m3_5_1 * e3_4 + s_m3_5_2 * e3_5 - m_1
-    change_2 = s_m3_5_0 * e3_6 + s_m3_5_1 * e3_7 + s_m3_5_2 * e3_8 - m_2
+    w471 = s_m3_5_0_seen + xi3_2 * w65 * d_xi3_1 + xi3_1 * w65 * d_xi3_2
+    y3_2_ = xi3_2 * w24
+    y3_0_ = xi3_0 * w24
+    w472 = s_m3_5_1_seen + d_xi3_0 * y3_2_ + d_xi3_2 * y3_0_
+    w473 = s_m3_5_2_seen + xi3_1 * w112 * d_xi3_0 + xi3_0 * w112 * d_xi3_1
+    change_0 = e3_0 * w471 + e3_1 * w472 + e3_2 * w473 - m_0
+    change_1 = e3_3 * w471 + e3_4 * w472 + e3_5 * w473 - m_1
+    change_2 = e3_6 * w471 + e3_7 * w472 + e3_8 * w473 - m_2
     new_g00 = g00 * e3_0 + g01 * e3_3 + g02 * e3_6
     new_g01 = g00 * e3_1 + g01 * e3_4 + g02 * e3_7
     new_g02 = g00 * e3_2 + g01 * e3_5 + g02 * e3_8

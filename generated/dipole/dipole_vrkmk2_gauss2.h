@@ -20,6 +20,7 @@ typedef struct {
     size_t sweeps[1]; /* by block: the equations of v1, v2, m1, m2 */
     size_t most; /* the most that one block took in one step */
     size_t failed; /* 1 + the block that failed, 0 if none has */
+    size_t matrices; /* how often a matrix of Newton's method was made */
 } dipole_vrkmk2_gauss2_statistics;
 
 /* Make one step of size h. When the status is not DIPOLE_VRKMK2_GAUSS2_OK, the state is as it was. */

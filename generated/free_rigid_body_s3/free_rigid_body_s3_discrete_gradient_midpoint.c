@@ -19,7 +19,7 @@
  *             21 add, 42 mul a start, in steps that follow no other
  *             617 add, 828 mul, 1 div, 2 quotient, 2 stumpff_23 a matrix of the equations of xi
  *             148 add, 240 mul, 3 quotient, 2 stumpff_01 a sweep of the equations of xi
- * stack:      at most 5440 bytes, without what the mathematical library takes
+ * stack:      at most 5696 bytes, without what the mathematical library takes
  * made by:    orderconds emit free_rigid_body_s3 --method discrete_gradient:midpoint --target c -o
  *             .
  * version:    orderconds 0.1.0
@@ -144,7 +144,7 @@ static inline double stumpff_series_0(double z)
 }
 
 /* For z > 1/16 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
-static void stumpff_23_far(double z, double *c2, double *c3)
+static inline void stumpff_23_far(double z, double *c2, double *c3)
 {
     if (z <= 1.0) {
         *c2 = stumpff_series_2(z);
@@ -171,7 +171,7 @@ static inline void stumpff_23(double z, double *c2, double *c3)
 }
 
 /* For z > 1/16 and s = sqrt(z): c_0 = cos(s), c_1 = sin(s)/s */
-static void stumpff_01_far(double z, double *c0, double *c1)
+static inline void stumpff_01_far(double z, double *c0, double *c1)
 {
     if (z <= 1.0) {
         *c0 = stumpff_series_0(z);
@@ -230,34 +230,62 @@ static void count_matrix(free_rigid_body_s3_discrete_gradient_midpoint_statistic
 /* What one step of a run leaves for the next: solutions of its equations, the latest first, and inverses of Newton's matrices. */
 struct memory {
     size_t known;
-    double first;
-    double past[9][3];
+    double first; /* by how much the guess was off */
+    size_t degree;
+    double guess[3];
+    double differences[3][14];
     double rate_1;
     int made_1;
     double inverse_1[9];
 };
 
-/* Factors of the last solutions, by how many are known, in the value of their polynomial a step later. */
-static const double weights[9][9] = {
-    {1.0},
-    {2.0, -1.0},
-    {3.0, -3.0, 1.0},
-    {4.0, -6.0, 4.0, -1.0},
-    {5.0, -10.0, 10.0, -5.0, 1.0},
-    {6.0, -15.0, 20.0, -15.0, 6.0, -1.0},
-    {7.0, -21.0, 35.0, -35.0, 21.0, -7.0, 1.0},
-    {8.0, -28.0, 56.0, -70.0, 56.0, -28.0, 8.0, -1.0},
-    {9.0, -36.0, 84.0, -126.0, 126.0, -84.0, 36.0, -9.0, 1.0}
-};
-
-static inline double extrapolated(const struct memory *memory, size_t i)
+/* The size of a backward difference. */
+static inline double size_of(const struct memory *memory, size_t k)
 {
-    const double *const weight = weights[memory->known - 1];
-    double total = weight[0] * memory->past[0][i];
-    for (size_t k = 1; k < memory->known; k++) {
-        total += weight[k] * memory->past[k][i];
+    double size = 0.0;
+    for (size_t i = 0; i < 3; i++) {
+        size += fabs(memory->differences[i][k]);
     }
-    return total;
+    return size;
+}
+
+/* Take up a solution and guess the next: the polynomial through the last ones, continued by a step. */
+static inline void remember(struct memory *memory, const double solution[static 3])
+{
+    if (memory->known > 1) {
+        double moved = 0.0;
+        for (size_t i = 0; i < 3; i++) {
+            moved += fabs(solution[i] - memory->differences[i][0]);
+        }
+        if (memory->first > 0.5 * moved) {
+            memory->known = memory->degree = 0;
+        }
+    }
+    memory->first = 0.0;
+    const size_t last = memory->known < 14 ? memory->known : 13, k = memory->degree;
+    for (size_t i = 0; i < 3; i++) {
+        double *const differences = memory->differences[i];
+        double d = solution[i], sum = 0.0;
+        for (size_t j = 0; j <= k; j++) {
+            const double before = differences[j];
+            differences[j] = d;
+            sum += d;
+            d -= before;
+        }
+        for (size_t j = k + 1; j <= last; j++) {
+            const double before = differences[j];
+            differences[j] = d;
+            d -= before;
+        }
+        memory->guess[i] = sum;
+    }
+    memory->known = last + 1;
+    /* the degree of the next guess grows while the differences fall */
+    if (k + 1 < memory->known && size_of(memory, k + 1) < size_of(memory, k)) {
+        memory->degree = k + 1;
+    } else if (k > 0 && size_of(memory, k) > size_of(memory, k - 1)) {
+        memory->degree = k - 1;
+    }
 }
 
 static inline int advance(double state[static 4], double h, struct memory *memory,
@@ -281,9 +309,9 @@ static inline int advance(double state[static 4], double h, struct memory *memor
     const double w8 = 0.5 - 0.2 * q0 * w3 - 0.2 * q1 * w5 + 0.2 * q3 * w1;
     double xi_0, xi_1, xi_2;
     if (memory->known > 0) {
-        xi_0 = extrapolated(memory, 0);
-        xi_1 = extrapolated(memory, 1);
-        xi_2 = extrapolated(memory, 2);
+        xi_0 = memory->guess[0];
+        xi_1 = memory->guess[1];
+        xi_2 = memory->guess[2];
     } else {
         const double w9 = -0.5 * q3;
         const double w10 = w2 * w7 - 2.0 * q1 * w6;
@@ -890,18 +918,8 @@ static inline int advance(double state[static 4], double h, struct memory *memor
     if (!(isfinite(Y_0_) && isfinite(Y_1_) && isfinite(Y_2_) && isfinite(Y_3_))) {
         return FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE;
     }
-    const double moved = greater(fabs(xi_0 - memory->past[0][0]),
-        greater(fabs(xi_1 - memory->past[0][1]), fabs(xi_2 - memory->past[0][2])));
-    memmove(memory->past[1], memory->past[0], 8 * sizeof memory->past[0]);
-    memory->past[0][0] = xi_0;
-    memory->past[0][1] = xi_1;
-    memory->past[0][2] = xi_2;
-    if (memory->known > 1 && memory->first > 0.5 * moved) {
-        memory->known = 1;
-    } else if (memory->known < 9) {
-        memory->known++;
-    }
-    memory->first = 0.0;
+    const double solution[3] = {xi_0, xi_1, xi_2};
+    remember(memory, solution);
     state[0] = Y_0_;
     state[1] = Y_1_;
     state[2] = Y_2_;

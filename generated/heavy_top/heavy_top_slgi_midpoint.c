@@ -17,7 +17,7 @@
  *             105 add, 219 mul, 3 slope2, 2 slope3, 1 stumpff_3 a matrix of the equations of xi1,
  *             n1
  *             75 add, 114 mul, 1 stumpff_12, 2 stumpff_23 a sweep of the equations of xi1, n1
- * stack:      at most 3456 bytes, without what the mathematical library takes
+ * stack:      at most 3904 bytes, without what the mathematical library takes
  * made by:    orderconds emit heavy_top --method slgi:midpoint --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -117,7 +117,7 @@ static inline double stumpff_series_1(double z)
 }
 
 /* For z > 1/16 and s = sqrt(z): c_3 = (s - sin(s))/s^3 */
-static double stumpff_3_far(double z)
+static inline double stumpff_3_far(double z)
 {
     if (z <= 4.0) {
         return stumpff_series_3(z);
@@ -133,7 +133,7 @@ static inline double stumpff_3(double z)
 }
 
 /* For z > 1/16 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
-static void stumpff_23_far(double z, double *c2, double *c3)
+static inline void stumpff_23_far(double z, double *c2, double *c3)
 {
     if (z <= 1.0) {
         *c2 = stumpff_series_2(z);
@@ -160,7 +160,7 @@ static inline void stumpff_23(double z, double *c2, double *c3)
 }
 
 /* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s */
-static double stumpff_1_far(double z)
+static inline double stumpff_1_far(double z)
 {
     if (z <= 1.0) {
         return stumpff_series_1(z);
@@ -170,7 +170,7 @@ static double stumpff_1_far(double z)
 }
 
 /* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
-static void stumpff_12_far(double z, double *c1, double *c2)
+static inline void stumpff_12_far(double z, double *c1, double *c2)
 {
     if (z <= 1.0) {
         *c1 = stumpff_series_1(z);
@@ -313,34 +313,62 @@ static void count_matrix(heavy_top_slgi_midpoint_statistics *statistics)
 /* What one step of a run leaves for the next: solutions of its equations, the latest first, and inverses of Newton's matrices. */
 struct memory {
     size_t known;
-    double first;
-    double past[9][6];
+    double first; /* by how much the guess was off */
+    size_t degree;
+    double guess[6];
+    double differences[6][14];
     double rate_1;
     int made_1;
     double inverse_1[36];
 };
 
-/* Factors of the last solutions, by how many are known, in the value of their polynomial a step later. */
-static const double weights[9][9] = {
-    {1.0},
-    {2.0, -1.0},
-    {3.0, -3.0, 1.0},
-    {4.0, -6.0, 4.0, -1.0},
-    {5.0, -10.0, 10.0, -5.0, 1.0},
-    {6.0, -15.0, 20.0, -15.0, 6.0, -1.0},
-    {7.0, -21.0, 35.0, -35.0, 21.0, -7.0, 1.0},
-    {8.0, -28.0, 56.0, -70.0, 56.0, -28.0, 8.0, -1.0},
-    {9.0, -36.0, 84.0, -126.0, 126.0, -84.0, 36.0, -9.0, 1.0}
-};
-
-static inline double extrapolated(const struct memory *memory, size_t i)
+/* The size of a backward difference. */
+static inline double size_of(const struct memory *memory, size_t k)
 {
-    const double *const weight = weights[memory->known - 1];
-    double total = weight[0] * memory->past[0][i];
-    for (size_t k = 1; k < memory->known; k++) {
-        total += weight[k] * memory->past[k][i];
+    double size = 0.0;
+    for (size_t i = 0; i < 6; i++) {
+        size += fabs(memory->differences[i][k]);
     }
-    return total;
+    return size;
+}
+
+/* Take up a solution and guess the next: the polynomial through the last ones, continued by a step. */
+static inline void remember(struct memory *memory, const double solution[static 6])
+{
+    if (memory->known > 1) {
+        double moved = 0.0;
+        for (size_t i = 0; i < 6; i++) {
+            moved += fabs(solution[i] - memory->differences[i][0]);
+        }
+        if (memory->first > 0.5 * moved) {
+            memory->known = memory->degree = 0;
+        }
+    }
+    memory->first = 0.0;
+    const size_t last = memory->known < 14 ? memory->known : 13, k = memory->degree;
+    for (size_t i = 0; i < 6; i++) {
+        double *const differences = memory->differences[i];
+        double d = solution[i], sum = 0.0;
+        for (size_t j = 0; j <= k; j++) {
+            const double before = differences[j];
+            differences[j] = d;
+            sum += d;
+            d -= before;
+        }
+        for (size_t j = k + 1; j <= last; j++) {
+            const double before = differences[j];
+            differences[j] = d;
+            d -= before;
+        }
+        memory->guess[i] = sum;
+    }
+    memory->known = last + 1;
+    /* the degree of the next guess grows while the differences fall */
+    if (k + 1 < memory->known && size_of(memory, k + 1) < size_of(memory, k)) {
+        memory->degree = k + 1;
+    } else if (k > 0 && size_of(memory, k) > size_of(memory, k - 1)) {
+        memory->degree = k - 1;
+    }
 }
 
 static inline int advance(double state[static 12], double h, struct memory *memory,
@@ -363,12 +391,12 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double mu2 = state[11];
     double xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2;
     if (memory->known > 0) {
-        xi1_0 = extrapolated(memory, 0);
-        xi1_1 = extrapolated(memory, 1);
-        xi1_2 = extrapolated(memory, 2);
-        n1_0 = extrapolated(memory, 3);
-        n1_1 = extrapolated(memory, 4);
-        n1_2 = extrapolated(memory, 5);
+        xi1_0 = memory->guess[0];
+        xi1_1 = memory->guess[1];
+        xi1_2 = memory->guess[2];
+        n1_0 = memory->guess[3];
+        n1_1 = memory->guess[4];
+        n1_2 = memory->guess[5];
     } else {
         xi1_0 = 0.001 * mu0;
         xi1_1 = 0.0002 * mu1;
@@ -674,23 +702,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         && isfinite(new_g22) && isfinite(mu1_0) && isfinite(mu1_1) && isfinite(new_mu2))) {
         return HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE;
     }
-    const double moved = greater(greater(fabs(xi1_0 - memory->past[0][0]),
-        greater(fabs(xi1_1 - memory->past[0][1]), fabs(xi1_2 - memory->past[0][2]))),
-        greater(fabs(n1_0 - memory->past[0][3]), greater(fabs(n1_1 - memory->past[0][4]),
-        fabs(n1_2 - memory->past[0][5]))));
-    memmove(memory->past[1], memory->past[0], 8 * sizeof memory->past[0]);
-    memory->past[0][0] = xi1_0;
-    memory->past[0][1] = xi1_1;
-    memory->past[0][2] = xi1_2;
-    memory->past[0][3] = n1_0;
-    memory->past[0][4] = n1_1;
-    memory->past[0][5] = n1_2;
-    if (memory->known > 1 && memory->first > 0.5 * moved) {
-        memory->known = 1;
-    } else if (memory->known < 9) {
-        memory->known++;
-    }
-    memory->first = 0.0;
+    const double solution[6] = {xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2};
+    remember(memory, solution);
     state[0] = new_g00;
     state[1] = new_g01;
     state[2] = new_g02;

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from codegen.ir.kernel import CHORD, ELAPSED, LEAD, LONGEST, NEWTON, Kernel, PutOff
+from codegen.ir.kernel import CHORD, ELAPSED, LEAD, LONGEST, NEWTON, Kernel, PutOff, Start
 from codegen.printers.arrange import Arrangement, arrange
 from codegen.printers.c.jacobian import varying
 from codegen.printers.c.statements import RESERVED, Statements, literal
