@@ -159,7 +159,8 @@ def test_a_reader_that_goes_away_ends_the_program_quietly() -> None:
 @pytest.mark.skipif(os.name != "posix", reason="sends SIGINT")
 def test_an_interrupt_ends_the_program_without_a_traceback() -> None:
     code = (
-        "import click, time, sys\nfrom orderconds.cli import Program, program\n"
+        "import click, signal, time, sys\nfrom orderconds.cli import Program, program\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"  # a shell's background job ignores it
         "@click.command()\ndef wait():\n    print('ready', flush=True); time.sleep(60)\n"
         "Program.get_command = lambda *_: wait\nprogram.main(['wait'])"
     )
