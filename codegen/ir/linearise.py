@@ -43,7 +43,7 @@ def first_order_jacobian(roots: Sequence[Expr], unknowns: Sequence[str]) -> list
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x, h = s.sym("x"), s.sym("h")
     >>> first_order_jacobian([x * x * h + h * h * x + x], ["x"])
-    [[((2 * (h * x)) + 1)]]
+    [[(1 + (h * (2 * x)))]]
     """
     if not roots:
         return []
