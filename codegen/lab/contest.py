@@ -41,8 +41,10 @@ COUNTED = 1e-3
 NEAR_ROUNDING = 1e-9
 """Errors below this, relative to the state, may stand still because of rounding."""
 
-EVALUATIONS = frozenset({"field", "fieldt", "hamilton", "hamiltont"})
-EXPONENTIALS = frozenset({"exp", "actexp", "flow"})
+EVALUATIONS = frozenset({"field", "fieldt", "hamilton", "hamiltont", "force", "forcet", "differential"})
+"""Operations that evaluate a scene; in the body frame a velocity and a force make one evaluation."""
+
+EXPONENTIALS = frozenset({"exp", "actexp", "flow", "flowt", "flowfor", "flowtfor"})
 
 
 @dataclass(frozen=True)
