@@ -44,7 +44,7 @@ def test_xi_is_ad_q_of_w_and_n_is_the_transport_of_the_bodys_force(scene):
 
 def test_the_dipoles_force_reads_the_vertical_seen_from_the_body_and_nothing_else_of_q():
     read = {n.payload for n in walk(scenes.load("dipole").body.force) if n.op == "sym"}
-    assert read == {"g20", "g21", "g22", "mu0", "mu1", "mu2", "beta"}
+    assert read == {"g20", "g21", "g22", "mu0", "mu1", "mu2", "beta", "depth"}
 
 
 def test_the_inertia_of_a_top_is_found():
