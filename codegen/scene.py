@@ -38,7 +38,9 @@ RESERVED = {
 }
 """Names that programs use themselves, and why."""
 
-GROUP_OPERATIONS = frozenset({"identity", "exp", "mul", "Ad", "Adinv", "Adt", "Adtinv", "ad", "adt", "dexpt"})
+GROUP_OPERATIONS = frozenset(
+    {"identity", "exp", "mul", "mulexp", "Ad", "Adinv", "Adt", "Adtinv", "ad", "adt", "dexpt"}
+)
 BODY = frozenset({"velocity", "velocityt", "force", "forcet", "legendre"})
 TIME = "t"
 FRAMES = ("space", "body")

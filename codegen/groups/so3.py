@@ -170,6 +170,11 @@ class SO3(LieGroup):
         """Return x where v = x.g: the entries below and above the diagonal of v g^T."""
         return tuple(dot(v[3 * i : 3 * i + 3], g[3 * j : 3 * j + 3]) for i, j in ((2, 1), (0, 2), (1, 0)))
 
+    def mulexp(self, d: Domain, g: Scalars, x: Scalars) -> Scalars:
+        """Return g exp(x) row by row: rows that nothing reads cost nothing."""
+        back = tuple(-a for a in x)
+        return tuple(a for i in (0, 3, 6) for a in self.rotate(d, back, g[i : i + 3]))
+
     def spin(self, d: Domain, g: Scalars, x: Scalars) -> Scalars:
         """Return g hat(x), the derivative of g exp(eps x) at eps = 0: every row cross x."""
         return tuple(a for i in (0, 3, 6) for a in cross(g[i : i + 3], x))

@@ -72,7 +72,7 @@ class Newton:
 
         It costs a small multiple of n^3, and a sweep some multiple of n.
         """
-        return max(1, len(self.matrix) ** 2 // 18) if self.residuals else 0
+        return max(1, len(self.matrix) * (len(self.matrix) + 1) // 14) if self.residuals else 0
 
 
 @dataclass(frozen=True)

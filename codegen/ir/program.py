@@ -67,6 +67,7 @@ A, D, G, P, R = Kind.ALG, Kind.DUAL, Kind.GROUP, Kind.POINT, Kind.REAL
 SIGNATURES: dict[str, tuple[tuple[Kind, ...], tuple[Kind, ...]]] = {
     "identity": ((), (G,)),
     "exp": ((A,), (G,)),
+    "mulexp": ((G, A), (G,)),  # g exp(x), each row of its matrix on its own
     "mul": ((G, G), (G,)),  # the right factor acts first
     "act": ((G, P), (P,)),
     "actexp": ((A, P), (P,)),  # exp(x).y without forming exp(x)

@@ -91,6 +91,7 @@ def optimise(
             ("sharing", sharing.run),
             ("factors", factor.run),
             ("common sums", common.run),
+            ("rows", lambda p: functions.rows(p, scene)),
             ("functions", lambda p: functions.run(p, scene)),
             ("residuals", lambda p: legendre.residuals(p, scene)),
             ("opposites", opposites.run),

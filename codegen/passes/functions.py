@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 
+from codegen.ir.expr import walk
 from codegen.ir.number import Number
 from codegen.ir.program import Assign, Factor, Kind, Operation, Program, Var
 from codegen.passes.rewrite import Rewriter, rewrite
@@ -26,6 +27,33 @@ DUAL = frozenset({"Adt", "Adtinv", "dexpt", "dexpinvt", "seriest"})
 def run(program: Program, scene: Setting) -> Program:
     """Return the program with functions of ad combined, where the group knows them in closed form."""
     return rewrite(program, _rule) if hasattr(scene.group, "series") else program
+
+
+def rows(program: Program, scene: Setting) -> Program:
+    """Return the program with q exp(x) formed row by row where the body's field reads one row of it.
+
+    Then exp(x) need not be formed for it.
+    """
+    if scene.body is None or not hasattr(scene.group, "mulexp"):
+        return program
+    names = scene.state[0].symbols
+    read = {n.payload for n in walk([*scene.body.velocity, *scene.body.force]) if n.op == "sym"}
+    side = round(len(names) ** 0.5)
+    if len({k // side for k, name in enumerate(names) if name in read}) > 1:
+        return program
+    fields = {a.args[0] for a in program.assigns() if a.operation.name.startswith(("velocity", "force"))}
+    kept = {var for _, var in program.outputs}
+
+    def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
+        made = rewriter.definitions.get(assign.args[-1]) if assign.operation.name == "mul" else None
+        own = assign.targets[0] in fields and assign.targets[0] not in kept
+        if made is None or made.operation.name != "exp" or not own:
+            return rewriter.emit(assign)
+        return rewriter.emit(
+            replace(assign, operation=Operation("mulexp"), args=(assign.args[0], made.args[0]))
+        )
+
+    return rewrite(program, rule)
 
 
 def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:

@@ -5,9 +5,9 @@
  * source:     Table 3.2a of Bogfjellmo and Marthinsen
  * order:      2, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
- * solved by:  the equations of xi1, n1: Newton's method, 3 unknowns (1.9 sweeps of 272 operations
- *             and 0.05 matrices of 46 a step; fixed point: 3.2 sweeps of 270 operations; Newton's
- *             method with the matrix to first order in h: 2.0 sweeps of 285 operations and 1.00
+ * solved by:  the equations of xi1, n1: Newton's method, 3 unknowns (1.9 sweeps of 263 operations
+ *             and 0.05 matrices of 46 a step; fixed point: 3.2 sweeps of 276 operations; Newton's
+ *             method with the matrix to first order in h: 1.9 sweeps of 291 operations and 1.00
  *             matrices of 68)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
@@ -20,18 +20,20 @@
  *             1 Adinv (opposites)
  *             1 Adt (opposites)
  *             2 Adtinv, 1 force (dead code)
+ *             1 mul (rows)
  *             1 Adt, 2 dexpt (functions)
  *             1 Adinv (opposites)
+ *             1 Ad (functions)
  *             1 legendre (sharing)
- *             1 lin, 2 seriest (factors)
+ *             1 exp, 1 lin, 2 seriest (factors)
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 62 add, 86 mul, 1 stumpff_12 a step
  *             2 mul a start, in steps that follow no other
  *             11 add, 31 mul, 1 div a matrix of the equations of xi1, n1
- *             72 add, 117 mul, 2 div, 2 sqrt, 1 stumpff_12, 1 stumpff_23, 1 stumpff_3 a sweep of
+ *             66 add, 114 mul, 2 div, 2 sqrt, 1 stumpff_12, 1 stumpff_23, 1 stumpff_3 a sweep of
  *             the equations of xi1, n1
- * stack:      at most 2880 bytes, without what the mathematical library takes
+ * stack:      at most 2752 bytes, without what the mathematical library takes
  * made by:    orderconds emit dipole --method vcg:midpoint --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -200,11 +202,6 @@ static inline void stumpff_12(double z, double *c1, double *c2)
     }
 }
 
-static inline double greater(double a, double b)
-{
-    return a > b ? a : b;
-}
-
 static void count_sweeps(dipole_vcg_midpoint_statistics *statistics, size_t block, size_t sweeps, int failed)
 {
     if (statistics == NULL) {
@@ -232,7 +229,7 @@ struct memory {
     double first; /* by how much the guess was off */
     size_t degree;
     double guess[3];
-    double differences[3][14];
+    double differences[3][16];
     double rate_1;
     int made_1;
     double inverse_1[9];
@@ -251,7 +248,7 @@ static inline double size_of(const struct memory *memory, size_t k)
 /* Take up a solution and guess the next: the polynomial through the last ones, continued by a step. */
 static inline void remember(struct memory *memory, const double solution[static 3])
 {
-    if (memory->known > 1) {
+    if (memory->known > 2) { /* the guess was no mere copy */
         double moved = 0.0;
         for (size_t i = 0; i < 3; i++) {
             moved += fabs(solution[i] - memory->differences[i][0]);
@@ -261,7 +258,7 @@ static inline void remember(struct memory *memory, const double solution[static 
         }
     }
     memory->first = 0.0;
-    const size_t last = memory->known < 14 ? memory->known : 13, k = memory->degree;
+    const size_t last = memory->known < 16 ? memory->known : 15, k = memory->degree;
     for (size_t i = 0; i < 3; i++) {
         double *const differences = memory->differences[i];
         double d = solution[i], sum = 0.0;
@@ -319,7 +316,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         xi1_2 = 100.0 * m_2;
     }
     const double w1 = 0.5 * h;
-    const double w27 = -0.5 * h;
+    const double w19 = -0.5 * h;
     /* the equations of xi1, n1: Newton's method in xi1_0, xi1_1, xi1_2 */
     double s_mu_0_seen, s_mu_1_seen, s_mu_2_seen, d_xi1_0, d_xi1_1, d_xi1_2;
     double previous_1 = 0.0;
@@ -327,131 +324,112 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     int make_1 = !memory->made_1;
     for (size_t sweep = 1;; sweep++) {
         const double p_2 = 0.01 * xi1_2;
-        const double xE1_1_1 = xi1_1 * w1;
         const double xE1_1_0 = xi1_0 * w1;
+        const double xE1_1_1 = xi1_1 * w1;
         const double xE1_1_2 = xi1_2 * w1;
         const double w2 = xE1_1_0 * xE1_1_0 + xE1_1_1 * xE1_1_1 + xE1_1_2 * xE1_1_2;
         double c1_1, c2_1;
         stumpff_12(w2, &c1_1, &c2_1);
-        const double w4 = xE1_1_0 * c2_1;
-        const double w5 = xE1_1_1 * w4;
-        const double w7 = xE1_1_2 * c1_1;
-        const double gE1_1_1 = w5 - w7;
-        const double w8 = xE1_1_0 * w4;
-        const double w9 = xE1_1_2 * c2_1 * xE1_1_2;
-        const double gE1_1_4 = 1.0 - (w8 + w9);
-        const double w10 = xE1_1_0 * c1_1;
-        const double w11 = xE1_1_1 * c2_1;
-        const double w12 = xE1_1_2 * w11;
-        const double gE1_1_7 = w10 + w12;
-        const double Q1_7 = g20 * gE1_1_1 + g21 * gE1_1_4 + g22 * gE1_1_7;
-        const double w13 = xE1_1_1 * c1_1;
-        const double w14 = xE1_1_2 * w4;
-        const double gE1_1_2 = w13 + w14;
-        const double gE1_1_5 = w12 - w10;
-        const double w15 = xE1_1_1 * w11;
-        const double gE1_1_8 = 1.0 - (w8 + w15);
-        const double Q1_8 = g20 * gE1_1_2 + g21 * gE1_1_5 + g22 * gE1_1_8;
-        const double w16 = 1.5 - 2.0 * Q1_8;
-        const double w17 = 1.0 / sqrt(1.01 + 1.5 * (w16 - 0.2 * Q1_7));
-        const double w18 = w17 * w17 * (0.5 * w17);
-        const double w19 = 1.0 / sqrt(1.01 + 1.5 * (w16 + 0.2 * Q1_7));
-        const double w20 = w19 * w19 * (0.5 * w19);
-        const double w21 = -1.0 - 2.0 * (1.5 * w18 - 1.5 * w20);
-        const double w22 = -0.3 * w18 - 0.3 * w20;
-        const double Nr1_0 = Q1_7 * w21 - Q1_8 * w22 + 99.0 * xi1_1 * p_2;
+        const double w4 = g22 * xE1_1_0 - g20 * xE1_1_2;
+        const double w6 = g20 * xE1_1_1 - g21 * xE1_1_0;
+        const double w7 = g21 * xE1_1_2 - g22 * xE1_1_1;
+        const double Q1_7 = g21 + w4 * c1_1 + (xE1_1_0 * w6 - xE1_1_2 * w7) * c2_1;
+        const double Q1_8 = g22 + w6 * c1_1 + (xE1_1_1 * w7 - xE1_1_0 * w4) * c2_1;
+        const double w8 = 1.5 - 2.0 * Q1_8;
+        const double w9 = 1.0 / sqrt(1.01 + 1.5 * (w8 - 0.2 * Q1_7));
+        const double w10 = w9 * w9 * (0.5 * w9);
+        const double w11 = 1.0 / sqrt(1.01 + 1.5 * (w8 + 0.2 * Q1_7));
+        const double w12 = w11 * w11 * (0.5 * w11);
+        const double w13 = -1.0 - 2.0 * (1.5 * w10 - 1.5 * w12);
+        const double w14 = -0.3 * w10 - 0.3 * w12;
+        const double Nr1_0 = Q1_7 * w13 - Q1_8 * w14 + 99.0 * xi1_1 * p_2;
         const double s_mu_0 = m_0 + h * Nr1_0;
         const double xe1_0 = h * xi1_0;
         const double xe1_1 = h * xi1_1;
         const double xe1_2 = h * xi1_2;
-        const double w23 = xe1_0 * xe1_0 + xe1_1 * xe1_1 + xe1_2 * xe1_2;
-        const double c3_1 = stumpff_3(0.25 * w23);
-        const double w24 = 0.25 * c3_1;
-        const double gE1_1_0 = 1.0 - (w9 + w15);
-        const double gE1_1_3 = w5 + w7;
-        const double gE1_1_6 = w14 - w13;
-        const double Q1_6 = g20 * gE1_1_0 + g21 * gE1_1_3 + g22 * gE1_1_6;
-        const double Nr1_2 = 0.01 * xi1_0 * xi1_1 + w22 * Q1_6;
+        const double w15 = xe1_0 * xe1_0 + xe1_1 * xe1_1 + xe1_2 * xe1_2;
+        const double c3_1 = stumpff_3(0.25 * w15);
+        const double w16 = 0.25 * c3_1;
+        const double Q1_6 = g20 + w7 * c1_1 + (xE1_1_2 * w4 - xE1_1_1 * w6) * c2_1;
+        const double Nr1_2 = 0.01 * xi1_0 * xi1_1 + w14 * Q1_6;
         const double s_mu_2 = m_2 + h * Nr1_2;
-        const double w25 = xe1_0 * s_mu_2 - s_mu_0 * xe1_2;
-        const double Nr1_1 = -100.0 * xi1_0 * p_2 - w21 * Q1_6;
+        const double w17 = xe1_0 * s_mu_2 - s_mu_0 * xe1_2;
+        const double Nr1_1 = -100.0 * xi1_0 * p_2 - w13 * Q1_6;
         const double s_mu_1 = m_1 + h * Nr1_1;
-        const double w26 = s_mu_0 * xe1_1 - xe1_0 * s_mu_1;
-        const double s_mu_2_0 = s_mu_0 + w24 * (xe1_2 * w25 - xe1_1 * w26);
-        const double y1_2_0 = xi1_0 * w27;
-        const double y1_2_1 = xi1_1 * w27;
-        const double y1_2_2 = xi1_2 * w27;
-        const double w28 = y1_2_0 * y1_2_0 + y1_2_1 * y1_2_1 + y1_2_2 * y1_2_2;
+        const double w18 = s_mu_0 * xe1_1 - xe1_0 * s_mu_1;
+        const double s_mu_2_0 = s_mu_0 + w16 * (xe1_2 * w17 - xe1_1 * w18);
+        const double y1_2_0 = xi1_0 * w19;
+        const double y1_2_1 = xi1_1 * w19;
+        const double y1_2_2 = xi1_2 * w19;
+        const double w20 = y1_2_0 * y1_2_0 + y1_2_1 * y1_2_1 + y1_2_2 * y1_2_2;
         double c2_2, c3_2;
-        stumpff_23(w28, &c2_2, &c3_2);
-        const double w30 = Nr1_2 * y1_2_1 - Nr1_1 * y1_2_2;
-        const double w32 = Nr1_1 * y1_2_0 - Nr1_0 * y1_2_1;
-        const double w33 = Nr1_0 * y1_2_2 - Nr1_2 * y1_2_0;
+        stumpff_23(w20, &c2_2, &c3_2);
+        const double w22 = Nr1_2 * y1_2_1 - Nr1_1 * y1_2_2;
+        const double w24 = Nr1_1 * y1_2_0 - Nr1_0 * y1_2_1;
+        const double w25 = Nr1_0 * y1_2_2 - Nr1_2 * y1_2_0;
         const double M1_2_0 = s_mu_2_0
-            + w27 * (Nr1_0 + w30 * c2_2 + (y1_2_1 * w32 - y1_2_2 * w33) * c3_2);
+            + w19 * (Nr1_0 + w22 * c2_2 + (y1_2_1 * w24 - y1_2_2 * w25) * c3_2);
         const double residual_0 = M1_2_0 - 1.01 * xi1_0;
-        const double w34 = xe1_2 * s_mu_1 - xe1_1 * s_mu_2;
-        const double s_mu_2_1 = s_mu_1 + w24 * (xe1_0 * w26 - xe1_2 * w34);
+        const double w26 = xe1_2 * s_mu_1 - xe1_1 * s_mu_2;
+        const double s_mu_2_1 = s_mu_1 + w16 * (xe1_0 * w18 - xe1_2 * w26);
         const double M1_2_1 = s_mu_2_1
-            + w27 * (Nr1_1 + w33 * c2_2 + (y1_2_2 * w30 - y1_2_0 * w32) * c3_2);
+            + w19 * (Nr1_1 + w25 * c2_2 + (y1_2_2 * w22 - y1_2_0 * w24) * c3_2);
         const double residual_1 = M1_2_1 - xi1_1;
-        const double s_mu_2_2 = s_mu_2 + w24 * (xe1_1 * w34 - xe1_0 * w25);
+        const double s_mu_2_2 = s_mu_2 + w16 * (xe1_1 * w26 - xe1_0 * w17);
         const double M1_2_2 = s_mu_2_2
-            + w27 * (Nr1_2 + w32 * c2_2 + (y1_2_0 * w33 - y1_2_1 * w30) * c3_2);
+            + w19 * (Nr1_2 + w24 * c2_2 + (y1_2_0 * w25 - y1_2_1 * w22) * c3_2);
         const double residual_2 = M1_2_2 - p_2;
         s_mu_0_seen = s_mu_0;
         s_mu_1_seen = s_mu_1;
         s_mu_2_seen = s_mu_2;
-        if (!isfinite(residual_0 + residual_1 + residual_2)) {
-            count_sweeps(statistics, 0, sweep, 1);
-            return DIPOLE_VCG_MIDPOINT_NOT_FINITE;
-        }
         if (make_1) {
-            const double w35 = 0.005 * h;
-            const double w36 = xi1_0 * w35;
-            const double w37 = 0.01 - y1_2_0 * w36;
-            const double w38 = 0.495 * h;
-            const double w39 = xi1_2 * w38;
-            const double w40 = xi1_1 * w35;
-            const double w41 = y1_2_0 * w40 + 0.01 * y1_2_2;
-            const double w42 = xi1_1 * w38;
-            const double w43 = w40 + y1_2_2 * w36;
-            const double w44 = 1.0 / (1.01 * w37 - w39 * w41 - w42 * w43);
-            memory->inverse_1[0] = w37 * w44;
-            memory->inverse_1[1] = w44 * (w36 * w42 + 0.01 * w39);
-            memory->inverse_1[2] = w44 * (w42 + y1_2_0 * w39);
-            memory->inverse_1[3] = w41 * w44;
-            memory->inverse_1[4] = w44 * (0.0101 - w40 * w42);
-            memory->inverse_1[5] = w44 * (y1_2_2 * w42 + 1.01 * y1_2_0);
-            memory->inverse_1[6] = w43 * w44;
-            memory->inverse_1[7] = w44 * (w39 * w40 + 1.01 * w36);
-            memory->inverse_1[8] = w44 * (1.01 - y1_2_2 * w39);
+            const double w27 = 0.005 * h;
+            const double w28 = xi1_0 * w27;
+            const double w29 = 0.01 - y1_2_0 * w28;
+            const double w30 = 0.495 * h;
+            const double w31 = xi1_2 * w30;
+            const double w32 = xi1_1 * w27;
+            const double w33 = y1_2_0 * w32 + 0.01 * y1_2_2;
+            const double w34 = xi1_1 * w30;
+            const double w35 = w32 + y1_2_2 * w28;
+            const double w36 = 1.0 / (1.01 * w29 - w31 * w33 - w34 * w35);
+            memory->inverse_1[0] = w29 * w36;
+            memory->inverse_1[1] = w36 * (w28 * w34 + 0.01 * w31);
+            memory->inverse_1[2] = w36 * (w34 + y1_2_0 * w31);
+            memory->inverse_1[3] = w33 * w36;
+            memory->inverse_1[4] = w36 * (0.0101 - w32 * w34);
+            memory->inverse_1[5] = w36 * (y1_2_2 * w34 + 1.01 * y1_2_0);
+            memory->inverse_1[6] = w35 * w36;
+            memory->inverse_1[7] = w36 * (w31 * w32 + 1.01 * w28);
+            memory->inverse_1[8] = w36 * (1.01 - y1_2_2 * w31);
             memory->made_1 = 1;
             count_matrix(statistics);
         }
-        d_xi1_0 = memory->inverse_1[0] * residual_0 + memory->inverse_1[1] * residual_1
+        d_xi1_0 = (memory->inverse_1[0] * residual_0 + memory->inverse_1[1] * residual_1)
             + memory->inverse_1[2] * residual_2;
-        d_xi1_1 = memory->inverse_1[3] * residual_0 + memory->inverse_1[4] * residual_1
+        d_xi1_1 = (memory->inverse_1[3] * residual_0 + memory->inverse_1[4] * residual_1)
             + memory->inverse_1[5] * residual_2;
-        d_xi1_2 = memory->inverse_1[6] * residual_0 + memory->inverse_1[7] * residual_1
+        d_xi1_2 = (memory->inverse_1[6] * residual_0 + memory->inverse_1[7] * residual_1)
             + memory->inverse_1[8] * residual_2;
-        const double change = greater(fabs(d_xi1_0), greater(fabs(d_xi1_1), fabs(d_xi1_2)));
-        const double scale = greater(greater(1.0, fabs(xi1_0)), greater(fabs(xi1_1), fabs(xi1_2)));
-        const int still = previous_1 > 0.0 && change >= previous_1;
-        if (sweep == 1) {
-            memory->first = greater(memory->first, change);
+        const double change = (fabs(d_xi1_0) + fabs(d_xi1_1)) + fabs(d_xi1_2);
+        if (!isfinite(change)) {
+            count_sweeps(statistics, 0, sweep, 1);
+            return DIPOLE_VCG_MIDPOINT_NOT_FINITE;
         }
-        if (previous_1 > 0.0) {
-            rate_1 = greater(change / previous_1, 0.000244140625);
-        }
-        const int close = change <= 5.684341886080802e-14 * scale
-            && change * rate_1 <= 1.1102230246251565e-16 * scale;
+        const double scale = (1.0 + fabs(xi1_0)) + (fabs(xi1_1) + fabs(xi1_2));
         xi1_0 += d_xi1_0;
         xi1_1 += d_xi1_1;
         xi1_2 += d_xi1_2;
-        if (close || (still && change <= 5.684341886080802e-14 * scale)) {
+        if (previous_1 > 0.0) {
+            rate_1 = change / previous_1;
+        } else {
+            memory->first += change;
+        }
+        const int contracts = rate_1 < 0.5;
+        if (contracts ? change * (rate_1 + 0.0009765625) <= 2.220446049250313e-16 * scale
+                      : previous_1 > 0.0 && change <= 5.684341886080802e-14 * scale) {
+            memory->rate_1 = rate_1;
             count_sweeps(statistics, 0, sweep, 0);
-            memory->rate_1 = sweep > 1 ? rate_1 : 2.0 * rate_1;
             break;
         }
         if (sweep == 100) {
@@ -464,37 +442,37 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double xe1_1_ = h * xi1_1;
     const double xe1_0_ = h * xi1_0;
     const double xe1_2_ = h * xi1_2;
-    const double w45 = xe1_0_ * xe1_0_ + xe1_1_ * xe1_1_ + xe1_2_ * xe1_2_;
+    const double w37 = xe1_0_ * xe1_0_ + xe1_1_ * xe1_1_ + xe1_2_ * xe1_2_;
     double c1_2, c2_3;
-    stumpff_12(w45, &c1_2, &c2_3);
-    const double w47 = xe1_1_ * c2_3;
-    const double w48 = xe1_1_ * w47;
-    const double w49 = xe1_2_ * c2_3 * xe1_2_;
-    const double ge1_0 = 1.0 - (w48 + w49);
-    const double w51 = xe1_2_ * c1_2;
-    const double w52 = xe1_0_ * c2_3;
-    const double w53 = xe1_1_ * w52;
-    const double ge1_3 = w51 + w53;
-    const double w54 = xe1_2_ * w52;
-    const double w55 = xe1_1_ * c1_2;
-    const double ge1_6 = w54 - w55;
-    const double ge1_1 = w53 - w51;
-    const double w56 = xe1_0_ * w52;
-    const double ge1_4 = 1.0 - (w49 + w56);
-    const double w57 = xe1_0_ * c1_2;
-    const double w58 = xe1_2_ * w47;
-    const double ge1_7 = w57 + w58;
-    const double ge1_2 = w54 + w55;
-    const double ge1_5 = w58 - w57;
-    const double ge1_8 = 1.0 - (w48 + w56);
-    const double w59 = 0.99 * h;
-    const double w60 = s_mu_0_seen + xi1_2 * w59 * d_xi1_1 + xi1_1 * w59 * d_xi1_2;
-    const double w61 = s_mu_1_seen - d_xi1_0 * xe1_2_ - d_xi1_2 * xe1_0_;
-    const double w62 = 0.01 * h;
-    const double w63 = s_mu_2_seen + xi1_1 * w62 * d_xi1_0 + xi1_0 * w62 * d_xi1_1;
-    const double change_0 = ge1_0 * w60 + ge1_1 * w61 + ge1_2 * w63 - m_0;
-    const double change_1 = ge1_3 * w60 + ge1_4 * w61 + ge1_5 * w63 - m_1;
-    const double change_2 = ge1_6 * w60 + ge1_7 * w61 + ge1_8 * w63 - m_2;
+    stumpff_12(w37, &c1_2, &c2_3);
+    const double w39 = xe1_1_ * c2_3;
+    const double w40 = xe1_1_ * w39;
+    const double w41 = xe1_2_ * c2_3 * xe1_2_;
+    const double ge1_0 = 1.0 - (w40 + w41);
+    const double w43 = xe1_2_ * c1_2;
+    const double w44 = xe1_0_ * c2_3;
+    const double w45 = xe1_1_ * w44;
+    const double ge1_3 = w43 + w45;
+    const double w46 = xe1_2_ * w44;
+    const double w47 = xe1_1_ * c1_2;
+    const double ge1_6 = w46 - w47;
+    const double ge1_1 = w45 - w43;
+    const double w48 = xe1_0_ * w44;
+    const double ge1_4 = 1.0 - (w41 + w48);
+    const double w49 = xe1_0_ * c1_2;
+    const double w50 = xe1_2_ * w39;
+    const double ge1_7 = w49 + w50;
+    const double ge1_2 = w46 + w47;
+    const double ge1_5 = w50 - w49;
+    const double ge1_8 = 1.0 - (w40 + w48);
+    const double w51 = 0.99 * h;
+    const double w52 = s_mu_0_seen + xi1_2 * w51 * d_xi1_1 + xi1_1 * w51 * d_xi1_2;
+    const double w53 = s_mu_1_seen - d_xi1_0 * xe1_2_ - d_xi1_2 * xe1_0_;
+    const double w54 = 0.01 * h;
+    const double w55 = s_mu_2_seen + xi1_1 * w54 * d_xi1_0 + xi1_0 * w54 * d_xi1_1;
+    const double change_0 = ge1_0 * w52 + ge1_1 * w53 + ge1_2 * w55 - m_0;
+    const double change_1 = ge1_3 * w52 + ge1_4 * w53 + ge1_5 * w55 - m_1;
+    const double change_2 = ge1_6 * w52 + ge1_7 * w53 + ge1_8 * w55 - m_2;
     const double new_g00 = g00 * ge1_0 + g01 * ge1_3 + g02 * ge1_6;
     const double new_g01 = g00 * ge1_1 + g01 * ge1_4 + g02 * ge1_7;
     const double new_g02 = g00 * ge1_2 + g01 * ge1_5 + g02 * ge1_8;

@@ -5,10 +5,10 @@ source:     Table 3.2a of Bogfjellmo and Marthinsen
 order:      2, certificate: exact (every order condition up to it is zero in exact
             arithmetic)
 scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
-solved by:  the equations of xi1, n1: Newton's method, 3 unknowns (1.9 sweeps of 272
+solved by:  the equations of xi1, n1: Newton's method, 3 unknowns (1.9 sweeps of 263
             operations and 0.05 matrices of 46 a step; fixed point: 3.2 sweeps of
-            270 operations; Newton's method with the matrix to first order in h: 2.0
-            sweeps of 285 operations and 1.00 matrices of 68)
+            276 operations; Newton's method with the matrix to first order in h: 1.9
+            sweeps of 291 operations and 1.00 matrices of 68)
 state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
 left out:   3 Adtinv, 2 mul (zeros)
@@ -20,16 +20,18 @@ left out:   3 Adtinv, 2 mul (zeros)
             1 Adinv (opposites)
             1 Adt (opposites)
             2 Adtinv, 1 force (dead code)
+            1 mul (rows)
             1 Adt, 2 dexpt (functions)
             1 Adinv (opposites)
+            1 Ad (functions)
             1 legendre (sharing)
-            1 lin, 2 seriest (factors)
+            1 exp, 1 lin, 2 seriest (factors)
             parameters, folded: beta = 1, depth = 3/2
             the time: the scene does not depend on it
 operations: 62 add, 86 mul, 1 stumpff_12 a step
             2 mul a start, in steps that follow no other
             11 add, 31 mul, 1 div a matrix of the equations of xi1, n1
-            72 add, 117 mul, 2 div, 2 sqrt, 1 stumpff_12, 1 stumpff_23, 1 stumpff_3
+            66 add, 114 mul, 2 div, 2 sqrt, 1 stumpff_12, 1 stumpff_23, 1 stumpff_3
             a sweep of the equations of xi1, n1
 made by:    orderconds emit dipole --method vcg:midpoint --target python -o .
 version:    orderconds 0.1.0
@@ -265,84 +267,67 @@ def _advance(state, h, memory, statistics):
         xi1_1 = m_1
         xi1_2 = 100.0 * m_2
     w1 = 0.5 * h
-    w27 = -0.5 * h
+    w19 = -0.5 * h
     # the equations of xi1, n1: Newton's method in xi1_0, xi1_1, xi1_2
     previous_1 = 0.0
     rate_1 = memory.rates[0] if memory.past else 1.0
     make_1 = memory.inverses[0] is None
     for sweep in range(1, 101):
         p_2 = 0.01 * xi1_2
-        xE1_1_1 = xi1_1 * w1
         xE1_1_0 = xi1_0 * w1
+        xE1_1_1 = xi1_1 * w1
         xE1_1_2 = xi1_2 * w1
         w2 = xE1_1_0 * xE1_1_0 + xE1_1_1 * xE1_1_1 + xE1_1_2 * xE1_1_2
         c1_1, c2_1 = _stumpff_12(w2)
-        w4 = xE1_1_0 * c2_1
-        w5 = xE1_1_1 * w4
-        w7 = xE1_1_2 * c1_1
-        gE1_1_1 = w5 - w7
-        w8 = xE1_1_0 * w4
-        w9 = xE1_1_2 * c2_1 * xE1_1_2
-        gE1_1_4 = 1.0 - (w8 + w9)
-        w10 = xE1_1_0 * c1_1
-        w11 = xE1_1_1 * c2_1
-        w12 = xE1_1_2 * w11
-        gE1_1_7 = w10 + w12
-        Q1_7 = g20 * gE1_1_1 + g21 * gE1_1_4 + g22 * gE1_1_7
-        w13 = xE1_1_1 * c1_1
-        w14 = xE1_1_2 * w4
-        gE1_1_2 = w13 + w14
-        gE1_1_5 = w12 - w10
-        w15 = xE1_1_1 * w11
-        gE1_1_8 = 1.0 - (w8 + w15)
-        Q1_8 = g20 * gE1_1_2 + g21 * gE1_1_5 + g22 * gE1_1_8
-        w16 = 1.5 - 2.0 * Q1_8
-        w17 = 1.0 / sqrt(1.01 + 1.5 * (w16 - 0.2 * Q1_7))
-        w18 = w17 * w17 * (0.5 * w17)
-        w19 = 1.0 / sqrt(1.01 + 1.5 * (w16 + 0.2 * Q1_7))
-        w20 = w19 * w19 * (0.5 * w19)
-        w21 = -1.0 - 2.0 * (1.5 * w18 - 1.5 * w20)
-        w22 = -0.3 * w18 - 0.3 * w20
-        Nr1_0 = Q1_7 * w21 - Q1_8 * w22 + 99.0 * xi1_1 * p_2
+        w4 = g22 * xE1_1_0 - g20 * xE1_1_2
+        w6 = g20 * xE1_1_1 - g21 * xE1_1_0
+        w7 = g21 * xE1_1_2 - g22 * xE1_1_1
+        Q1_7 = g21 + w4 * c1_1 + (xE1_1_0 * w6 - xE1_1_2 * w7) * c2_1
+        Q1_8 = g22 + w6 * c1_1 + (xE1_1_1 * w7 - xE1_1_0 * w4) * c2_1
+        w8 = 1.5 - 2.0 * Q1_8
+        w9 = 1.0 / sqrt(1.01 + 1.5 * (w8 - 0.2 * Q1_7))
+        w10 = w9 * w9 * (0.5 * w9)
+        w11 = 1.0 / sqrt(1.01 + 1.5 * (w8 + 0.2 * Q1_7))
+        w12 = w11 * w11 * (0.5 * w11)
+        w13 = -1.0 - 2.0 * (1.5 * w10 - 1.5 * w12)
+        w14 = -0.3 * w10 - 0.3 * w12
+        Nr1_0 = Q1_7 * w13 - Q1_8 * w14 + 99.0 * xi1_1 * p_2
         s_mu_0 = m_0 + h * Nr1_0
         xe1_0 = h * xi1_0
         xe1_1 = h * xi1_1
         xe1_2 = h * xi1_2
-        w23 = xe1_0 * xe1_0 + xe1_1 * xe1_1 + xe1_2 * xe1_2
-        c3_1 = _stumpff_3(0.25 * w23)
-        w24 = 0.25 * c3_1
-        gE1_1_0 = 1.0 - (w9 + w15)
-        gE1_1_3 = w5 + w7
-        gE1_1_6 = w14 - w13
-        Q1_6 = g20 * gE1_1_0 + g21 * gE1_1_3 + g22 * gE1_1_6
-        Nr1_2 = 0.01 * xi1_0 * xi1_1 + w22 * Q1_6
+        w15 = xe1_0 * xe1_0 + xe1_1 * xe1_1 + xe1_2 * xe1_2
+        c3_1 = _stumpff_3(0.25 * w15)
+        w16 = 0.25 * c3_1
+        Q1_6 = g20 + w7 * c1_1 + (xE1_1_2 * w4 - xE1_1_1 * w6) * c2_1
+        Nr1_2 = 0.01 * xi1_0 * xi1_1 + w14 * Q1_6
         s_mu_2 = m_2 + h * Nr1_2
-        w25 = xe1_0 * s_mu_2 - s_mu_0 * xe1_2
-        Nr1_1 = -100.0 * xi1_0 * p_2 - w21 * Q1_6
+        w17 = xe1_0 * s_mu_2 - s_mu_0 * xe1_2
+        Nr1_1 = -100.0 * xi1_0 * p_2 - w13 * Q1_6
         s_mu_1 = m_1 + h * Nr1_1
-        w26 = s_mu_0 * xe1_1 - xe1_0 * s_mu_1
-        s_mu_2_0 = s_mu_0 + w24 * (xe1_2 * w25 - xe1_1 * w26)
-        y1_2_0 = xi1_0 * w27
-        y1_2_1 = xi1_1 * w27
-        y1_2_2 = xi1_2 * w27
-        w28 = y1_2_0 * y1_2_0 + y1_2_1 * y1_2_1 + y1_2_2 * y1_2_2
-        c2_2, c3_2 = _stumpff_23(w28)
-        w30 = Nr1_2 * y1_2_1 - Nr1_1 * y1_2_2
-        w32 = Nr1_1 * y1_2_0 - Nr1_0 * y1_2_1
-        w33 = Nr1_0 * y1_2_2 - Nr1_2 * y1_2_0
+        w18 = s_mu_0 * xe1_1 - xe1_0 * s_mu_1
+        s_mu_2_0 = s_mu_0 + w16 * (xe1_2 * w17 - xe1_1 * w18)
+        y1_2_0 = xi1_0 * w19
+        y1_2_1 = xi1_1 * w19
+        y1_2_2 = xi1_2 * w19
+        w20 = y1_2_0 * y1_2_0 + y1_2_1 * y1_2_1 + y1_2_2 * y1_2_2
+        c2_2, c3_2 = _stumpff_23(w20)
+        w22 = Nr1_2 * y1_2_1 - Nr1_1 * y1_2_2
+        w24 = Nr1_1 * y1_2_0 - Nr1_0 * y1_2_1
+        w25 = Nr1_0 * y1_2_2 - Nr1_2 * y1_2_0
         M1_2_0 = (
-            s_mu_2_0 + w27 * (Nr1_0 + w30 * c2_2 + (y1_2_1 * w32 - y1_2_2 * w33) * c3_2)
+            s_mu_2_0 + w19 * (Nr1_0 + w22 * c2_2 + (y1_2_1 * w24 - y1_2_2 * w25) * c3_2)
         )
         residual_0 = M1_2_0 - 1.01 * xi1_0
-        w34 = xe1_2 * s_mu_1 - xe1_1 * s_mu_2
-        s_mu_2_1 = s_mu_1 + w24 * (xe1_0 * w26 - xe1_2 * w34)
+        w26 = xe1_2 * s_mu_1 - xe1_1 * s_mu_2
+        s_mu_2_1 = s_mu_1 + w16 * (xe1_0 * w18 - xe1_2 * w26)
         M1_2_1 = (
-            s_mu_2_1 + w27 * (Nr1_1 + w33 * c2_2 + (y1_2_2 * w30 - y1_2_0 * w32) * c3_2)
+            s_mu_2_1 + w19 * (Nr1_1 + w25 * c2_2 + (y1_2_2 * w22 - y1_2_0 * w24) * c3_2)
         )
         residual_1 = M1_2_1 - xi1_1
-        s_mu_2_2 = s_mu_2 + w24 * (xe1_1 * w34 - xe1_0 * w25)
+        s_mu_2_2 = s_mu_2 + w16 * (xe1_1 * w26 - xe1_0 * w17)
         M1_2_2 = (
-            s_mu_2_2 + w27 * (Nr1_2 + w32 * c2_2 + (y1_2_0 * w33 - y1_2_1 * w30) * c3_2)
+            s_mu_2_2 + w19 * (Nr1_2 + w24 * c2_2 + (y1_2_0 * w25 - y1_2_1 * w22) * c3_2)
         )
         residual_2 = M1_2_2 - p_2
         s_mu_0_seen = s_mu_0
@@ -352,30 +337,30 @@ def _advance(state, h, memory, statistics):
         if not isfinite(total):
             raise _failed(NOT_FINITE, "the equations of xi1, n1", 0, sweep, statistics)
         if make_1:
-            w35 = 0.005 * h
-            w36 = xi1_0 * w35
-            w37 = 0.01 - y1_2_0 * w36
-            w38 = 0.495 * h
-            w39 = xi1_2 * w38
-            w40 = xi1_1 * w35
-            w41 = y1_2_0 * w40 + 0.01 * y1_2_2
-            w42 = xi1_1 * w38
-            w43 = w40 + y1_2_2 * w36
-            w44 = 1.0 / (1.01 * w37 - w39 * w41 - w42 * w43)
+            w27 = 0.005 * h
+            w28 = xi1_0 * w27
+            w29 = 0.01 - y1_2_0 * w28
+            w30 = 0.495 * h
+            w31 = xi1_2 * w30
+            w32 = xi1_1 * w27
+            w33 = y1_2_0 * w32 + 0.01 * y1_2_2
+            w34 = xi1_1 * w30
+            w35 = w32 + y1_2_2 * w28
+            w36 = 1.0 / (1.01 * w29 - w31 * w33 - w34 * w35)
             row_1_1 = [
-                w37 * w44,
-                w44 * (w36 * w42 + 0.01 * w39),
-                w44 * (w42 + y1_2_0 * w39),
+                w29 * w36,
+                w36 * (w28 * w34 + 0.01 * w31),
+                w36 * (w34 + y1_2_0 * w31),
             ]
             row_1_2 = [
-                w41 * w44,
-                w44 * (0.0101 - w40 * w42),
-                w44 * (y1_2_2 * w42 + 1.01 * y1_2_0),
+                w33 * w36,
+                w36 * (0.0101 - w32 * w34),
+                w36 * (y1_2_2 * w34 + 1.01 * y1_2_0),
             ]
             row_1_3 = [
-                w43 * w44,
-                w44 * (w39 * w40 + 1.01 * w36),
-                w44 * (1.01 - y1_2_2 * w39),
+                w35 * w36,
+                w36 * (w31 * w32 + 1.01 * w28),
+                w36 * (1.01 - y1_2_2 * w31),
             ]
             memory.inverses[0] = [row_1_1, row_1_2, row_1_3]
             if statistics is not None:
@@ -413,36 +398,36 @@ def _advance(state, h, memory, statistics):
     xe1_1_ = h * xi1_1
     xe1_0_ = h * xi1_0
     xe1_2_ = h * xi1_2
-    w45 = xe1_0_ * xe1_0_ + xe1_1_ * xe1_1_ + xe1_2_ * xe1_2_
-    c1_2, c2_3 = _stumpff_12(w45)
-    w47 = xe1_1_ * c2_3
-    w48 = xe1_1_ * w47
-    w49 = xe1_2_ * c2_3 * xe1_2_
-    ge1_0 = 1.0 - (w48 + w49)
-    w51 = xe1_2_ * c1_2
-    w52 = xe1_0_ * c2_3
-    w53 = xe1_1_ * w52
-    ge1_3 = w51 + w53
-    w54 = xe1_2_ * w52
-    w55 = xe1_1_ * c1_2
-    ge1_6 = w54 - w55
-    ge1_1 = w53 - w51
-    w56 = xe1_0_ * w52
-    ge1_4 = 1.0 - (w49 + w56)
-    w57 = xe1_0_ * c1_2
-    w58 = xe1_2_ * w47
-    ge1_7 = w57 + w58
-    ge1_2 = w54 + w55
-    ge1_5 = w58 - w57
-    ge1_8 = 1.0 - (w48 + w56)
-    w59 = 0.99 * h
-    w60 = s_mu_0_seen + xi1_2 * w59 * d_xi1_1 + xi1_1 * w59 * d_xi1_2
-    w61 = s_mu_1_seen - d_xi1_0 * xe1_2_ - d_xi1_2 * xe1_0_
-    w62 = 0.01 * h
-    w63 = s_mu_2_seen + xi1_1 * w62 * d_xi1_0 + xi1_0 * w62 * d_xi1_1
-    change_0 = ge1_0 * w60 + ge1_1 * w61 + ge1_2 * w63 - m_0
-    change_1 = ge1_3 * w60 + ge1_4 * w61 + ge1_5 * w63 - m_1
-    change_2 = ge1_6 * w60 + ge1_7 * w61 + ge1_8 * w63 - m_2
+    w37 = xe1_0_ * xe1_0_ + xe1_1_ * xe1_1_ + xe1_2_ * xe1_2_
+    c1_2, c2_3 = _stumpff_12(w37)
+    w39 = xe1_1_ * c2_3
+    w40 = xe1_1_ * w39
+    w41 = xe1_2_ * c2_3 * xe1_2_
+    ge1_0 = 1.0 - (w40 + w41)
+    w43 = xe1_2_ * c1_2
+    w44 = xe1_0_ * c2_3
+    w45 = xe1_1_ * w44
+    ge1_3 = w43 + w45
+    w46 = xe1_2_ * w44
+    w47 = xe1_1_ * c1_2
+    ge1_6 = w46 - w47
+    ge1_1 = w45 - w43
+    w48 = xe1_0_ * w44
+    ge1_4 = 1.0 - (w41 + w48)
+    w49 = xe1_0_ * c1_2
+    w50 = xe1_2_ * w39
+    ge1_7 = w49 + w50
+    ge1_2 = w46 + w47
+    ge1_5 = w50 - w49
+    ge1_8 = 1.0 - (w40 + w48)
+    w51 = 0.99 * h
+    w52 = s_mu_0_seen + xi1_2 * w51 * d_xi1_1 + xi1_1 * w51 * d_xi1_2
+    w53 = s_mu_1_seen - d_xi1_0 * xe1_2_ - d_xi1_2 * xe1_0_
+    w54 = 0.01 * h
+    w55 = s_mu_2_seen + xi1_1 * w54 * d_xi1_0 + xi1_0 * w54 * d_xi1_1
+    change_0 = ge1_0 * w52 + ge1_1 * w53 + ge1_2 * w55 - m_0
+    change_1 = ge1_3 * w52 + ge1_4 * w53 + ge1_5 * w55 - m_1
+    change_2 = ge1_6 * w52 + ge1_7 * w53 + ge1_8 * w55 - m_2
     new_g00 = g00 * ge1_0 + g01 * ge1_3 + g02 * ge1_6
     new_g01 = g00 * ge1_1 + g01 * ge1_4 + g02 * ge1_7
     new_g02 = g00 * ge1_2 + g01 * ge1_5 + g02 * ge1_8

@@ -6,9 +6,9 @@
  *             of Bogfjellmo and Marthinsen
  * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
- * solved by:  the equations of v1, v2, m1, m2: Newton's method, 6 unknowns (2.1 sweeps of 815
- *             operations and 0.05 matrices of 594 a step; fixed point: 3.3 sweeps of 891
- *             operations; Newton's method with the matrix to first order in h: 1.9 sweeps of 957
+ * solved by:  the equations of v1, v2, m1, m2: Newton's method, 6 unknowns (2.1 sweeps of 797
+ *             operations and 0.05 matrices of 594 a step; fixed point: 3.3 sweeps of 873
+ *             operations; Newton's method with the matrix to first order in h: 1.9 sweeps of 939
  *             operations and 1.00 matrices of 671)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
@@ -19,18 +19,19 @@
  *             3 hamilton (body frame)
  *             2 Adt (opposites)
  *             1 force, 1 lin (dead code)
+ *             2 mul (rows)
  *             2 Adinv, 2 Adt, 2 dexpinv, 2 dexpinvt, 3 dexpt (functions)
  *             2 legendre, 2 lin, 2 series, 2 seriest (sharing)
- *             2 Ad, 4 Adtinv, 2 seriest (factors)
+ *             2 Ad, 4 Adtinv, 2 exp, 2 seriest (factors)
  *             2 lin (scalars)
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 71 add, 107 mul, 1 stumpff_12 a step
  *             2 mul a start, in steps that follow no other
  *             60 add, 102 mul a matrix of the equations of v1, v2, m1, m2
- *             285 add, 401 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 a sweep of the
+ *             273 add, 395 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 a sweep of the
  *             equations of v1, v2, m1, m2
- * stack:      at most 4544 bytes, without what the mathematical library takes
+ * stack:      at most 4480 bytes, without what the mathematical library takes
  * made by:    orderconds emit dipole --method 'vrkmk(2):gauss2' --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -257,11 +258,6 @@ static int invert(size_t n, double *a, size_t *order)
     return 1;
 }
 
-static inline double greater(double a, double b)
-{
-    return a > b ? a : b;
-}
-
 static void count_sweeps(dipole_vrkmk2_gauss2_statistics *statistics, size_t block, size_t sweeps, int failed)
 {
     if (statistics == NULL) {
@@ -289,7 +285,7 @@ struct memory {
     double first; /* by how much the guess was off */
     size_t degree;
     double guess[6];
-    double differences[6][14];
+    double differences[6][16];
     double rate_1;
     int made_1;
     double inverse_1[36];
@@ -308,7 +304,7 @@ static inline double size_of(const struct memory *memory, size_t k)
 /* Take up a solution and guess the next: the polynomial through the last ones, continued by a step. */
 static inline void remember(struct memory *memory, const double solution[static 6])
 {
-    if (memory->known > 1) {
+    if (memory->known > 2) { /* the guess was no mere copy */
         double moved = 0.0;
         for (size_t i = 0; i < 6; i++) {
             moved += fabs(solution[i] - memory->differences[i][0]);
@@ -318,7 +314,7 @@ static inline void remember(struct memory *memory, const double solution[static 
         }
     }
     memory->first = 0.0;
-    const size_t last = memory->known < 14 ? memory->known : 13, k = memory->degree;
+    const size_t last = memory->known < 16 ? memory->known : 15, k = memory->degree;
     for (size_t i = 0; i < 6; i++) {
         double *const differences = memory->differences[i];
         double d = solution[i], sum = 0.0;
@@ -386,11 +382,11 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double w1 = 0.5 * h;
     const double w2 = 0.5386751345948129 * h;
     const double w3 = 0.25 * h;
-    const double w36 = -0.03867513459481288 * h;
-    const double w90 = -0.5386751345948129 * h;
-    const double w104 = -0.25 * h;
-    const double w111 = -0.25 * h;
-    const double w112 = 0.03867513459481288 * h;
+    const double w28 = -0.03867513459481288 * h;
+    const double w74 = -0.5386751345948129 * h;
+    const double w88 = -0.25 * h;
+    const double w95 = -0.25 * h;
+    const double w96 = 0.03867513459481288 * h;
     /* the equations of v1, v2, m1, m2: Newton's method in v1_0, v1_1, v1_2, v2_0, v2_1, v2_2 */
     double s_L_0_seen, s_L_1_seen, s_L_2_seen, d_v1_0, d_v1_1, d_v1_2, d_v2_0, d_v2_1, d_v2_2;
     double previous_1 = 0.0;
@@ -417,229 +413,206 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double p_2_2 = 0.01 * a_6_2;
         const double w17 = X2_2 * w14 - X2_0 * w4;
         const double a_6_1 = v2_1 + w12 * w13 + w16 * w17;
-        const double w18 = X2_0 * c2_1;
-        const double w19 = X2_1 * w18;
-        const double w20 = X2_2 * c1_1;
-        const double w21 = X2_0 * w18;
-        const double w22 = X2_2 * c2_1 * X2_2;
-        const double w23 = X2_0 * c1_1;
-        const double w24 = X2_1 * c2_1;
-        const double w25 = X2_2 * w24;
-        const double Q2_7 = g20 * (w19 - w20) + g21 * (1.0 - (w21 + w22)) + g22 * (w23 + w25);
-        const double w26 = X2_1 * c1_1;
-        const double w27 = X2_2 * w18;
-        const double w28 = X2_1 * w24;
-        const double Q2_8 = g20 * (w26 + w27) + g21 * (w25 - w23) + g22 * (1.0 - (w21 + w28));
-        const double w29 = 1.5 - 2.0 * Q2_8;
-        const double w30 = 1.0 / sqrt(1.01 + 1.5 * (w29 - 0.2 * Q2_7));
-        const double w31 = w30 * w30 * (0.5 * w30);
-        const double w32 = 1.0 / sqrt(1.01 + 1.5 * (w29 + 0.2 * Q2_7));
-        const double w33 = w32 * w32 * (0.5 * w32);
-        const double w34 = -1.0 - 2.0 * (1.5 * w31 - 1.5 * w33);
-        const double w35 = -0.3 * w31 - 0.3 * w33;
-        const double Nn2_0 = Q2_7 * w34 - Q2_8 * w35 + 99.0 * a_6_1 * p_2_2;
-        const double X1_0 = v1_0 * w3 + v2_0 * w36;
-        const double X1_1 = v1_1 * w3 + v2_1 * w36;
-        const double w37 = v1_1 * X1_0 - v1_0 * X1_1;
-        const double X1_2 = v1_2 * w3 + v2_2 * w36;
-        const double w38 = X1_0 * X1_0 + X1_1 * X1_1 + X1_2 * X1_2;
+        const double w18 = g22 * X2_0 - g20 * X2_2;
+        const double w19 = g20 * X2_1 - g21 * X2_0;
+        const double w20 = g21 * X2_2 - g22 * X2_1;
+        const double Q2_7 = g21 + w18 * c1_1 + (X2_0 * w19 - X2_2 * w20) * c2_1;
+        const double Q2_8 = g22 + w19 * c1_1 + (X2_1 * w20 - X2_0 * w18) * c2_1;
+        const double w21 = 1.5 - 2.0 * Q2_8;
+        const double w22 = 1.0 / sqrt(1.01 + 1.5 * (w21 - 0.2 * Q2_7));
+        const double w23 = w22 * w22 * (0.5 * w22);
+        const double w24 = 1.0 / sqrt(1.01 + 1.5 * (w21 + 0.2 * Q2_7));
+        const double w25 = w24 * w24 * (0.5 * w24);
+        const double w26 = -1.0 - 2.0 * (1.5 * w23 - 1.5 * w25);
+        const double w27 = -0.3 * w23 - 0.3 * w25;
+        const double Nn2_0 = Q2_7 * w26 - Q2_8 * w27 + 99.0 * a_6_1 * p_2_2;
+        const double X1_0 = v1_0 * w3 + v2_0 * w28;
+        const double X1_1 = v1_1 * w3 + v2_1 * w28;
+        const double w29 = v1_1 * X1_0 - v1_0 * X1_1;
+        const double X1_2 = v1_2 * w3 + v2_2 * w28;
+        const double w30 = X1_0 * X1_0 + X1_1 * X1_1 + X1_2 * X1_2;
         double c1_2, c2_2, c3_2;
-        stumpff_123(w38, &c1_2, &c2_2, &c3_2);
-        const double w40 = 1.0 - 0.08333333333333333 * w38;
-        const double w41 = 1.0 / (w40 * w40 + 0.25 * w38);
-        const double w42 = w41 * (0.25 - 0.08333333333333333 * w40);
-        const double w44 = -0.5 * w41;
-        const double w45 = w38 * (w42 * c1_2 + w44 * c2_2) - (w44 + c1_2);
-        const double w46 = v1_0 * X1_2 - v1_2 * X1_0;
-        const double w47 = v1_2 * X1_1 - v1_1 * X1_2;
-        const double w48 = X1_0 * w46 - X1_1 * w47;
-        const double w49 = w42 + c2_2 + w44 * c1_2 - w42 * c2_2 * w38;
-        const double a_2_2 = v1_2 + w37 * w45 + w48 * w49;
+        stumpff_123(w30, &c1_2, &c2_2, &c3_2);
+        const double w32 = 1.0 - 0.08333333333333333 * w30;
+        const double w33 = 1.0 / (w32 * w32 + 0.25 * w30);
+        const double w34 = w33 * (0.25 - 0.08333333333333333 * w32);
+        const double w36 = -0.5 * w33;
+        const double w37 = w30 * (w34 * c1_2 + w36 * c2_2) - (w36 + c1_2);
+        const double w38 = v1_0 * X1_2 - v1_2 * X1_0;
+        const double w39 = v1_2 * X1_1 - v1_1 * X1_2;
+        const double w40 = X1_0 * w38 - X1_1 * w39;
+        const double w41 = w34 + c2_2 + w36 * c1_2 - w34 * c2_2 * w30;
+        const double a_2_2 = v1_2 + w29 * w37 + w40 * w41;
         const double p_2 = 0.01 * a_2_2;
-        const double w50 = X1_2 * w47 - X1_0 * w37;
-        const double a_2_1 = v1_1 + w45 * w46 + w49 * w50;
-        const double w51 = X1_0 * c2_2;
-        const double w52 = X1_1 * w51;
-        const double w53 = X1_2 * c1_2;
-        const double w54 = X1_0 * w51;
-        const double w55 = X1_2 * c2_2 * X1_2;
-        const double w56 = X1_0 * c1_2;
-        const double w57 = X1_1 * c2_2;
-        const double w58 = X1_2 * w57;
-        const double Q1_7 = g20 * (w52 - w53) + g21 * (1.0 - (w54 + w55)) + g22 * (w56 + w58);
-        const double w59 = X1_1 * c1_2;
-        const double w60 = X1_2 * w51;
-        const double w61 = X1_1 * w57;
-        const double Q1_8 = g20 * (w59 + w60) + g21 * (w58 - w56) + g22 * (1.0 - (w54 + w61));
-        const double w62 = 1.5 - 2.0 * Q1_8;
-        const double w63 = 1.0 / sqrt(1.01 + 1.5 * (w62 - 0.2 * Q1_7));
-        const double w64 = w63 * w63 * (0.5 * w63);
-        const double w65 = 1.0 / sqrt(1.01 + 1.5 * (w62 + 0.2 * Q1_7));
-        const double w66 = w65 * w65 * (0.5 * w65);
-        const double w67 = -1.0 - 2.0 * (1.5 * w64 - 1.5 * w66);
-        const double w68 = -0.3 * w64 - 0.3 * w66;
-        const double Nn1_0 = Q1_7 * w67 - Q1_8 * w68 + 99.0 * a_2_1 * p_2;
+        const double w42 = X1_2 * w39 - X1_0 * w29;
+        const double a_2_1 = v1_1 + w37 * w38 + w41 * w42;
+        const double w43 = g22 * X1_0 - g20 * X1_2;
+        const double w44 = g20 * X1_1 - g21 * X1_0;
+        const double w45 = g21 * X1_2 - g22 * X1_1;
+        const double Q1_7 = g21 + w43 * c1_2 + (X1_0 * w44 - X1_2 * w45) * c2_2;
+        const double Q1_8 = g22 + w44 * c1_2 + (X1_1 * w45 - X1_0 * w43) * c2_2;
+        const double w46 = 1.5 - 2.0 * Q1_8;
+        const double w47 = 1.0 / sqrt(1.01 + 1.5 * (w46 - 0.2 * Q1_7));
+        const double w48 = w47 * w47 * (0.5 * w47);
+        const double w49 = 1.0 / sqrt(1.01 + 1.5 * (w46 + 0.2 * Q1_7));
+        const double w50 = w49 * w49 * (0.5 * w49);
+        const double w51 = -1.0 - 2.0 * (1.5 * w48 - 1.5 * w50);
+        const double w52 = -0.3 * w48 - 0.3 * w50;
+        const double Nn1_0 = Q1_7 * w51 - Q1_8 * w52 + 99.0 * a_2_1 * p_2;
         const double s_L_0 = m_0 + w1 * (Nn2_0 + Nn1_0);
         const double Y_0 = (v1_0 + v2_0) * w1;
         const double Y_1 = (v1_1 + v2_1) * w1;
         const double Y_2 = (v1_2 + v2_2) * w1;
-        const double w69 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2;
+        const double w53 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2;
         double c2_3, c3_3;
-        stumpff_23(w69, &c2_3, &c3_3);
-        const double w71 = X2_1 * w4 - X2_2 * w13;
-        const double a_6_0 = v2_0 + w12 * w14 + w16 * w71;
-        const double Q2_6 = g20 * (1.0 - (w22 + w28)) + g21 * (w19 + w20) + g22 * (w27 - w26);
-        const double Nn2_1 = -100.0 * a_6_0 * p_2_2 - w34 * Q2_6;
-        const double w72 = X1_1 * w37 - X1_2 * w46;
-        const double a_2_0 = v1_0 + w45 * w47 + w49 * w72;
-        const double Q1_6 = g20 * (1.0 - (w55 + w61)) + g21 * (w52 + w53) + g22 * (w60 - w59);
-        const double Nn1_1 = -100.0 * a_2_0 * p_2 - w67 * Q1_6;
+        stumpff_23(w53, &c2_3, &c3_3);
+        const double w55 = X2_1 * w4 - X2_2 * w13;
+        const double a_6_0 = v2_0 + w12 * w14 + w16 * w55;
+        const double Q2_6 = g20 + w20 * c1_1 + (X2_2 * w18 - X2_1 * w19) * c2_1;
+        const double Nn2_1 = -100.0 * a_6_0 * p_2_2 - w26 * Q2_6;
+        const double w56 = X1_1 * w29 - X1_2 * w38;
+        const double a_2_0 = v1_0 + w37 * w39 + w41 * w56;
+        const double Q1_6 = g20 + w45 * c1_2 + (X1_2 * w43 - X1_1 * w44) * c2_2;
+        const double Nn1_1 = -100.0 * a_2_0 * p_2 - w51 * Q1_6;
         const double s_L_1 = m_1 + w1 * (Nn2_1 + Nn1_1);
-        const double Nn2_2 = 0.01 * a_6_0 * a_6_1 + w35 * Q2_6;
-        const double Nn1_2 = 0.01 * a_2_0 * a_2_1 + w68 * Q1_6;
+        const double Nn2_2 = 0.01 * a_6_0 * a_6_1 + w27 * Q2_6;
+        const double Nn1_2 = 0.01 * a_2_0 * a_2_1 + w52 * Q1_6;
         const double s_L_2 = m_2 + w1 * (Nn2_2 + Nn1_2);
-        const double w73 = Y_2 * s_L_1 - Y_1 * s_L_2;
-        const double w75 = Y_0 * s_L_2 - s_L_0 * Y_2;
-        const double w76 = s_L_0 * Y_1 - Y_0 * s_L_1;
-        const double L_4_0 = s_L_0 - w73 * c2_3 + (Y_2 * w75 - Y_1 * w76) * c3_3;
-        const double w77 = X2_1 * Nn2_2 - X2_2 * Nn2_1;
-        const double w79 = X2_0 * Nn2_1 - X2_1 * Nn2_0;
-        const double w80 = X2_2 * Nn2_0 - X2_0 * Nn2_2;
+        const double w57 = Y_2 * s_L_1 - Y_1 * s_L_2;
+        const double w59 = Y_0 * s_L_2 - s_L_0 * Y_2;
+        const double w60 = s_L_0 * Y_1 - Y_0 * s_L_1;
+        const double L_4_0 = s_L_0 - w57 * c2_3 + (Y_2 * w59 - Y_1 * w60) * c3_3;
+        const double w61 = X2_1 * Nn2_2 - X2_2 * Nn2_1;
+        const double w63 = X2_0 * Nn2_1 - X2_1 * Nn2_0;
+        const double w64 = X2_2 * Nn2_0 - X2_0 * Nn2_2;
         const double p_2_0 = 1.01 * a_6_0;
-        const double w81 = X2_2 * p_2_0 - X2_0 * p_2_2;
-        const double w82 = X2_1 * p_2_2 - X2_2 * a_6_1;
-        const double w83 = X2_0 * a_6_1 - X2_1 * p_2_0;
-        const double a_8_1 = a_6_1 - w12 * w81 + w16 * (X2_2 * w82 - X2_0 * w83);
+        const double w65 = X2_2 * p_2_0 - X2_0 * p_2_2;
+        const double w66 = X2_1 * p_2_2 - X2_2 * a_6_1;
+        const double w67 = X2_0 * a_6_1 - X2_1 * p_2_0;
+        const double a_8_1 = a_6_1 - w12 * w65 + w16 * (X2_2 * w66 - X2_0 * w67);
         const double a_5_2 = v2_2 - w4 * w11 + w9 * w15;
         const double a_5_1 = v2_1 - w11 * w13 + w9 * w17;
-        const double a_5_0 = v2_0 - w11 * w14 + w9 * w71;
-        const double w84 = 0.5 * a_5_2 - 0.08333333333333333 * (X2_0 * a_5_1 - X2_1 * a_5_0);
-        const double a_8_2 = p_2_2 - w12 * w83 + w16 * (X2_0 * w81 - X2_1 * w82);
-        const double w85 = 0.5 * a_5_1 - 0.08333333333333333 * (X2_2 * a_5_0 - X2_0 * a_5_2);
-        const double a_8_0 = p_2_0 - w12 * w82 + w16 * (X2_1 * w83 - X2_2 * w81);
-        const double w86 = X2_0 * a_8_2 - X2_2 * a_8_0;
-        const double w87 = -0.08333333333333333 * a_5_2;
-        const double w88 = X2_1 * a_8_0 - X2_0 * a_8_1;
-        const double w89 = -0.08333333333333333 * a_5_1;
-        const double sum_d2_0 = Nn2_0 + w77 * c2_1 + (X2_1 * w79 - X2_2 * w80) * c3_1
-            - (a_8_1 * w84 - a_8_2 * w85 + (w86 * w87 - w88 * w89));
-        const double w91 = X1_1 * Nn1_2 - X1_2 * Nn1_1;
-        const double w93 = X1_0 * Nn1_1 - X1_1 * Nn1_0;
-        const double w94 = X1_2 * Nn1_0 - X1_0 * Nn1_2;
+        const double a_5_0 = v2_0 - w11 * w14 + w9 * w55;
+        const double w68 = 0.5 * a_5_2 - 0.08333333333333333 * (X2_0 * a_5_1 - X2_1 * a_5_0);
+        const double a_8_2 = p_2_2 - w12 * w67 + w16 * (X2_0 * w65 - X2_1 * w66);
+        const double w69 = 0.5 * a_5_1 - 0.08333333333333333 * (X2_2 * a_5_0 - X2_0 * a_5_2);
+        const double a_8_0 = p_2_0 - w12 * w66 + w16 * (X2_1 * w67 - X2_2 * w65);
+        const double w70 = X2_0 * a_8_2 - X2_2 * a_8_0;
+        const double w71 = -0.08333333333333333 * a_5_2;
+        const double w72 = X2_1 * a_8_0 - X2_0 * a_8_1;
+        const double w73 = -0.08333333333333333 * a_5_1;
+        const double sum_d2_0 = Nn2_0 + w61 * c2_1 + (X2_1 * w63 - X2_2 * w64) * c3_1
+            - (a_8_1 * w68 - a_8_2 * w69 + (w70 * w71 - w72 * w73));
+        const double w75 = X1_1 * Nn1_2 - X1_2 * Nn1_1;
+        const double w77 = X1_0 * Nn1_1 - X1_1 * Nn1_0;
+        const double w78 = X1_2 * Nn1_0 - X1_0 * Nn1_2;
         const double p_0 = 1.01 * a_2_0;
-        const double w95 = X1_2 * p_0 - X1_0 * p_2;
-        const double w96 = X1_1 * p_2 - X1_2 * a_2_1;
-        const double w97 = X1_0 * a_2_1 - X1_1 * p_0;
-        const double a_4_1 = a_2_1 - w45 * w95 + w49 * (X1_2 * w96 - X1_0 * w97);
-        const double a_2 = v1_2 - w37 * w44 + w42 * w48;
-        const double a_1 = v1_1 - w44 * w46 + w42 * w50;
-        const double a_0 = v1_0 - w44 * w47 + w42 * w72;
-        const double w98 = 0.5 * a_2 - 0.08333333333333333 * (X1_0 * a_1 - X1_1 * a_0);
-        const double a_4_2 = p_2 - w45 * w97 + w49 * (X1_0 * w95 - X1_1 * w96);
-        const double w99 = 0.5 * a_1 - 0.08333333333333333 * (X1_2 * a_0 - X1_0 * a_2);
-        const double a_4_0 = p_0 - w45 * w96 + w49 * (X1_1 * w97 - X1_2 * w95);
-        const double w100 = X1_0 * a_4_2 - X1_2 * a_4_0;
-        const double w101 = -0.08333333333333333 * a_2;
-        const double w102 = X1_1 * a_4_0 - X1_0 * a_4_1;
-        const double w103 = -0.08333333333333333 * a_1;
-        const double sum_d1_0 = Nn1_0 + w91 * c2_2 + (X1_1 * w93 - X1_2 * w94) * c3_2
-            - (a_4_1 * w98 - a_4_2 * w99 + (w100 * w101 - w102 * w103));
-        const double w1_0 = L_4_0 + sum_d2_0 * w90 + sum_d1_0 * w104;
+        const double w79 = X1_2 * p_0 - X1_0 * p_2;
+        const double w80 = X1_1 * p_2 - X1_2 * a_2_1;
+        const double w81 = X1_0 * a_2_1 - X1_1 * p_0;
+        const double a_4_1 = a_2_1 - w37 * w79 + w41 * (X1_2 * w80 - X1_0 * w81);
+        const double a_2 = v1_2 - w29 * w36 + w34 * w40;
+        const double a_1 = v1_1 - w36 * w38 + w34 * w42;
+        const double a_0 = v1_0 - w36 * w39 + w34 * w56;
+        const double w82 = 0.5 * a_2 - 0.08333333333333333 * (X1_0 * a_1 - X1_1 * a_0);
+        const double a_4_2 = p_2 - w37 * w81 + w41 * (X1_0 * w79 - X1_1 * w80);
+        const double w83 = 0.5 * a_1 - 0.08333333333333333 * (X1_2 * a_0 - X1_0 * a_2);
+        const double a_4_0 = p_0 - w37 * w80 + w41 * (X1_1 * w81 - X1_2 * w79);
+        const double w84 = X1_0 * a_4_2 - X1_2 * a_4_0;
+        const double w85 = -0.08333333333333333 * a_2;
+        const double w86 = X1_1 * a_4_0 - X1_0 * a_4_1;
+        const double w87 = -0.08333333333333333 * a_1;
+        const double sum_d1_0 = Nn1_0 + w75 * c2_2 + (X1_1 * w77 - X1_2 * w78) * c3_2
+            - (a_4_1 * w82 - a_4_2 * w83 + (w84 * w85 - w86 * w87));
+        const double w1_0 = L_4_0 + sum_d2_0 * w74 + sum_d1_0 * w88;
         const double residual_0 = w1_0 - a_4_0;
-        const double L_4_1 = s_L_1 - w75 * c2_3 + (Y_0 * w76 - Y_2 * w73) * c3_3;
-        const double w105 = 0.5 * a_5_0 - 0.08333333333333333 * (X2_1 * a_5_2 - X2_2 * a_5_1);
-        const double w106 = -0.08333333333333333 * a_5_0;
-        const double w107 = X2_2 * a_8_1 - X2_1 * a_8_2;
-        const double sum_d2_1 = Nn2_1 + w80 * c2_1 + (X2_2 * w77 - X2_0 * w79) * c3_1
-            - (a_8_2 * w105 - w84 * a_8_0 + (w88 * w106 - w87 * w107));
-        const double w108 = 0.5 * a_0 - 0.08333333333333333 * (X1_1 * a_2 - X1_2 * a_1);
-        const double w109 = -0.08333333333333333 * a_0;
-        const double w110 = X1_2 * a_4_1 - X1_1 * a_4_2;
-        const double sum_d1_1 = Nn1_1 + w94 * c2_2 + (X1_2 * w91 - X1_0 * w93) * c3_2
-            - (a_4_2 * w108 - w98 * a_4_0 + (w102 * w109 - w101 * w110));
-        const double w1_1 = L_4_1 + w90 * sum_d2_1 + w104 * sum_d1_1;
+        const double L_4_1 = s_L_1 - w59 * c2_3 + (Y_0 * w60 - Y_2 * w57) * c3_3;
+        const double w89 = 0.5 * a_5_0 - 0.08333333333333333 * (X2_1 * a_5_2 - X2_2 * a_5_1);
+        const double w90 = -0.08333333333333333 * a_5_0;
+        const double w91 = X2_2 * a_8_1 - X2_1 * a_8_2;
+        const double sum_d2_1 = Nn2_1 + w64 * c2_1 + (X2_2 * w61 - X2_0 * w63) * c3_1
+            - (a_8_2 * w89 - w68 * a_8_0 + (w72 * w90 - w71 * w91));
+        const double w92 = 0.5 * a_0 - 0.08333333333333333 * (X1_1 * a_2 - X1_2 * a_1);
+        const double w93 = -0.08333333333333333 * a_0;
+        const double w94 = X1_2 * a_4_1 - X1_1 * a_4_2;
+        const double sum_d1_1 = Nn1_1 + w78 * c2_2 + (X1_2 * w75 - X1_0 * w77) * c3_2
+            - (a_4_2 * w92 - w82 * a_4_0 + (w86 * w93 - w85 * w94));
+        const double w1_1 = L_4_1 + w74 * sum_d2_1 + w88 * sum_d1_1;
         const double residual_1 = w1_1 - a_4_1;
-        const double L_4_2 = s_L_2 - w76 * c2_3 + (Y_1 * w73 - Y_0 * w75) * c3_3;
-        const double sum_d2_2 = Nn2_2 + w79 * c2_1 + (X2_0 * w80 - X2_1 * w77) * c3_1
-            - (w85 * a_8_0 - a_8_1 * w105 + (w89 * w107 - w86 * w106));
-        const double sum_d1_2 = Nn1_2 + w93 * c2_2 + (X1_0 * w94 - X1_1 * w91) * c3_2
-            - (w99 * a_4_0 - a_4_1 * w108 + (w103 * w110 - w100 * w109));
-        const double w1_2 = L_4_2 + w90 * sum_d2_2 + w104 * sum_d1_2;
+        const double L_4_2 = s_L_2 - w60 * c2_3 + (Y_1 * w57 - Y_0 * w59) * c3_3;
+        const double sum_d2_2 = Nn2_2 + w63 * c2_1 + (X2_0 * w64 - X2_1 * w61) * c3_1
+            - (w69 * a_8_0 - a_8_1 * w89 + (w73 * w91 - w70 * w90));
+        const double sum_d1_2 = Nn1_2 + w77 * c2_2 + (X1_0 * w78 - X1_1 * w75) * c3_2
+            - (w83 * a_4_0 - a_4_1 * w92 + (w87 * w94 - w84 * w93));
+        const double w1_2 = L_4_2 + w74 * sum_d2_2 + w88 * sum_d1_2;
         const double residual_2 = w1_2 - a_4_2;
-        const double w2_0 = L_4_0 + sum_d2_0 * w111 + sum_d1_0 * w112;
+        const double w2_0 = L_4_0 + sum_d2_0 * w95 + sum_d1_0 * w96;
         const double residual_2_0 = w2_0 - a_8_0;
-        const double w2_1 = L_4_1 + sum_d2_1 * w111 + sum_d1_1 * w112;
+        const double w2_1 = L_4_1 + sum_d2_1 * w95 + sum_d1_1 * w96;
         const double residual_2_1 = w2_1 - a_8_1;
-        const double w2_2 = L_4_2 + sum_d2_2 * w111 + sum_d1_2 * w112;
+        const double w2_2 = L_4_2 + sum_d2_2 * w95 + sum_d1_2 * w96;
         const double residual_2_2 = w2_2 - a_8_2;
         s_L_0_seen = s_L_0;
         s_L_1_seen = s_L_1;
         s_L_2_seen = s_L_2;
-        if (!isfinite(residual_0 + residual_1 + residual_2 + residual_2_0 + residual_2_1
-            + residual_2_2)) {
-            count_sweeps(statistics, 0, sweep, 1);
-            return DIPOLE_VRKMK2_GAUSS2_NOT_FINITE;
-        }
         if (make_1) {
-            const double w113 = 0.0001933756729740644 * v2_2;
-            const double w114 = 0.25 * g02 * mu0 + 0.25 * g12 * mu1 + 0.25 * g22 * mu2;
-            const double w115 = -0.01933756729740644 * v2_1;
-            const double w116 = -0.25 * g01 * mu0 - 0.25 * g11 * mu1 - 0.25 * g21 * mu2;
-            const double w117 = -0.25 * g02 * mu0 - 0.25 * g12 * mu1 - 0.25 * g22 * mu2;
-            const double w118 = 0.019144191624432375 * v2_0;
-            const double w119 = 0.25 * g00 * mu0 + 0.25 * g10 * mu1 + 0.25 * g20 * mu2;
-            const double w120 = 0.25 * g01 * mu0 + 0.25 * g11 * mu1 + 0.25 * g21 * mu2;
-            const double w121 = -0.25 * g00 * mu0 - 0.25 * g10 * mu1 - 0.25 * g20 * mu2;
-            const double w122 = -0.0026933756729740645 * v1_2;
-            const double w123 = 0.26933756729740643 * v1_1;
-            const double w124 = -0.26664419162443237 * v1_0;
+            const double w97 = 0.0001933756729740644 * v2_2;
+            const double w98 = 0.25 * g02 * mu0 + 0.25 * g12 * mu1 + 0.25 * g22 * mu2;
+            const double w99 = -0.01933756729740644 * v2_1;
+            const double w100 = -0.25 * g01 * mu0 - 0.25 * g11 * mu1 - 0.25 * g21 * mu2;
+            const double w101 = -0.25 * g02 * mu0 - 0.25 * g12 * mu1 - 0.25 * g22 * mu2;
+            const double w102 = 0.019144191624432375 * v2_0;
+            const double w103 = 0.25 * g00 * mu0 + 0.25 * g10 * mu1 + 0.25 * g20 * mu2;
+            const double w104 = 0.25 * g01 * mu0 + 0.25 * g11 * mu1 + 0.25 * g21 * mu2;
+            const double w105 = -0.25 * g00 * mu0 - 0.25 * g10 * mu1 - 0.25 * g20 * mu2;
+            const double w106 = -0.0026933756729740645 * v1_2;
+            const double w107 = 0.26933756729740643 * v1_1;
+            const double w108 = -0.26664419162443237 * v1_0;
             memory->inverse_1[0] = 1.01;
-            memory->inverse_1[1] = -h * (0.495 * v1_2 + w114 + w113);
-            memory->inverse_1[2] = -h * (0.495 * v1_1 + w116 + w115);
+            memory->inverse_1[1] = -h * (0.495 * v1_2 + w98 + w97);
+            memory->inverse_1[2] = -h * (0.495 * v1_1 + w100 + w99);
             memory->inverse_1[3] = 0.0;
-            memory->inverse_1[4] = -h
-                * (w114 - 0.01933756729740644 * v1_2 + 0.22835580837556763 * v2_2);
+            memory->inverse_1[4] = -h * (w98 - 0.01933756729740644 * v1_2 + 0.22835580837556763 * v2_2);
             memory->inverse_1[5] = -h
-                * (0.0001933756729740644 * v1_1 + w116 + 0.22835580837556763 * v2_1);
-            memory->inverse_1[6] = -h * (w117 - 0.5 * v1_2 + w113);
+                * (0.0001933756729740644 * v1_1 + w100 + 0.22835580837556763 * v2_1);
+            memory->inverse_1[6] = -h * (w101 - 0.5 * v1_2 + w97);
             memory->inverse_1[7] = 1.0;
-            memory->inverse_1[8] = -h * (w119 - 0.5 * v1_0 + w118);
+            memory->inverse_1[8] = -h * (w103 - 0.5 * v1_0 + w102);
             memory->inverse_1[9] = -h
-                * (0.019144191624432375 * v1_2 + w117 - 0.23066243270259357 * v2_2);
+                * (0.019144191624432375 * v1_2 + w101 - 0.23066243270259357 * v2_2);
             memory->inverse_1[10] = 0.0;
             memory->inverse_1[11] = -h
-                * (0.0001933756729740644 * v1_0 + w119 - 0.23066243270259357 * v2_0);
-            memory->inverse_1[12] = -h * (0.005 * v1_1 + w120 + w115);
-            memory->inverse_1[13] = -h * (0.005 * v1_0 + w121 + w118);
+                * (0.0001933756729740644 * v1_0 + w103 - 0.23066243270259357 * v2_0);
+            memory->inverse_1[12] = -h * (0.005 * v1_1 + w104 + w99);
+            memory->inverse_1[13] = -h * (0.005 * v1_0 + w105 + w102);
             memory->inverse_1[14] = 0.01;
             memory->inverse_1[15] = -h
-                * (0.019144191624432375 * v1_1 + w120 + 0.0023066243270259356 * v2_1);
+                * (0.019144191624432375 * v1_1 + w104 + 0.0023066243270259356 * v2_1);
             memory->inverse_1[16] = -h
-                * (w121 - 0.01933756729740644 * v1_0 + 0.0023066243270259356 * v2_0);
+                * (w105 - 0.01933756729740644 * v1_0 + 0.0023066243270259356 * v2_0);
             memory->inverse_1[17] = 0.0;
             memory->inverse_1[18] = 0.0;
-            memory->inverse_1[19] = -h
-                * (0.5141441916244324 * v1_2 + w114 + 0.26933756729740643 * v2_2);
+            memory->inverse_1[19] = -h * (0.5141441916244324 * v1_2 + w98 + 0.26933756729740643 * v2_2);
             memory->inverse_1[20] = -h
-                * (0.5141441916244324 * v1_1 + w116 - 0.0026933756729740645 * v2_1);
+                * (0.5141441916244324 * v1_1 + w100 - 0.0026933756729740645 * v2_1);
             memory->inverse_1[21] = 1.01;
-            memory->inverse_1[22] = -h * (w114 + w122 + 0.495 * v2_2);
-            memory->inverse_1[23] = -h * (w116 + w123 + 0.495 * v2_1);
+            memory->inverse_1[22] = -h * (w98 + w106 + 0.495 * v2_2);
+            memory->inverse_1[23] = -h * (w100 + w107 + 0.495 * v2_1);
             memory->inverse_1[24] = -h
-                * (w117 - 0.5193375672974064 * v1_2 - 0.26664419162443237 * v2_2);
+                * (w101 - 0.5193375672974064 * v1_2 - 0.26664419162443237 * v2_2);
             memory->inverse_1[25] = 0.0;
             memory->inverse_1[26] = -h
-                * (w119 - 0.5193375672974064 * v1_0 - 0.0026933756729740645 * v2_0);
-            memory->inverse_1[27] = -h * (w117 + w122 - 0.5 * v2_2);
+                * (w103 - 0.5193375672974064 * v1_0 - 0.0026933756729740645 * v2_0);
+            memory->inverse_1[27] = -h * (w101 + w106 - 0.5 * v2_2);
             memory->inverse_1[28] = 1.0;
-            memory->inverse_1[29] = -h * (w119 + w124 - 0.5 * v2_0);
+            memory->inverse_1[29] = -h * (w103 + w108 - 0.5 * v2_0);
             memory->inverse_1[30] = -h
-                * (0.005193375672974065 * v1_1 + w120 - 0.26664419162443237 * v2_1);
+                * (0.005193375672974065 * v1_1 + w104 - 0.26664419162443237 * v2_1);
             memory->inverse_1[31] = -h
-                * (0.005193375672974065 * v1_0 + w121 + 0.26933756729740643 * v2_0);
+                * (0.005193375672974065 * v1_0 + w105 + 0.26933756729740643 * v2_0);
             memory->inverse_1[32] = 0.0;
-            memory->inverse_1[33] = -h * (w120 + w123 + 0.005 * v2_1);
-            memory->inverse_1[34] = -h * (w121 + w124 + 0.005 * v2_0);
+            memory->inverse_1[33] = -h * (w104 + w107 + 0.005 * v2_1);
+            memory->inverse_1[34] = -h * (w105 + w108 + 0.005 * v2_0);
             memory->inverse_1[35] = 0.01;
             size_t order_1[6];
             memory->made_1 = invert(6, memory->inverse_1, order_1);
@@ -649,46 +622,48 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             }
             count_matrix(statistics);
         }
-        d_v1_0 = memory->inverse_1[0] * residual_0 + memory->inverse_1[1] * residual_1
-            + memory->inverse_1[2] * residual_2 + memory->inverse_1[3] * residual_2_0
-            + memory->inverse_1[4] * residual_2_1 + memory->inverse_1[5] * residual_2_2;
-        d_v1_1 = memory->inverse_1[6] * residual_0 + memory->inverse_1[7] * residual_1
-            + memory->inverse_1[8] * residual_2 + memory->inverse_1[9] * residual_2_0
-            + memory->inverse_1[10] * residual_2_1 + memory->inverse_1[11] * residual_2_2;
-        d_v1_2 = memory->inverse_1[12] * residual_0 + memory->inverse_1[13] * residual_1
-            + memory->inverse_1[14] * residual_2 + memory->inverse_1[15] * residual_2_0
-            + memory->inverse_1[16] * residual_2_1 + memory->inverse_1[17] * residual_2_2;
-        d_v2_0 = memory->inverse_1[18] * residual_0 + memory->inverse_1[19] * residual_1
-            + memory->inverse_1[20] * residual_2 + memory->inverse_1[21] * residual_2_0
-            + memory->inverse_1[22] * residual_2_1 + memory->inverse_1[23] * residual_2_2;
-        d_v2_1 = memory->inverse_1[24] * residual_0 + memory->inverse_1[25] * residual_1
-            + memory->inverse_1[26] * residual_2 + memory->inverse_1[27] * residual_2_0
-            + memory->inverse_1[28] * residual_2_1 + memory->inverse_1[29] * residual_2_2;
-        d_v2_2 = memory->inverse_1[30] * residual_0 + memory->inverse_1[31] * residual_1
-            + memory->inverse_1[32] * residual_2 + memory->inverse_1[33] * residual_2_0
-            + memory->inverse_1[34] * residual_2_1 + memory->inverse_1[35] * residual_2_2;
-        const double change = greater(greater(fabs(d_v1_0), greater(fabs(d_v1_1), fabs(d_v1_2))),
-            greater(fabs(d_v2_0), greater(fabs(d_v2_1), fabs(d_v2_2))));
-        const double scale = greater(greater(1.0, greater(fabs(v1_0), fabs(v1_1))),
-            greater(greater(fabs(v1_2), fabs(v2_0)), greater(fabs(v2_1), fabs(v2_2))));
-        const int still = previous_1 > 0.0 && change >= previous_1;
-        if (sweep == 1) {
-            memory->first = greater(memory->first, change);
+        d_v1_0 = (memory->inverse_1[0] * residual_0 + memory->inverse_1[1] * residual_1)
+            + (memory->inverse_1[2] * residual_2 + memory->inverse_1[3] * residual_2_0)
+            + (memory->inverse_1[4] * residual_2_1 + memory->inverse_1[5] * residual_2_2);
+        d_v1_1 = (memory->inverse_1[6] * residual_0 + memory->inverse_1[7] * residual_1)
+            + (memory->inverse_1[8] * residual_2 + memory->inverse_1[9] * residual_2_0)
+            + (memory->inverse_1[10] * residual_2_1 + memory->inverse_1[11] * residual_2_2);
+        d_v1_2 = (memory->inverse_1[12] * residual_0 + memory->inverse_1[13] * residual_1)
+            + (memory->inverse_1[14] * residual_2 + memory->inverse_1[15] * residual_2_0)
+            + (memory->inverse_1[16] * residual_2_1 + memory->inverse_1[17] * residual_2_2);
+        d_v2_0 = (memory->inverse_1[18] * residual_0 + memory->inverse_1[19] * residual_1)
+            + (memory->inverse_1[20] * residual_2 + memory->inverse_1[21] * residual_2_0)
+            + (memory->inverse_1[22] * residual_2_1 + memory->inverse_1[23] * residual_2_2);
+        d_v2_1 = (memory->inverse_1[24] * residual_0 + memory->inverse_1[25] * residual_1)
+            + (memory->inverse_1[26] * residual_2 + memory->inverse_1[27] * residual_2_0)
+            + (memory->inverse_1[28] * residual_2_1 + memory->inverse_1[29] * residual_2_2);
+        d_v2_2 = (memory->inverse_1[30] * residual_0 + memory->inverse_1[31] * residual_1)
+            + (memory->inverse_1[32] * residual_2 + memory->inverse_1[33] * residual_2_0)
+            + (memory->inverse_1[34] * residual_2_1 + memory->inverse_1[35] * residual_2_2);
+        const double change = (fabs(d_v1_0) + fabs(d_v1_1)) + (fabs(d_v1_2) + fabs(d_v2_0))
+            + (fabs(d_v2_1) + fabs(d_v2_2));
+        if (!isfinite(change)) {
+            count_sweeps(statistics, 0, sweep, 1);
+            return DIPOLE_VRKMK2_GAUSS2_NOT_FINITE;
         }
-        if (previous_1 > 0.0) {
-            rate_1 = greater(change / previous_1, 0.000244140625);
-        }
-        const int close = change <= 5.684341886080802e-14 * scale
-            && change * rate_1 <= 1.1102230246251565e-16 * scale;
+        const double scale = (1.0 + fabs(v1_0)) + (fabs(v1_1) + fabs(v1_2))
+            + (fabs(v2_0) + fabs(v2_1)) + fabs(v2_2);
         v1_0 += d_v1_0;
         v1_1 += d_v1_1;
         v1_2 += d_v1_2;
         v2_0 += d_v2_0;
         v2_1 += d_v2_1;
         v2_2 += d_v2_2;
-        if (close || (still && change <= 5.684341886080802e-14 * scale)) {
+        if (previous_1 > 0.0) {
+            rate_1 = change / previous_1;
+        } else {
+            memory->first += change;
+        }
+        const int contracts = rate_1 < 0.5;
+        if (contracts ? change * (rate_1 + 0.0009765625) <= 2.220446049250313e-16 * scale
+                      : previous_1 > 0.0 && change <= 5.684341886080802e-14 * scale) {
+            memory->rate_1 = rate_1;
             count_sweeps(statistics, 0, sweep, 0);
-            memory->rate_1 = sweep > 1 ? rate_1 : 2.0 * rate_1;
             break;
         }
         if (sweep == 100) {
@@ -701,41 +676,41 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double Y_1_ = (v1_1 + v2_1) * w1;
     const double Y_0_ = (v1_0 + v2_0) * w1;
     const double Y_2_ = (v1_2 + v2_2) * w1;
-    const double w125 = Y_0_ * Y_0_ + Y_1_ * Y_1_ + Y_2_ * Y_2_;
+    const double w109 = Y_0_ * Y_0_ + Y_1_ * Y_1_ + Y_2_ * Y_2_;
     double c1_3, c2_4;
-    stumpff_12(w125, &c1_3, &c2_4);
-    const double w127 = Y_1_ * c2_4;
-    const double w128 = Y_1_ * w127;
-    const double w129 = Y_2_ * c2_4 * Y_2_;
-    const double g_0 = 1.0 - (w128 + w129);
-    const double w131 = Y_2_ * c1_3;
-    const double w132 = Y_0_ * c2_4;
-    const double w133 = Y_1_ * w132;
-    const double g_3 = w131 + w133;
-    const double w134 = Y_2_ * w132;
-    const double w135 = Y_1_ * c1_3;
-    const double g_6 = w134 - w135;
-    const double g_1 = w133 - w131;
-    const double w136 = Y_0_ * w132;
-    const double g_4 = 1.0 - (w129 + w136);
-    const double w137 = Y_0_ * c1_3;
-    const double w138 = Y_2_ * w127;
-    const double g_7 = w137 + w138;
-    const double g_2 = w134 + w135;
-    const double g_5 = w138 - w137;
-    const double g_8 = 1.0 - (w128 + w136);
-    const double w139 = 0.495 * h;
-    const double w140 = s_L_0_seen + v1_2 * w139 * d_v1_1 + v1_1 * w139 * d_v1_2
-        + v2_2 * w139 * d_v2_1 + v2_1 * w139 * d_v2_2;
-    const double w141 = -0.5 * h;
-    const double w142 = s_L_1_seen + v1_2 * w141 * d_v1_0 + v1_0 * w141 * d_v1_2
-        + v2_2 * w141 * d_v2_0 + v2_0 * w141 * d_v2_2;
-    const double w143 = 0.005 * h;
-    const double w144 = s_L_2_seen + v1_1 * w143 * d_v1_0 + v1_0 * w143 * d_v1_1
-        + v2_1 * w143 * d_v2_0 + v2_0 * w143 * d_v2_1;
-    const double change_0 = g_0 * w140 + g_1 * w142 + g_2 * w144 - m_0;
-    const double change_1 = g_3 * w140 + g_4 * w142 + g_5 * w144 - m_1;
-    const double change_2 = g_6 * w140 + g_7 * w142 + g_8 * w144 - m_2;
+    stumpff_12(w109, &c1_3, &c2_4);
+    const double w111 = Y_1_ * c2_4;
+    const double w112 = Y_1_ * w111;
+    const double w113 = Y_2_ * c2_4 * Y_2_;
+    const double g_0 = 1.0 - (w112 + w113);
+    const double w115 = Y_2_ * c1_3;
+    const double w116 = Y_0_ * c2_4;
+    const double w117 = Y_1_ * w116;
+    const double g_3 = w115 + w117;
+    const double w118 = Y_2_ * w116;
+    const double w119 = Y_1_ * c1_3;
+    const double g_6 = w118 - w119;
+    const double g_1 = w117 - w115;
+    const double w120 = Y_0_ * w116;
+    const double g_4 = 1.0 - (w113 + w120);
+    const double w121 = Y_0_ * c1_3;
+    const double w122 = Y_2_ * w111;
+    const double g_7 = w121 + w122;
+    const double g_2 = w118 + w119;
+    const double g_5 = w122 - w121;
+    const double g_8 = 1.0 - (w112 + w120);
+    const double w123 = 0.495 * h;
+    const double w124 = s_L_0_seen + v1_2 * w123 * d_v1_1 + v1_1 * w123 * d_v1_2
+        + v2_2 * w123 * d_v2_1 + v2_1 * w123 * d_v2_2;
+    const double w125 = -0.5 * h;
+    const double w126 = s_L_1_seen + v1_2 * w125 * d_v1_0 + v1_0 * w125 * d_v1_2
+        + v2_2 * w125 * d_v2_0 + v2_0 * w125 * d_v2_2;
+    const double w127 = 0.005 * h;
+    const double w128 = s_L_2_seen + v1_1 * w127 * d_v1_0 + v1_0 * w127 * d_v1_1
+        + v2_1 * w127 * d_v2_0 + v2_0 * w127 * d_v2_1;
+    const double change_0 = g_0 * w124 + g_1 * w126 + g_2 * w128 - m_0;
+    const double change_1 = g_3 * w124 + g_4 * w126 + g_5 * w128 - m_1;
+    const double change_2 = g_6 * w124 + g_7 * w126 + g_8 * w128 - m_2;
     const double new_g00 = g00 * g_0 + g01 * g_3 + g02 * g_6;
     const double new_g01 = g00 * g_1 + g01 * g_4 + g02 * g_7;
     const double new_g02 = g00 * g_2 + g01 * g_5 + g02 * g_8;
@@ -755,7 +730,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     }
     const double solution[6] = {v1_0, v1_1, v1_2, v2_0, v2_1, v2_2};
     remember(memory, solution);
-    memory->made_1 = memory->made_1 % 2 > 0 ? memory->made_1 + 1 : 0;
+    memory->made_1 = memory->made_1 % 3 > 0 ? memory->made_1 + 1 : 0;
     state[0] = new_g00;
     state[1] = new_g01;
     state[2] = new_g02;

@@ -19,7 +19,7 @@
  *             21 add, 42 mul a start, in steps that follow no other
  *             617 add, 828 mul, 1 div, 2 quotient, 2 stumpff_23 a matrix of the equations of xi
  *             148 add, 240 mul, 3 quotient, 2 stumpff_01 a sweep of the equations of xi
- * stack:      at most 5696 bytes, without what the mathematical library takes
+ * stack:      at most 5760 bytes, without what the mathematical library takes
  * made by:    orderconds emit free_rigid_body_s3 --method discrete_gradient:midpoint --target c -o
  *             .
  * version:    orderconds 0.1.0
@@ -233,7 +233,7 @@ struct memory {
     double first; /* by how much the guess was off */
     size_t degree;
     double guess[3];
-    double differences[3][14];
+    double differences[3][16];
     double rate_1;
     int made_1;
     double inverse_1[9];
@@ -252,7 +252,7 @@ static inline double size_of(const struct memory *memory, size_t k)
 /* Take up a solution and guess the next: the polynomial through the last ones, continued by a step. */
 static inline void remember(struct memory *memory, const double solution[static 3])
 {
-    if (memory->known > 1) {
+    if (memory->known > 2) { /* the guess was no mere copy */
         double moved = 0.0;
         for (size_t i = 0; i < 3; i++) {
             moved += fabs(solution[i] - memory->differences[i][0]);
@@ -262,7 +262,7 @@ static inline void remember(struct memory *memory, const double solution[static 
         }
     }
     memory->first = 0.0;
-    const size_t last = memory->known < 14 ? memory->known : 13, k = memory->degree;
+    const size_t last = memory->known < 16 ? memory->known : 15, k = memory->degree;
     for (size_t i = 0; i < 3; i++) {
         double *const differences = memory->differences[i];
         double d = solution[i], sum = 0.0;
@@ -869,12 +869,12 @@ static inline int advance(double state[static 4], double h, struct memory *memor
             memory->made_1 = 1;
             count_matrix(statistics);
         }
-        const double change_xi_0 = memory->inverse_1[0] * residual_xi_0
-            + memory->inverse_1[1] * residual_xi_1 + memory->inverse_1[2] * residual_xi_2;
-        const double change_xi_1 = memory->inverse_1[3] * residual_xi_0
-            + memory->inverse_1[4] * residual_xi_1 + memory->inverse_1[5] * residual_xi_2;
-        const double change_xi_2 = memory->inverse_1[6] * residual_xi_0
-            + memory->inverse_1[7] * residual_xi_1 + memory->inverse_1[8] * residual_xi_2;
+        const double change_xi_0 = (memory->inverse_1[0] * residual_xi_0 + memory->inverse_1[1] * residual_xi_1)
+            + memory->inverse_1[2] * residual_xi_2;
+        const double change_xi_1 = (memory->inverse_1[3] * residual_xi_0 + memory->inverse_1[4] * residual_xi_1)
+            + memory->inverse_1[5] * residual_xi_2;
+        const double change_xi_2 = (memory->inverse_1[6] * residual_xi_0 + memory->inverse_1[7] * residual_xi_1)
+            + memory->inverse_1[8] * residual_xi_2;
         const double change = greater(fabs(change_xi_0), greater(fabs(change_xi_1),
             fabs(change_xi_2)));
         const double scale = greater(greater(1.0, fabs(xi_0)), greater(fabs(xi_1), fabs(xi_2)));

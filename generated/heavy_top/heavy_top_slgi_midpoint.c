@@ -17,7 +17,7 @@
  *             105 add, 219 mul, 3 slope2, 2 slope3, 1 stumpff_3 a matrix of the equations of xi1,
  *             n1
  *             75 add, 114 mul, 1 stumpff_12, 2 stumpff_23 a sweep of the equations of xi1, n1
- * stack:      at most 3904 bytes, without what the mathematical library takes
+ * stack:      at most 4032 bytes, without what the mathematical library takes
  * made by:    orderconds emit heavy_top --method slgi:midpoint --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -316,7 +316,7 @@ struct memory {
     double first; /* by how much the guess was off */
     size_t degree;
     double guess[6];
-    double differences[6][14];
+    double differences[6][16];
     double rate_1;
     int made_1;
     double inverse_1[36];
@@ -335,7 +335,7 @@ static inline double size_of(const struct memory *memory, size_t k)
 /* Take up a solution and guess the next: the polynomial through the last ones, continued by a step. */
 static inline void remember(struct memory *memory, const double solution[static 6])
 {
-    if (memory->known > 1) {
+    if (memory->known > 2) { /* the guess was no mere copy */
         double moved = 0.0;
         for (size_t i = 0; i < 6; i++) {
             moved += fabs(solution[i] - memory->differences[i][0]);
@@ -345,7 +345,7 @@ static inline void remember(struct memory *memory, const double solution[static 
         }
     }
     memory->first = 0.0;
-    const size_t last = memory->known < 14 ? memory->known : 13, k = memory->degree;
+    const size_t last = memory->known < 16 ? memory->known : 15, k = memory->degree;
     for (size_t i = 0; i < 6; i++) {
         double *const differences = memory->differences[i];
         double d = solution[i], sum = 0.0;
@@ -598,30 +598,24 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             }
             count_matrix(statistics);
         }
-        const double change_xi1_0 = memory->inverse_1[0] * residual_xi1_0
-            + memory->inverse_1[1] * residual_xi1_1 + memory->inverse_1[2] * residual_xi1_2
-            + memory->inverse_1[3] * residual_n1_0 + memory->inverse_1[4] * residual_n1_1
-            + memory->inverse_1[5] * residual_n1_2;
-        const double change_xi1_1 = memory->inverse_1[6] * residual_xi1_0
-            + memory->inverse_1[7] * residual_xi1_1 + memory->inverse_1[8] * residual_xi1_2
-            + memory->inverse_1[9] * residual_n1_0 + memory->inverse_1[10] * residual_n1_1
-            + memory->inverse_1[11] * residual_n1_2;
-        const double change_xi1_2 = memory->inverse_1[12] * residual_xi1_0
-            + memory->inverse_1[13] * residual_xi1_1 + memory->inverse_1[14] * residual_xi1_2
-            + memory->inverse_1[15] * residual_n1_0 + memory->inverse_1[16] * residual_n1_1
-            + memory->inverse_1[17] * residual_n1_2;
-        const double change_n1_0 = memory->inverse_1[18] * residual_xi1_0
-            + memory->inverse_1[19] * residual_xi1_1 + memory->inverse_1[20] * residual_xi1_2
-            + memory->inverse_1[21] * residual_n1_0 + memory->inverse_1[22] * residual_n1_1
-            + memory->inverse_1[23] * residual_n1_2;
-        const double change_n1_1 = memory->inverse_1[24] * residual_xi1_0
-            + memory->inverse_1[25] * residual_xi1_1 + memory->inverse_1[26] * residual_xi1_2
-            + memory->inverse_1[27] * residual_n1_0 + memory->inverse_1[28] * residual_n1_1
-            + memory->inverse_1[29] * residual_n1_2;
-        const double change_n1_2 = memory->inverse_1[30] * residual_xi1_0
-            + memory->inverse_1[31] * residual_xi1_1 + memory->inverse_1[32] * residual_xi1_2
-            + memory->inverse_1[33] * residual_n1_0 + memory->inverse_1[34] * residual_n1_1
-            + memory->inverse_1[35] * residual_n1_2;
+        const double change_xi1_0 = (memory->inverse_1[0] * residual_xi1_0 + memory->inverse_1[1] * residual_xi1_1)
+            + (memory->inverse_1[2] * residual_xi1_2 + memory->inverse_1[3] * residual_n1_0)
+            + (memory->inverse_1[4] * residual_n1_1 + memory->inverse_1[5] * residual_n1_2);
+        const double change_xi1_1 = (memory->inverse_1[6] * residual_xi1_0 + memory->inverse_1[7] * residual_xi1_1)
+            + (memory->inverse_1[8] * residual_xi1_2 + memory->inverse_1[9] * residual_n1_0)
+            + (memory->inverse_1[10] * residual_n1_1 + memory->inverse_1[11] * residual_n1_2);
+        const double change_xi1_2 = (memory->inverse_1[12] * residual_xi1_0 + memory->inverse_1[13] * residual_xi1_1)
+            + (memory->inverse_1[14] * residual_xi1_2 + memory->inverse_1[15] * residual_n1_0)
+            + (memory->inverse_1[16] * residual_n1_1 + memory->inverse_1[17] * residual_n1_2);
+        const double change_n1_0 = (memory->inverse_1[18] * residual_xi1_0 + memory->inverse_1[19] * residual_xi1_1)
+            + (memory->inverse_1[20] * residual_xi1_2 + memory->inverse_1[21] * residual_n1_0)
+            + (memory->inverse_1[22] * residual_n1_1 + memory->inverse_1[23] * residual_n1_2);
+        const double change_n1_1 = (memory->inverse_1[24] * residual_xi1_0 + memory->inverse_1[25] * residual_xi1_1)
+            + (memory->inverse_1[26] * residual_xi1_2 + memory->inverse_1[27] * residual_n1_0)
+            + (memory->inverse_1[28] * residual_n1_1 + memory->inverse_1[29] * residual_n1_2);
+        const double change_n1_2 = (memory->inverse_1[30] * residual_xi1_0 + memory->inverse_1[31] * residual_xi1_1)
+            + (memory->inverse_1[32] * residual_xi1_2 + memory->inverse_1[33] * residual_n1_0)
+            + (memory->inverse_1[34] * residual_n1_1 + memory->inverse_1[35] * residual_n1_2);
         const double change = greater(greater(fabs(change_xi1_0), greater(fabs(change_xi1_1),
             fabs(change_xi1_2))), greater(fabs(change_n1_0), greater(fabs(change_n1_1),
             fabs(change_n1_2))));

@@ -7,10 +7,14 @@ from typing import TYPE_CHECKING
 
 from codegen.ir.kernel import CHORD, NEWTON, SLOWEST, Newton
 from codegen.printers.arrange import METHODS, Beginning, Iteration
-from codegen.printers.c.text import broken, comment, fill, greatest
+from codegen.printers.c.text import broken, comment, fill, greatest, paired
 
 if TYPE_CHECKING:
     from codegen.printers.c.statements import Statements
+
+
+LEAST_RATE = 2.0**-10
+"""No rate is trusted to be smaller: what is corrected after the last sweep has errors of that kind too."""
 
 
 def beginning(s: Statements, statement: Beginning) -> Iterator[str]:
@@ -82,7 +86,7 @@ def _sweep(s: Statements, statement: Iteration, now: list[str], previous: str) -
     residuals = new if compared else [s.names.fresh(f"residual_{u}") for u in loop.unknowns]
     for residual, x, y in zip(residuals, new, now, strict=True):
         yield from [] if compared else [f"const {s.real} {residual} = {x} - {y};"]
-    yield from _not_finite(s, statement, residuals)
+    yield from [] if compared else _not_finite(s, statement, residuals)
     if loop.solver == NEWTON:
         yield f"if ({_fresh(statement.number)}) {{"
         yield from (f"    {line}" for line in _matrix(s, statement))
@@ -92,12 +96,13 @@ def _sweep(s: Statements, statement: Iteration, now: list[str], previous: str) -
     for row, change in enumerate(changes):
         terms = [f"{_cell(statement, row * n + column)} * {r}" for column, r in enumerate(residuals)]
         kind = "" if compared else f"const {s.real} "
-        yield from fill(f"{kind}{change} =", (terms[0], *(f"+ {t}" for t in terms[1:])), ";")
+        yield from fill(f"{kind}{change} =", paired(terms), ";")
     sizes = [f"{absolute}({change})" for change in changes]
-    yield from _decision(s, statement, [], sizes, now, previous, tuple(zip(now, changes, strict=True)))
     if compared:
-        yield f"{_fresh(statement.number)} = 0;"
-    elif loop.solver == NEWTON:
+        yield from _end(s, statement, changes, now, previous)
+        return
+    yield from _decision(s, statement, [], sizes, now, previous, tuple(zip(now, changes, strict=True)))
+    if loop.solver == NEWTON:
         limit = f"{s.literal(Newton.CONTRACTION)} * {previous}"
         yield f"{_fresh(statement.number)} = {limit} > {s.literal(0.0)} && change > {limit};"
     yield f"{previous} = change;"
@@ -143,6 +148,42 @@ def _not_finite(s: Statements, statement: Iteration, terms: list[str]) -> Iterat
     yield f"    count_sweeps(statistics, {statement.number - 1}, sweep, 1);"
     yield f"    return {s.prefix.upper()}NOT_FINITE;"
     yield "}"
+
+
+def _end(
+    s: Statements, statement: Iteration, changes: list[str], now: list[str], previous: str
+) -> Iterator[str]:
+    """Yield the lines that correct the unknowns and end the comparison of momenta.
+
+    It ends where the next change would be below rounding, by the rate of the last two: that of the step before
+    in the first sweep. What stands still at rounding ends it, too.
+    """
+    number, absolute, limit = statement.number, s.style.function("fabs"), statement.loop.limit
+    rate, zero = f"rate_{number}", s.literal(0.0)
+    twice, still = (s.literal(s.precision.scaled(x)) for x in (2.0**-52, statement.loop.tolerance))
+    yield from fill(f"const {s.real} change =", paired([f"{absolute}({x})" for x in changes]), ";")
+    yield from _not_finite(s, statement, ["change"])
+    sizes = [s.literal(1.0), *(f"{absolute}({x})" for x in now)]
+    yield from fill(f"const {s.real} scale =", paired(sizes), ";")
+    yield from (f"{x} += {y};" for x, y in zip(now, changes, strict=True))
+    yield f"if ({previous} > {zero}) {{"
+    yield f"    {rate} = change / {previous};"
+    yield "} else {"
+    yield "    memory->first += change;"
+    yield "}"
+    yield f"const int contracts = {rate} < {s.literal(0.5)};"
+    yield f"if (contracts ? change * ({rate} + {s.literal(LEAST_RATE)}) <= {twice} * scale"
+    yield f"              : {previous} > {zero} && change <= {still} * scale) {{"
+    yield f"    memory->{rate} = {rate};"
+    yield f"    count_sweeps(statistics, {number - 1}, sweep, 0);"
+    yield "    break;"
+    yield "}"
+    yield f"if (sweep == {limit}) {{"
+    yield f"    count_sweeps(statistics, {number - 1}, sweep, 1);"
+    yield f"    return {s.prefix.upper()}NOT_CONVERGED;"
+    yield "}"
+    yield f"{_fresh(number)} = 0;"
+    yield f"{previous} = change;"
 
 
 def _decision(

@@ -24,7 +24,7 @@ TIME = "t"
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """The flags that emitted C is promised to compile under, without a warning."""
 
-PAST = 14
+PAST = 16
 """How many solutions of the equations are kept, by their differences, to guess the next from."""
 
 STATUSES = ("OK", "NOT_CONVERGED", "NOT_FINITE", "BAD_STEP", "LIMIT")
@@ -38,7 +38,9 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     variables = declarations(kernel, interface, names) | definition(kernel, arrangement, names, interface)
     functions = {*arrangement.functions(), "isfinite"}
     if interface.blocks:
-        functions |= {"fabs", "greater"}
+        functions |= {"fabs"}
+    if any(loop.newton is None or not loop.newton.residuals for loop in kernel.loops):
+        functions |= {"greater"}
     if inverts(kernel):
         functions.add("invert")
     held = names.count + len(kernel.samples) * len(kernel.inputs) + remembered(kernel)

@@ -31,7 +31,7 @@ _WORDS = """
     sqrt sin cos exp log sinh cosh fabs isfinite greater quotient signed_stumpff0 signed_stumpff1
     sqrtf sinf cosf expf logf sinhf coshf fabsf
     state statistics steps step stride trajectory completed status advance row sweep change scale still close
-    count_sweeps count_matrix input inputs context held hold memory moved size_of solution invert
+    count_sweeps count_matrix contracts input inputs context held hold memory moved size_of solution invert
     slope2 slope3
     weighted between error rtol atol limit accepted rejected end now size left last taken then trial norm wish
     factor trend shrunk refused made before next total ratio vector vary jacobian column

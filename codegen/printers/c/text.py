@@ -5,6 +5,19 @@ from __future__ import annotations
 WIDTH = 100
 
 
+def paired(terms: list[str]) -> tuple[str, ...]:
+    """Spell a sum of terms, added in pairs and then left to right, for lines to break between.
+
+    >>> paired(["a", "b", "c"])
+    ('(a + b)', '+ c')
+    """
+    if len(terms) < 3:
+        return (terms[0], *(f"+ {x}" for x in terms[1:]))
+    pairs = [terms[k : k + 2] for k in range(0, len(terms), 2)]
+    texts = [f"({x[0]} + {x[1]})" if len(x) == 2 else x[0] for x in pairs]
+    return (texts[0], *(f"+ {x}" for x in texts[1:]))
+
+
 def greatest(terms: list[str]) -> str:
     """Spell the greatest of some terms as a balanced tree of two-argument calls."""
     if len(terms) == 1:

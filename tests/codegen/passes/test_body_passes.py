@@ -8,6 +8,7 @@ from fractions import Fraction
 import pytest
 from sympy import diag
 
+from codegen import scenes
 from codegen.groups import SO3
 from codegen.ir.domain import FloatDomain, PreciseDomain
 from codegen.ir.interpret import interpret
@@ -203,3 +204,26 @@ def test_a_block_needs_a_residual_for_each_unknown():
     body = tuple(replace(s, residuals=s.residuals[:1]) if isinstance(s, Solve) else s for s in program.body)
     with pytest.raises(IllFormed, match="a residual for each unknown"):
         verify(replace(program, body=body))
+
+
+def test_an_element_times_an_exponential_row_by_row_is_the_product():
+    group, x = SO3(), tuple(D.rational(k, 10) for k in (7, -4, 9))
+    g = group.exp(D, tuple(D.rational(k, 10) for k in (-3, 8, 2)))
+    expected = group.mul(D, g, group.exp(D, x))
+    assert all(abs(a - b) < 1e-38 for a, b in zip(group.mulexp(D, g, x), expected, strict=True))
+
+
+def test_where_the_field_reads_one_row_no_exponential_is_formed_for_it():
+    scene = scenes.load("dipole")
+    _, before = lowered("vrkmk", "gauss2", scene, 2)
+    framed = frame.run(before, scene)
+    after = verify(functions.rows(framed, scene))
+    assert after.counts()["mulexp"] == 2
+    assert Reference(framed, scene).differs(after) == ""
+
+
+def test_where_the_field_reads_more_rows_products_stay():
+    scene = top_scene(diag(1, 2, 3))
+    _, before = lowered("vrkmk", full(2), scene, 2)
+    framed = frame.run(before, scene)
+    assert functions.rows(framed, scene) == framed
