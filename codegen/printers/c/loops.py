@@ -155,8 +155,8 @@ def _end(
 ) -> Iterator[str]:
     """Yield the lines that correct the unknowns and end the comparison of momenta.
 
-    It ends where the next change would be below rounding, by the rate of the last two: that of the step before
-    in the first sweep. What stands still at rounding ends it, too.
+    It ends where the next change would be below rounding, by the rate of the last two: that of the step
+    before in the first sweep. What stands still at rounding ends it, too.
     """
     number, absolute, limit = statement.number, s.style.function("fabs"), statement.loop.limit
     rate, zero = f"rate_{number}", s.literal(0.0)
