@@ -15,7 +15,8 @@ from codegen.emit import emit
 
 
 @pytest.mark.parametrize("key", emitted.CASES)
-@pytest.mark.parametrize("longer", [5.0, 0.625])
+# At five times the step the equations of VCF4 have no solution by chords: the emitted step says so.
+@pytest.mark.parametrize("longer", [3.0, 0.625])
 def test_a_hand_written_step_is_the_method_it_is_timed_against(
     key: str, longer: float, tmp_path: Path
 ) -> None:
