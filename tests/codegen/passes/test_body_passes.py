@@ -15,7 +15,7 @@ from codegen.ir.interpret import interpret
 from codegen.ir.number import Number
 from codegen.ir.program import ONE, Builder, Coefficient, Factor, Kind, Program, Solve, Var
 from codegen.ir.verify import IllFormed, verify
-from codegen.passes import common, frame, functions, legendre, opposites, tearing
+from codegen.passes import frame, functions, legendre, opposites, shared_sums, tearing
 from codegen.passes.functions import simplified
 from codegen.passes.meaning import Reference
 from tests.strategies import full, hamiltonian_scene, lowered, same, starting, top_scene
@@ -142,14 +142,14 @@ def test_sums_in_fixed_proportions_are_mapped_once():
 
     def run(p):
         block = Solve("b", (Var("u", Kind.ALG),), (p.body[0].targets[0],), p.body, (p.body[0].targets[0],))
-        return common.run(replace(p, body=(p.body[0], replace(block, body=p.body[1:]))))
+        return shared_sums.run(replace(p, body=(p.body[0], replace(block, body=p.body[1:]))))
 
     assert counted(run, build)["dexpt"] == 1
 
 
 def test_momenta_of_all_stages_share_what_is_carried():
     scene, before = lowered("vcf", "cf4", hamiltonian_scene("SO(3)"))
-    after = verify(common.run(before))
+    after = verify(shared_sums.run(before))
     assert after.counts()["dexpt"] < before.counts()["dexpt"]
     assert same(scene, before, after, order=3)
 
