@@ -39,7 +39,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     functions = {*arrangement.functions(), "isfinite"}
     if interface.blocks:
         functions |= {"fabs"}
-    if any(loop.newton is None or not loop.newton.residuals for loop in kernel.loops):
+    loops = (*kernel.loops, *(kernel.vary.loops if kernel.vary is not None else ()))
+    if any(loop.newton is None or not loop.newton.residuals for loop in loops):
         functions |= {"greater"}
     if inverts(kernel):
         functions.add("invert")
