@@ -9,7 +9,7 @@ from codegen.errors import MethodError
 from codegen.lower import OF_PARTS, splitting
 from codegen.lower.fewest import bracket_program
 from codegen.method import Method
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 if TYPE_CHECKING:
     from orderconds.check import Failure

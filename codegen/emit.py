@@ -33,7 +33,7 @@ from codegen.printers.operations import STEP, operations
 from codegen.printers.precision import DOUBLE
 from codegen.printers.precision import precision as known_precision
 from codegen.printers.recipe import Recipe
-from codegen.scene import TIME, Setting
+from codegen.setting import TIME, Setting
 from orderconds import __version__
 from orderconds.errors import InputError
 
@@ -97,7 +97,7 @@ def compile_method(
 
     ``parameters`` stay run-time arguments, or are folded at the value given (``alpha=1/2``); all others are
     folded at the scene's values; ``inputs`` are signals to be taken at run time, ``frame`` that of
-    momenta (:meth:`codegen.scene.Setting.with_frame`); ``solver`` is for implicit blocks
+    momenta (:meth:`codegen.setting.Setting.with_frame`); ``solver`` is for implicit blocks
     (:mod:`codegen.lower.solver`). SceneError, MethodError, UnknownName or TableauError for what cannot be
     read or does not fit. ``adaptive`` asks for the estimate of an embedded row, ``jacobian`` for the
     derivative of a step.

@@ -17,7 +17,7 @@ from codegen.ir.differentiate import gradient
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.number import Number
-from codegen.scene import TIME, Setting, StateField
+from codegen.setting import TIME, Setting, StateField
 
 
 def extended(scene: Setting) -> Setting:

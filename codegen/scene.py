@@ -1,50 +1,22 @@
-"""Scenes: what a user writes. A group, its action, a field or a Hamiltonian, parameters, initial state, span.
-
-A scene is read once: its sympy formulas become expressions (exact, hash-consed), derivatives are taken by
-reverse differentiation, and from then on the scene can be evaluated over any domain. It is the *setting* in
-which a step program is interpreted and compiled.
-"""
+"""Scenes, as a user writes them: group, action, a field or a Hamiltonian, parameters, start and span."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping
 from fractions import Fraction
-from functools import cached_property
 from typing import Any
 
-from codegen import conserved
-from codegen.body import BodyFrame, applied, body_frame
 from codegen.canonical import force, velocity
-from codegen.consistency import Orbit, check_equal, check_flow, check_invariants, check_start
+from codegen.consistency import check_flow
 from codegen.errors import SceneError
-from codegen.flow import TAU, Flow, Stated
+from codegen.flow import TAU, Stated
 from codegen.groups.actions import LeftMultiplication
-from codegen.groups.cotangent import Cotangent
-from codegen.groups.euclidean import Rn
 from codegen.ir.differentiate import gradient
-from codegen.ir.domain import Domain, ExprDomain
-from codegen.ir.expr import Expr, Space, evaluate, walk
-from codegen.ir.from_sympy import read
-from codegen.ir.number import Number
-from codegen.ir.program import CUT_OFF, Factor, Kind
-from orderconds.errors import UnknownName
-
-NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
-RESERVED = {
-    "t": "t is the time; it may stand in formulas, but it is no coordinate and no parameter",
-    "h": "h is the step size",
-}
-"""Names that programs use themselves, and why."""
-
-GROUP_OPERATIONS = frozenset(
-    {"identity", "exp", "mul", "mulexp", "Ad", "Adinv", "Adt", "Adtinv", "ad", "adt", "dexpt"}
-)
-BODY = frozenset({"velocity", "velocityt", "force", "forcet", "legendre"})
-TIME = "t"
-FRAMES = ("space", "body")
-"""Where momenta of emitted code are taken: right- or left-trivialised."""
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr, walk
+from codegen.ir.program import Kind
+from codegen.reading import Reader
+from codegen.setting import TIME, Setting, StateField, check_setting, orbit_of
 
 
 def param(name: str, default: Any) -> Any:
@@ -84,247 +56,6 @@ def signal(name: str, formula: Any = 0) -> Any:
         ) from None
 
 
-@dataclass(frozen=True)
-class StateField:
-    """A block of the state: its name, kind, coordinates, and initial value as expressions."""
-
-    name: str
-    kind: Kind
-    symbols: tuple[str, ...]
-    initial: tuple[Expr, ...]
-
-
-@dataclass(frozen=True)
-class Setting:
-    """A scene as programs see it: group, action, state, and either a field or a Hamiltonian.
-
-    ``roots`` are the components of f (field scenes) or of xi and n (Hamiltonian scenes) as expressions in the
-    state's symbols, the parameters and ``t``; ``parts`` are named summands of the Hamiltonian, and ``flows``
-    the exact flows that a splitting composes. ``open_roots`` are the roots with the symbols of ``signals``
-    where ``roots`` have their formulas, and ``inputs`` those signals that emitted code takes at run time;
-    ``forced`` says that n is not a derivative of the Hamiltonian alone; ``body_group`` is the group where
-    emitted code takes and returns momenta of the body. Values are flat tuples of scalars of a domain.
-    """
-
-    name: str
-    title: str
-    group: Any
-    action: Any
-    state: tuple[StateField, ...]
-    roots: tuple[Expr, ...]
-    hamiltonian: Expr | None
-    invariants: Mapping[str, Expr]
-    span: tuple[Fraction, Fraction]
-    parameters: Mapping[str, Number]
-    runtime: tuple[str, ...] = ()
-    paired: bool = False
-    fixed: tuple[tuple[str, str], ...] = ()
-    signals: Mapping[str, Expr] = field(default_factory=dict)
-    open_roots: tuple[Expr, ...] = ()
-    inputs: tuple[str, ...] = ()
-    forced: bool = False
-    body_group: Any = None
-    parts: Mapping[str, Expr] = field(default_factory=dict)
-    flows: Mapping[str, Flow] = field(default_factory=dict)
-    stated: Mapping[str, Stated] = field(default_factory=dict)
-
-    @property
-    def symbols(self) -> tuple[str, ...]:
-        """All coordinates of the state in order."""
-        return tuple(s for block in self.state for s in block.symbols)
-
-    @property
-    def autonomous(self) -> bool:
-        """Whether the time does not occur in the field or Hamiltonian, nor in what is put in at run time."""
-        return not self.inputs and not any(n.op == "sym" and n.payload == TIME for n in walk(self.roots))
-
-    @property
-    def is_hamiltonian(self) -> bool:
-        """Whether programs see (q, mu) and the operation ``hamilton``."""
-        return self.paired
-
-    def dimension(self) -> int:
-        """Return the dimension of the Lie algebra."""
-        return int(self.group.dim)
-
-    def with_runtime(self, names: Sequence[str]) -> Setting:
-        """Return this scene with those parameters kept as run-time inputs, or folded at another value.
-
-        ``alpha`` keeps alpha an input, ``alpha=1/2`` folds it at 1/2; the scene is then checked anew.
-        """
-        values = dict(self.parameters)
-        runtime, fixed = set(self.runtime), dict(self.fixed)
-        for spelled in names:
-            name, given, text = spelled.partition("=")
-            if name not in self.parameters:
-                known = ", ".join(sorted(self.parameters)) or "none"
-                raise SceneError(f"unknown parameter {name!r}", where=self.name, expected=f"one of: {known}")
-            if not given:
-                runtime.add(name)
-                continue
-            try:
-                values[name] = Number.rational(*Fraction(text).as_integer_ratio())
-            except (ValueError, ZeroDivisionError):
-                raise SceneError(
-                    f"the value {text!r} of the parameter {name}",
-                    where=self.name,
-                    expected="a rational number, as 1/2 or 0.25",
-                ) from None
-            fixed[name] = values[name].text()
-        changed = replace(
-            self, parameters=values, runtime=tuple(sorted(runtime)), fixed=tuple(sorted(fixed.items()))
-        )
-        if fixed:
-            _check(changed, {})
-        return changed
-
-    def with_inputs(self, names: Sequence[str]) -> Setting:
-        """Return this scene with those signals taken at run time, in that order."""
-        for name in names:
-            if name not in self.signals:
-                known = ", ".join(self.signals) or "none: the scene has no signal"
-                raise SceneError(f"unknown signal {name!r}", where=self.name, expected=f"one of: {known}")
-        return replace(self, inputs=tuple(dict.fromkeys(names)))
-
-    def with_frame(self, frame: str) -> Setting:
-        """Return this scene with momenta of emitted code in that frame: ``space`` or ``body``.
-
-        The momentum in the body is Ad*_q mu, left-trivialised; programs compute with mu in either case.
-        """
-        if frame not in FRAMES:
-            raise UnknownName(f"unknown frame {frame}", expected=" or ".join(FRAMES))
-        if frame == "body" and (not self.paired or self.group.abelian):
-            raise SceneError(
-                f"{self.name} has no momentum in a body",
-                expected="a Hamiltonian scene on a group that is not abelian",
-                hint="leave --frame out",
-            )
-        return replace(self, body_group=self.group if frame == "body" else None)
-
-    def as_field(self) -> Setting:
-        """Return a Hamiltonian scene as the field f = (xi, n) on the group T*G acting on itself."""
-        if not self.paired:
-            return self
-        q, mu = self.state
-        point = StateField("y", Kind.POINT, q.symbols + mu.symbols, q.initial + mu.initial)
-        group, action = Cotangent(self.group), LeftMultiplication()
-        return replace(self, group=group, action=action, state=(point,), paired=False)
-
-    def as_ambient(self) -> Setting:
-        """Return the scene as y' = F(y) in the coordinates of its state: a field on R^n, the group forgotten.
-
-        What integrates it is of no group and leaves the manifold by as much as it errs.
-        """
-        field, domain = self.as_field(), ExprDomain(self.roots[0].space)
-        state = tuple(domain.space.sym(s) for s in self.symbols)
-        values = field.values(domain, state, domain.space.sym(TIME))
-        values |= {name: domain.space.sym(name) for name in self.signals}
-
-        def ambient(roots: tuple[Expr, ...]) -> tuple[Expr, ...]:
-            f = tuple(evaluate(roots, domain, values))
-            return tuple(field.action.velocity(domain, field.group, f, state))
-
-        initial = tuple(x for block in self.state for x in block.initial)
-        point = StateField("y", Kind.POINT, self.symbols, initial)
-        return replace(
-            self,
-            group=Rn(len(self.symbols)),
-            action=LeftMultiplication(),
-            state=(point,),
-            roots=ambient(self.roots),
-            open_roots=ambient(self.open_roots),
-            paired=False,
-        )
-
-    def values(self, domain: Domain, state: Sequence[Any], t: Any = None) -> dict[str, Any]:
-        """Return the values of all symbols and parameters; run-time ones stay symbols in expressions."""
-        values = dict(zip(self.symbols, state, strict=True))
-        for name, number in self.parameters.items():
-            symbolic = isinstance(domain, ExprDomain) and name in self.runtime
-            values[name] = domain.space.sym(name) if symbolic else domain.number(number)  # type: ignore[attr-defined]
-        values[TIME] = t if t is not None else domain.rational(0)
-        return values
-
-    def apply(self, domain: Domain, name: str, order: int | None, args: tuple[Any, ...]) -> tuple[Any, ...]:
-        """Return the results of a group, action or scene operation of a program."""
-        if name in CUT_OFF:
-            return (getattr(self.group, name)(domain, *args, order),)
-        if name in GROUP_OPERATIONS:
-            return (getattr(self.group, name)(domain, *args),)
-        if name in ("act", "actexp"):
-            return (getattr(self.action, name)(domain, self.group, *args),)
-        if name in conserved.OPERATIONS:
-            return (conserved.apply(self, domain, name, args),)
-        if name in BODY:
-            return (self._in_body(domain, name, args),)
-        return self._evaluate(domain, args)
-
-    def flow(self, domain: Domain, part: str, tau: Any, args: tuple[Any, ...]) -> tuple[Any, ...]:
-        """Return (q, mu) after the exact flow of a part for the time tau; ``args``: q, mu, perhaps t."""
-        q, mu, *time = args
-        values = self.values(domain, (*q, *mu), *time)
-        return self.flows[part].advance(domain, self.group, values, tau, q, mu)
-
-    def series(self, domain: Domain, word: tuple[Factor, ...], dual: bool, x: Any, v: Any) -> tuple[Any, ...]:
-        """Return the product of a word's functions of ad_x, of ad*_x where ``dual``, applied to v."""
-        return tuple(self.group.series(domain, word, dual, x, v))
-
-    @property
-    def has_body(self) -> bool:
-        """Whether there is a body frame to see the field from."""
-        return self.body is not None
-
-    @cached_property
-    def body(self) -> BodyFrame | None:
-        """The field in the body frame; None where no Hamiltonian gives it all, or the group has none."""
-        closed = not self.inputs and not self.forced and self.hamiltonian is not None
-        if not self.paired or not closed or not hasattr(self.group, "relations"):
-            return None
-        assert self.hamiltonian is not None
-        q, mu = (block.symbols for block in self.state)
-        return body_frame(self.group, q, mu, self.hamiltonian, self.group.relations(q))
-
-    def _in_body(self, domain: Domain, name: str, args: tuple[Any, ...]) -> tuple[Any, ...]:
-        assert self.body is not None
-        if name == "legendre":
-            return applied(self.body, name, domain, {}, args[0])
-        t = args[2] if len(args) > 2 else None
-        return applied(self.body, name, domain, self.values(domain, (*args[0], *args[1]), t))
-
-    def _evaluate(self, domain: Domain, args: tuple[Any, ...]) -> tuple[Any, ...]:
-        blocks = args[: len(self.state)]
-        t = args[len(self.state)] if len(args) > len(self.state) else None
-        state = tuple(x for block in blocks for x in block)
-        values = self.values(domain, state, t)
-        roots = self.roots
-        if self.inputs and isinstance(domain, ExprDomain):
-            roots = self.open_roots
-            formulas = evaluate(list(self.signals.values()), domain, values)
-            samples = domain.sample(self.inputs, values[TIME])
-            values |= dict(zip(self.signals, formulas, strict=True)) | samples
-        result = tuple(evaluate(roots, domain, values))
-        if not self.paired:
-            return (result,)
-        return result[: self.group.dim], result[self.group.dim :]
-
-    def velocity(self, domain: Domain, state: tuple[Any, ...], t: Any = None) -> tuple[Any, ...]:
-        """Return the ambient time derivative of the state's coordinates: f(y).y."""
-        field = self.as_field()
-        f = tuple(evaluate(field.roots, domain, field.values(domain, state, t)))
-        return tuple(field.action.velocity(domain, field.group, f, state))
-
-    def initial(self, domain: Domain) -> tuple[Any, ...]:
-        """Return the initial coordinates in order."""
-        roots = [e for block in self.state for e in block.initial]
-        values = {name: domain.number(number) for name, number in self.parameters.items()}
-        return tuple(evaluate(roots, domain, values))
-
-    def invariant(self, domain: Domain, name: str, state: Sequence[Any]) -> Any:
-        """Return the value of a declared invariant; ``energy`` is the Hamiltonian where there is one."""
-        root = self.invariants[name]
-        return evaluate([root], domain, self.values(domain, state))[0]
-
-
 def FieldScene(
     *,
     group: Any,
@@ -346,7 +77,7 @@ def FieldScene(
     ambient formula; f must generate it. :class:`SceneError` for a wrong shape or symbol, a start that is not
     on the group, an f that does not generate the velocity, an invariant that is none.
     """
-    reader = _Reader(name, list(y))
+    reader = Reader(name, list(y))
     _acts(reader, group, action)
     open_roots = reader.column(f, group.dim, "f")
     roots = reader.closed(open_roots)
@@ -360,7 +91,7 @@ def FieldScene(
         signals=reader.signals,
         open_roots=open_roots,
     )
-    _check(setting, {"velocity": (stated, None)} if stated else {})
+    check_setting(setting, {"velocity": (stated, None)} if stated else {})
     return setting
 
 
@@ -393,7 +124,7 @@ def HamiltonianScene(
     scene has no energy and no parts. The energy is an invariant of a Hamiltonian without time.
     :class:`SceneError` as for :func:`FieldScene`.
     """
-    reader = _Reader(name, [*q, *mu])
+    reader = Reader(name, [*q, *mu])
     if (len(q), len(mu)) != (group.size, group.dim):
         raise SceneError(
             f"{len(q)} coordinates of q and {len(mu)} of mu",
@@ -435,24 +166,15 @@ def HamiltonianScene(
         forced=bool(loads),
         stated=_stated(reader, group, flows or {}, summands),
     )
-    _check(setting, stated)
+    check_setting(setting, stated)
     for key, flow in setting.stated.items():
         rates = velocity(group, qs, mus, setting.parts[key])
         check_flow(orbit_of(setting), key, flow.formulas, rates, TAU)
     return setting
 
 
-def _check(setting: Setting, stated: Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]) -> None:
-    """Raise :class:`SceneError` where the scene does not hold what it says (:mod:`codegen.consistency`)."""
-    orbit = orbit_of(setting)
-    check_start(orbit)
-    for what, (formulas, derived) in stated.items():
-        check_equal(orbit, formulas, what, derived)
-    check_invariants(orbit, setting.invariants)
-
-
 def _stated(
-    reader: _Reader, group: Any, flows: Mapping[str, tuple[Any, Any]], summands: Mapping[str, Expr]
+    reader: Reader, group: Any, flows: Mapping[str, tuple[Any, Any]], summands: Mapping[str, Expr]
 ) -> dict[str, Stated]:
     """Read the flows that a scene states for its parts."""
     found: dict[str, Stated] = {}
@@ -467,16 +189,7 @@ def _stated(
     return found
 
 
-def orbit_of(setting: Setting) -> Orbit:
-    """Return the points of the scene at which formulas are compared."""
-    view = setting.as_field()
-    start = tuple(e for block in view.state for e in block.initial)
-    return Orbit(
-        *(view.name, view.group, view.action, view.symbols, start, view.roots, view.span, view.parameters)
-    )
-
-
-def _acts(reader: _Reader, group: Any, action: Any) -> None:
+def _acts(reader: Reader, group: Any, action: Any) -> None:
     """Raise :class:`SceneError` where the group acts on points of another number of coordinates."""
     domain = ExprDomain(reader.space)
     y = tuple(domain.space.sym(s) for s in reader.coordinates)
@@ -503,99 +216,3 @@ def _span(name: str, span: tuple[Any, Any]) -> tuple[Fraction, Fraction]:
     if not last > first:
         raise SceneError(f"the span ({first}, {last})", where=name, expected="an end after the beginning")
     return first, last
-
-
-class _Reader:
-    """Reads a scene's formulas into one space and remembers which parameters occur."""
-
-    def __init__(self, name: str, coordinates: Sequence[Any]) -> None:
-        self.name = name
-        self.coordinates = [str(getattr(symbol, "name", "")) for symbol in coordinates]
-        for symbol, spelled in zip(coordinates, self.coordinates, strict=True):
-            if not spelled:
-                raise SceneError(f"the coordinate {symbol}", where=name, expected="symbols")
-            self._allowed(spelled)
-        if len(set(self.coordinates)) != len(self.coordinates):
-            raise SceneError("a coordinate symbol twice", where=name, expected="distinct symbols")
-        self.more: tuple[str, ...] = ()
-        self.space = Space()
-        self.defaults: dict[str, Number] = {}
-        self.signals: dict[str, Expr] = {}
-
-    def _allowed(self, symbol: str) -> None:
-        if symbol in RESERVED:
-            raise SceneError(
-                f"a symbol called {symbol}", where=self.name, expected="another name", hint=RESERVED[symbol]
-            )
-        if not NAME.fullmatch(symbol):
-            raise SceneError(
-                f"a symbol called {symbol!r}", where=self.name, expected="a letter, then letters, digits or _"
-            )
-
-    def parameters(self) -> dict[str, Number]:
-        """Return the defaults of the parameters that occur, by name."""
-        return dict(sorted(self.defaults.items()))
-
-    def _admit(self, symbol: Any) -> None:
-        """Note a parameter's default."""
-        self._allowed(symbol.name)
-        value = Number.rational(*symbol.default)
-        if symbol.name in self.coordinates or self.defaults.setdefault(symbol.name, value) != value:
-            raise SceneError(
-                f"the parameter {symbol.name} has the name of a coordinate, or two defaults",
-                where=self.name,
-                expected="one meaning for each name",
-            )
-
-    def _admit_signal(self, symbol: Any) -> None:
-        """Note a signal's formula, which holds the time and parameters and no coordinate."""
-        self._allowed(symbol.name)
-        what = f"signal {symbol.name}"
-        for inner in getattr(symbol.formula, "free_symbols", ()):
-            if inner.name != TIME and not hasattr(inner, "default"):
-                raise SceneError(f"{what} holds {inner.name}", where=self.name, expected="t and parameters")
-        formula = self.scalar(symbol.formula, what)
-        taken = symbol.name in self.coordinates or symbol.name in self.defaults
-        if taken or self.signals.setdefault(symbol.name, formula) is not formula:
-            raise SceneError(
-                f"the {what} has the name of another symbol, or two formulas",
-                where=self.name,
-                expected="one meaning for each name",
-            )
-
-    def closed(self, roots: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return formulas with every signal replaced by its own."""
-        if not self.signals:
-            return tuple(roots)
-        names = {n.payload for n in walk(roots) if n.op == "sym"}
-        values = {name: self.space.sym(name) for name in sorted(names)} | self.signals
-        return tuple(evaluate(list(roots), ExprDomain(self.space), values))
-
-    def scalar(self, formula: Any, what: str, constant: bool = False) -> Expr:
-        """Return one formula; its symbols must be coordinates, t, parameters or signals."""
-        if getattr(formula, "shape", None) == (1, 1):
-            formula = formula[0]
-        if hasattr(formula, "shape"):
-            raise SceneError(f"{what} has shape {formula.shape}", where=self.name, expected="a scalar")
-        root = read(self.space, formula, f"{self.name}, {what}")
-        known = () if constant else (*self.coordinates, *self.more, TIME)
-        for symbol in sorted(getattr(formula, "free_symbols", ()), key=lambda s: str(s.name)):
-            if hasattr(symbol, "default"):
-                self._admit(symbol)
-            elif hasattr(symbol, "formula") and not constant:
-                self._admit_signal(symbol)
-            elif symbol.name not in known:
-                raise SceneError(
-                    f"the symbol {symbol.name} in {what} has no value",
-                    where=self.name,
-                    expected="numbers and parameters" if constant else "coordinates, t and parameters",
-                    hint=f'write {symbol.name} = param("{symbol.name}", 1) to make it a parameter',
-                )
-        return root
-
-    def column(self, formulas: Any, n: int, what: str, constant: bool = False) -> tuple[Expr, ...]:
-        """Return n formulas."""
-        entries = list(formulas)
-        if len(entries) != n:
-            raise SceneError(f"{what} has {len(entries)} components", where=self.name, expected=str(n))
-        return tuple(self.scalar(e, f"{what}[{k}]", constant) for k, e in enumerate(entries))

@@ -14,7 +14,7 @@ from flint import arb
 
 from codegen.ir.number import Number
 from codegen.lab.straight import velocity
-from codegen.scene import Setting
+from codegen.setting import Setting
 from orderconds.ring.precision import precision, working_bits
 
 Vector = Sequence[Any]

@@ -12,7 +12,7 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 SPAN = (0, "1/4")
 """Short: solutions of polynomial equations may reach infinity soon after."""

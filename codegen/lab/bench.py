@@ -20,7 +20,7 @@ from codegen.lab.ranking import Place, places
 from codegen.lab.reference import Reference
 from codegen.lab.remembered import remembered
 from codegen.lab.study import methods_for
-from codegen.scene import Setting
+from codegen.setting import Setting
 from orderconds.errors import InputError
 
 TARGETS = ("c", "python")

@@ -29,7 +29,7 @@ from codegen.lab.timing import cost, samples
 from codegen.load import Statistics
 from codegen.method import Method
 from codegen.printers.c.module import FLAGS
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 BUDGET = 1.0
 """CPU seconds that one run of a ladder may take."""

@@ -18,7 +18,7 @@ from codegen.lab.distance import distance
 from codegen.lab.ladder import CLEAR, Ladder, Rung, climb, rounding
 from codegen.lab.reference import Reference
 from codegen.lab.runner import RunFailed, Runner
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 ROUNDING = "rounding"
 FEWEST = 4

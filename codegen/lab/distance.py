@@ -13,7 +13,7 @@ from typing import Any
 
 from codegen.groups import SO3, MatrixGroup, Product
 from codegen.ir.program import Kind
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 
 def distance(scene: Setting, state: Sequence[Any], exact: Sequence[Any]) -> float:

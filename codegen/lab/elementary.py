@@ -14,7 +14,7 @@ from codegen.groups import SO3, MatrixGroup, Rn
 from codegen.ir.domain import Domain
 from codegen.ir.expr import evaluate
 from codegen.ir.number import Number
-from codegen.scene import Setting
+from codegen.setting import Setting
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.action_fields import ActionFields, Nilpotent
 from orderconds.trees.directed import DirectedTree

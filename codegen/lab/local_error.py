@@ -23,7 +23,7 @@ from codegen.lab.elementary import (
     element_coordinates,
 )
 from codegen.method import Method
-from codegen.scene import Setting
+from codegen.setting import Setting
 from orderconds import families
 from orderconds.families.action_family import ActionFamily
 from orderconds.families.ordered_forests import scale

@@ -22,7 +22,7 @@ from codegen.lab.runner import Emitted
 from codegen.lab.straight import straight_line
 from codegen.lab.symplecticity import symplectic_defect
 from codegen.load import StepFailed
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 SAMPLES = 1000
 FUNCTIONS = {name: getattr(math, name) for name in ("sqrt", "sin", "cos", "exp", "log")}

@@ -16,7 +16,7 @@ from codegen.groups.protocol import dot, matmul
 from codegen.ir.domain import Domain, ExprDomain, FloatDomain
 from codegen.ir.program import Kind
 from codegen.lab.straight import StraightLine, straight_line
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 
 def project(scene: Setting, domain: Domain, state: Sequence[Any]) -> tuple[Any, ...]:

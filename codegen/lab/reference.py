@@ -17,7 +17,7 @@ from flint import arb
 from codegen.errors import SceneError
 from codegen.ir.domain import PreciseDomain
 from codegen.lab.ambient import Field, ambient_field
-from codegen.scene import Setting
+from codegen.setting import Setting
 from orderconds.ring.precision import precision
 
 DIGITS = 50

@@ -15,7 +15,7 @@ from codegen.emission import write_text
 from codegen.ir.domain import PreciseDomain
 from codegen.lab.reference import AGREEMENT, BITS, DIGITS, RUNS, Reference, reference
 from codegen.lab.straight import velocity
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 
 def remembered(scene: Setting) -> Reference:

@@ -20,7 +20,7 @@ from codegen.ir.interpret import flatten, interpret
 from codegen.load import Integrator, Statistics, StepFailed, load
 from codegen.lower import setting
 from codegen.method import Method
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 TARGETS = ("c", "python", "interpreter")
 DOUBLE = 16

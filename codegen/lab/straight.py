@@ -15,7 +15,7 @@ from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
 from codegen.printers.expression import number
-from codegen.scene import TIME, Setting
+from codegen.setting import TIME, Setting
 
 INFIX = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
 

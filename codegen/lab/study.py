@@ -17,7 +17,7 @@ from codegen.lab.runner import Emitted, Interpreted, RunFailed, Runner
 from codegen.lab.timing import Timing, timings
 from codegen.lower import families_for
 from codegen.method import Method, parse
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 FIELD_METHODS = ("rkmk(0):euler", "cg:cg3", "rkmk(2):rk4", "cf:cf4")
 HAMILTONIAN_METHODS = ("vcg:midpoint", "vcg:triple_jump", "cf:cf4", "vcg:triple_jump6")

@@ -11,7 +11,7 @@ from codegen.lower.discrete_gradient import keeps_energy
 from codegen.lower.simplify import simplified
 from codegen.lower.splitting import setting as with_flows
 from codegen.method import Method
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 LOWERINGS = {
     "rk": "rkmk",

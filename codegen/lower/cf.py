@@ -13,7 +13,7 @@ from operator import add
 from codegen.ir.program import EMBEDDED, Kind, Program, Var
 from codegen.lower.stages import Stages
 from codegen.method import Method
-from codegen.scene import Setting
+from codegen.setting import Setting
 from orderconds.ring.protocol import Element
 from orderconds.tableau import Stage
 

@@ -20,7 +20,7 @@ from codegen.ir.number import Number
 from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
 from codegen.lower.stages import Stages
 from codegen.method import Method
-from codegen.scene import Setting, orbit_of
+from codegen.setting import Setting, orbit_of
 
 HALF = Number.rational(1, 2)
 

@@ -10,7 +10,7 @@ from codegen.errors import MethodError
 from codegen.ir.program import Coefficient, Kind, Program, Var
 from codegen.lower.stages import Stages
 from codegen.method import FEWEST_UP_TO, Method
-from codegen.scene import Setting
+from codegen.setting import Setting
 from orderconds.ring.protocol import Ring
 from orderconds.series.brackets import BracketProgram, Row
 

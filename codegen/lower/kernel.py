@@ -43,7 +43,7 @@ from codegen.ir.program import EMBEDDED, Assign, Kind, Program, Solve, Var
 from codegen.ir.tangent import tangents
 from codegen.lower import late, newton
 from codegen.lower.variation import Variations
-from codegen.scene import TIME, Setting
+from codegen.setting import TIME, Setting
 
 INLINE = 10
 """Largest number of operations spelled in one assignment: longer expressions get names on the way."""

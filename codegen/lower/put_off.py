@@ -16,7 +16,7 @@ from codegen.ir.program import Assign, Kind, Operation, Program, Var
 from codegen.ir.verify import verify
 from codegen.lower.kernel import AS_WRITTEN, to_kernel
 from codegen.passes.flows import Letter, apart, commuting, word
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 
 @dataclass(frozen=True)

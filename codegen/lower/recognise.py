@@ -23,7 +23,7 @@ from codegen.ir.differentiate import gradient
 from codegen.ir.domain import SeriesDomain
 from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.number import Number
-from codegen.scene import TIME, Setting, orbit_of
+from codegen.setting import TIME, Setting, orbit_of
 from orderconds.ring import QQ
 
 Matrix = list[list[Fraction]]

@@ -10,7 +10,7 @@ from codegen.ir.program import EMBEDDED, Kind, Program, Var
 from codegen.lower import fewest
 from codegen.lower.stages import Stages
 from codegen.method import Method
-from codegen.scene import Setting
+from codegen.setting import Setting
 from orderconds.ring.protocol import Element
 
 

@@ -12,7 +12,7 @@ from dataclasses import replace
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, walk
 from codegen.lower.recognise import recognise, vanish
-from codegen.scene import TIME, Setting, orbit_of
+from codegen.setting import TIME, Setting, orbit_of
 
 
 def simplified(scene: Setting) -> Setting:

@@ -26,7 +26,7 @@ from codegen.printers.interface import Interface
 from codegen.printers.operations import matrix_of, operations
 from codegen.printers.python.module import print_module
 from codegen.printers.recipe import Recipe
-from codegen.scene import Setting
+from codegen.setting import Setting
 from orderconds.errors import UnknownName
 
 AUTO = "auto"

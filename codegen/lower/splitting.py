@@ -20,7 +20,7 @@ from codegen.ir.program import Builder, Coefficient, Kind, Program, Var
 from codegen.ir.verify import verify
 from codegen.lower.recognise import Part, Piece, bracket, recognise, vanish
 from codegen.method import Method
-from codegen.scene import Setting, orbit_of
+from codegen.setting import Setting, orbit_of
 from orderconds.tableau import AdjointComposition, Composition, Splitting
 
 Word = list[tuple[Piece, Number]]

@@ -9,7 +9,7 @@ from codegen.ir.number import Number
 from codegen.ir.program import Builder, Coefficient, Kind, Program, Solve, Statement, Var
 from codegen.ir.verify import verify
 from codegen.method import Method
-from codegen.scene import Setting
+from codegen.setting import Setting
 from orderconds.ring.protocol import Element
 
 

@@ -15,7 +15,7 @@ from codegen.ir.program import FLOWS, Assign, Program
 from codegen.lower.kernel import ORDERED, SHORTENED, to_kernel
 from codegen.lower.late import chain
 from codegen.lower.put_off import part, with_put_off
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 CALL = 10
 """How many operations a call of a function counts for."""

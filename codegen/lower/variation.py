@@ -16,7 +16,7 @@ from codegen.groups.protocol import LieGroup
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr
 from codegen.ir.program import Kind
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from codegen.ir.number import Number
 from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
 from codegen.lower.stages import Stages
 from codegen.method import Method
-from codegen.scene import Setting
+from codegen.setting import Setting
 from orderconds.errors import ZeroWeight
 
 Rows = tuple[tuple[Number, ...], ...]

@@ -17,7 +17,7 @@ from __future__ import annotations
 from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
 from codegen.lower.stages import Stages
 from codegen.method import Method
-from codegen.scene import Setting
+from codegen.setting import Setting
 from orderconds.errors import ZeroWeight
 from orderconds.ring.protocol import Element
 

@@ -30,7 +30,7 @@ from codegen.passes import (
     zeros,
 )
 from codegen.passes.meaning import Reference
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 
 @dataclass(frozen=True)

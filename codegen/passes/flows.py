@@ -14,7 +14,7 @@ from itertools import combinations
 from typing import Any
 
 from codegen.ir.program import FLOWS, Assign, Coefficient, Kind, Operation, Program, Var
-from codegen.scene import Setting, orbit_of
+from codegen.setting import Setting, orbit_of
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field, replace
 from codegen.ir.number import Number
 from codegen.ir.program import ONE, Assign, Builder, Coefficient, Kind, Program, Solve, Statement, Var
 from codegen.passes.rewrite import defined
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 EQUIVARIANT = frozenset(
     {"exp", "lin", "zero", "ad", "adt", "dexpinv", "dexpinvt", "P", "dexpt", "Ad", "Adinv", "Adt", "Adtinv"}

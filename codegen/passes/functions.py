@@ -15,7 +15,7 @@ from codegen.ir.expr import walk
 from codegen.ir.number import Number
 from codegen.ir.program import Assign, Factor, Kind, Operation, Program, Var
 from codegen.passes.rewrite import Rewriter, rewrite
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 ONE = Fraction(1)
 ADJOINT = {"Ad": ONE, "Adinv": -ONE, "Adt": ONE, "Adtinv": -ONE}

@@ -30,7 +30,7 @@ from codegen.passes.functions import ratio
 from codegen.passes.opposites import OPPOSITE
 from codegen.passes.rewrite import defined
 from codegen.passes.tearing import ordered
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 FUNCTIONS = frozenset({"dexpinv", "dexpinvt", "series", "seriest"})
 """Functions of ad that have an inverse near the identity."""

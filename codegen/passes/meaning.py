@@ -11,7 +11,7 @@ from codegen.ir.domain import FloatDomain, NotConverged
 from codegen.ir.expr import evaluate
 from codegen.ir.interpret import flatten, interpret
 from codegen.ir.program import Kind, Program
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
 """Step sizes to try, the largest first: what a wrong rewriting leaves is largest there. Where the field is so

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from codegen.errors import SceneError
 from codegen.extended import extended
-from codegen.scene import Setting
+from codegen.setting import Setting
 from orderconds.errors import InputError, UnknownName
 
 GALLERY = (

@@ -10,7 +10,8 @@ from typing import Any
 from sympy import Matrix, Rational, Symbol, cos, sin
 
 from codegen.groups import SO3, Rotation
-from codegen.scene import FieldScene, Setting, param
+from codegen.scene import FieldScene, param
+from codegen.setting import Setting
 
 
 def driven_spin(title: str, anisotropy: Any, damping: Any, drive: Any, end: Any) -> Setting:

@@ -11,7 +11,8 @@ from typing import Any
 from sympy import Matrix, Rational
 
 from codegen.groups import LeftMultiplication, Rn
-from codegen.scene import FieldScene, Setting
+from codegen.scene import FieldScene
+from codegen.setting import Setting
 
 z = Rn(2).point("z")
 x, y = z

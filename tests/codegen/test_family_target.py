@@ -36,8 +36,8 @@ from codegen.lower import LOWERINGS, OF_PARTS, setting
 from codegen.printers import TARGETS
 from codegen.printers.c.module import FLAGS
 from codegen.printers.precision import DOUBLE, SINGLE
-from codegen.scene import Setting
 from codegen.scenes import load as gallery
+from codegen.setting import Setting
 from tests.promises import clean_c, clean_python, ulps
 from tests.strategies import field_scene, hamiltonian_scene, top_scene
 

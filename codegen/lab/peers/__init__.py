@@ -13,7 +13,7 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import Any
 
-from codegen.scene import Setting
+from codegen.setting import Setting
 from orderconds.errors import InputError, UnknownName
 
 

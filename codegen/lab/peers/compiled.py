@@ -20,7 +20,7 @@ from codegen.ir.domain import FloatDomain
 from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
 from codegen.lab.projection import projection_lines
 from codegen.lab.straight import velocity
-from codegen.scene import Setting
+from codegen.setting import Setting
 from orderconds.tableau import Tableau, find
 
 DECLARATION = (

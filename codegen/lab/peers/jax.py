@@ -7,7 +7,7 @@ from typing import Any
 from codegen.ir.domain import FloatDomain
 from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
 from codegen.lab.straight import velocity
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 MOST_STEPS = 1_000_000
 

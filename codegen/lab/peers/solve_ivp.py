@@ -10,7 +10,7 @@ from codegen.ir.domain import FloatDomain
 from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
 from codegen.lab.projection import projection
 from codegen.lab.straight import velocity
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 FUNCTIONS = {name: getattr(math, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
 

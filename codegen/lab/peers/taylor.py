@@ -5,7 +5,7 @@ from __future__ import annotations
 from codegen.ir.domain import FloatDomain
 from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
 from codegen.lab.straight import velocity
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 
 def peer(name: str) -> Peer:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from codegen import scenes
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 RADIANS = 200
 """Angle that the fastest motion turns through at most, where that motion does not decay."""

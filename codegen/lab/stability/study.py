@@ -18,7 +18,7 @@ from codegen.lab.stability.limits import Limit, largest_step
 from codegen.lab.stability.regions import Region, region
 from codegen.lab.stability.stiff import Stiff, order_left
 from codegen.method import Method
-from codegen.scene import Setting
+from codegen.setting import Setting
 
 Tell = Callable[[str], object]
 

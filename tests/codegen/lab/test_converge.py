@@ -19,8 +19,9 @@ from codegen.lab.reference import Reference, reference
 from codegen.lab.runner import Interpreted, runner
 from codegen.lower import families_for
 from codegen.method import Method, parse
-from codegen.scene import FieldScene, Setting
+from codegen.scene import FieldScene
 from codegen.scenes import load
+from codegen.setting import Setting
 from orderconds.ring import QQ
 from orderconds.tableau import CommutatorFree, RungeKutta, Stage
 

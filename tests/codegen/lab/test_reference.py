@@ -11,8 +11,9 @@ from sympy import Matrix, Rational, sqrt, symbols
 from codegen.errors import SceneError
 from codegen.groups import LeftMultiplication, Rn
 from codegen.lab.reference import Reference, reference
-from codegen.scene import FieldScene, Setting
+from codegen.scene import FieldScene
 from codegen.scenes import load
+from codegen.setting import Setting
 
 Exact = Callable[[str], Reference]
 
