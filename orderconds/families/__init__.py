@@ -16,6 +16,8 @@ from typing import Any, Protocol
 
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError, UnknownName, ZeroWeight
+from orderconds.ring.balls import Balls, Enclosures
+from orderconds.ring.precision import precision
 from orderconds.ring.protocol import Element, Ring
 
 MODULES = {
@@ -131,6 +133,18 @@ def residuals(
     >>> residuals(rk, euler.method, euler.ring, rk.conditions(2))
     (-1/2,)
     """
+    if isinstance(ring, Balls):
+        with precision(ring.bits):  # once, and not in each operation
+            found = _residuals(family, method.map(lambda x: x.value), Enclosures(ring.bits), conditions)
+        if not all(x.is_finite() for x in found):
+            raise ZeroDivisionError("division by a ball that contains zero")
+        return tuple(map(ring.enclose, found))
+    return _residuals(family, method, ring, conditions)
+
+
+def _residuals(
+    family: Family, method: Any, ring: Ring, conditions: Sequence[OrderCondition]
+) -> tuple[Element, ...]:
     values = family.evaluate(method, ring, conditions)
     return tuple(value - in_ring(ring, c.rhs) for value, c in zip(values, conditions, strict=True))
 

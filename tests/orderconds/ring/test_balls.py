@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import json
 import operator
 from fractions import Fraction
 
 import pytest
 from flint import fmpq
 
+from orderconds import families
+from orderconds.errors import InputError
 from orderconds.ring import Balls
+from orderconds.ring.balls import Enclosures
 from orderconds.ring.decimals import endpoints, nearest_float
+from orderconds.ring.precision import precision
 from orderconds.ring.tower import Tower
+from orderconds.tableau import RungeKutta, Tableau
 
 RING = Balls(128)
 
@@ -87,3 +93,29 @@ def test_a_radicand_too_large_to_factor_keeps_its_size_but_loses_small_factors()
     assert tower.field.degree == 2
     low, high = endpoints(tower.field.ball(x, 64))
     assert low**2 <= 12 * prime <= high**2
+
+
+@pytest.mark.parametrize("label", ["rk", "cg", "rkmk(2)", "vrkmk(2)"])
+def test_bare_enclosures_give_the_same_balls(label: str) -> None:
+    rows = [["0.5~"], ["0.2113248654~", "0.2886751345~"]]
+    data = {"name": "balls", "family": "rk", "A": rows, "b": ["0.4999999999~", "0.5000000001~"]}
+    tableau = Tableau.loads("\n".join(f"{key} = {json.dumps(value)}" for key, value in data.items()))
+    family = families.get(label)
+    conditions = family.conditions(3)
+    values = family.evaluate(tableau.method, tableau.ring, conditions)
+    exact = [families.in_ring(tableau.ring, condition.rhs) for condition in conditions]
+    expected = tuple(x - y for x, y in zip(values, exact, strict=True))
+    assert families.residuals(family, tableau.method, tableau.ring, conditions) == expected
+
+
+def test_dividing_by_a_ball_around_zero_is_refused_where_a_block_is_bare() -> None:
+    method = RungeKutta(((RING.zero,),), (RING.constant(Fraction(0), Fraction(1)),))
+    with pytest.raises(InputError, match="may be zero"):
+        families.residuals(families.get("sprk"), method, RING, families.get("sprk").conditions(1))
+    bare = Enclosures(128)
+    with precision(128):
+        assert not (bare.one / method.b[0].value).is_finite()
+        assert bare.text(bare.rational(1, 3)) == RING.text(RING.rational(1, 3))
+        assert bare.key(bare.one) == RING.key(RING.one)
+        assert bare.approximate(bare.rational(1, 3)) == RING.approximate(RING.rational(1, 3))
+        assert bare.is_zero(bare.rational(1, 3) - bare.rational(1, 3)) is None
