@@ -15,6 +15,7 @@ from orderconds.errors import InputError
 @click.command("bench", cls=Variadic, short_help="Measure error against run time, beside peers.")
 @click.argument("scene")
 @click.option("--method", "-m", "methods", multiple=True, help="TABLEAU or FAMILY:TABLEAU; may be repeated.")
+@click.option("--adaptive", multiple=True, help="Methods that choose their steps, over tolerances.")
 @click.option("--target", "-t", "targets", multiple=True, help="c (the default) or python; may be repeated.")
 @click.option("--against", "-a", "peers", multiple=True, help="Peers, or scipy, c or all for several.")
 @click.option("--budget", default=1.0, show_default=True, help="CPU seconds that one run may take.")
@@ -25,6 +26,7 @@ from orderconds.errors import InputError
 def command(
     scene: str,
     methods: tuple[str, ...],
+    adaptive: tuple[str, ...],
     targets: tuple[str, ...],
     peers: tuple[str, ...],
     budget: float,
@@ -33,16 +35,18 @@ def command(
 ) -> int:
     """Run methods on SCENE (a gallery name or a Python file) over ladders of steps, and time them.
 
-    Peers: scipy-dop853, scipy-radau, scipy-lsoda, heyoka, diffrax, c-dop853, c-rk4-projected; those not
-    installed are left out of groups. With -o an interrupted measurement goes on where it stopped. The exit
-    status is 1 when some method has no run that succeeds.
+    --adaptive takes methods with an embedded row, as ambient:dop853, rkmk(3):dormand_prince5 or
+    ambient:radau2a3; they run beside those of equal steps, or alone. Peers: scipy-dop853, scipy-radau,
+    scipy-lsoda, heyoka, diffrax, c-dop853, c-rk4-projected; those not installed are left out of groups. With
+    -o an interrupted measurement goes on where it stopped. The exit status is 1 when some method has no run
+    that succeeds.
     """
     from codegen.lab.bench import bench
 
     if not 0 < budget < 1e5:
         raise InputError(f"the budget {budget:g}", where="--budget", expected="CPU seconds above 0")
     with working("reading scene and methods") as tell:
-        match = bench(scene, methods, targets or ("c",), peers, budget, output, tell)
+        match = bench(scene, methods, targets or ("c",), peers, budget, output, tell, adaptive)
     with counting(f"{match.scene.name}: first runs") as done:
         result = match.run(lambda row: done(f"{row.method} ({row.target})"))
     if as_json:

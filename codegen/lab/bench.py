@@ -12,6 +12,7 @@ from pathlib import Path
 from codegen import scenes
 from codegen.emission import write_text
 from codegen.errors import MethodError
+from codegen.lab.adaptive import AdaptiveContestant
 from codegen.lab.contest import Contestant, EmittedContestant, PeerContestant, Row, climb
 from codegen.lab.figures import Curve, efficiency_figure, standalone
 from codegen.lab.journal import Journal
@@ -96,8 +97,11 @@ def bench(
     budget: float,
     output: str | None,
     tell: Tell,
+    adaptive: Sequence[str] = (),
 ) -> Bench:
     """Return a bench of methods (spelled; none: the usual ones) and peers on a scene.
+
+    Those of ``adaptive`` run over tolerances, in steps that they choose by their embedded rows.
 
     Everything that can be wrong with the input is found here, before anything is measured.
     """
@@ -105,15 +109,17 @@ def bench(
         if target not in TARGETS:
             raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(TARGETS)}")
     setting = scenes.load(scene)
-    chosen, others = methods_for(setting, methods), find(peers)
+    chosen = () if adaptive and not methods else methods_for(setting, methods)
+    choosing, others = methods_for(setting, adaptive) if adaptive else (), find(peers)
     folder = _folder(output)
     tell(f"{setting.name}: reference solution")
     exact = remembered(setting)
     ours: list[Contestant] = []
-    for method in chosen:
+    kinds = ((EmittedContestant, chosen), (AdaptiveContestant, choosing))
+    for kind, method in ((kind, m) for kind, group in kinds for m in group):
         for target in dict.fromkeys(targets):
             tell(f"{setting.name}: emitting {method.label}")
-            ours.append(EmittedContestant(setting, method, exact, target, budget))
+            ours.append(kind(setting, method, exact, target, budget))
     theirs = [PeerContestant(setting, peer, exact, budget) for peer in others]
     return Bench(setting, exact, (*ours, *theirs), folder)
 

@@ -167,11 +167,15 @@ class EmittedContestant:
                 raise RunFailed("the final state is not finite")
         except RunFailed as failure:
             return self._row(control, h, steps, failure=str(failure))
-        spent = samples(lambda: self.runner.final(steps))
-        if spent[0] < COUNTED:  # the call itself counts; the least ever seen is what it costs
-            self.idle = min(self.idle, cost(lambda: self.runner.final(0)))
-        times = [s - min(self.idle, s) for s in spent]
+        times = self._net(samples(lambda: self.runner.final(steps)), lambda: self.runner.final(0))
         return self._row(control, h, steps, error, times, statistics)
+
+    def _net(self, spent: Sequence[float], nothing: Callable[[], object]) -> list[float]:
+        """Return times without what a call costs, the least seen of ``nothing``, where that counts."""
+        if spent[0] >= COUNTED:
+            return list(spent)
+        self.idle = min(self.idle, cost(nothing))
+        return [s - min(self.idle, s) for s in spent]
 
     def enough(self, rows: Sequence[Row]) -> bool:
         """Stop at the budget, and when two doublings in a row gain little near rounding."""

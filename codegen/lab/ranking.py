@@ -26,6 +26,7 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
     The ladder is read from its smallest error towards the coarse end, as far as errors stay within the asked
     one, so that an error which is small by accident on a coarse rung wins nothing. Between the two rungs on
     either side logarithms are interpolated; a ladder that starts below the error takes its first rung's time.
+    A finer rung that took less time serves too, so that a larger error is never reached later.
 
     >>> from codegen.lab.contest import Row
     >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)
@@ -33,19 +34,21 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
     2.0
     >>> seconds_to([row(1e-2, 1.0)], 1e-3) is None
     True
+    >>> seconds_to([row(1e-2, 8.0), row(1e-4, 4.0), row(1e-5, 3.0)], 1e-3)
+    3.0
     """
     good = [r for r in rows if r.error is not None and r.seconds]
     if not good or _error(min(good, key=_error)) > error:
         return None
-    k = good.index(min(good, key=_error))
+    finest = k = good.index(min(good, key=_error))
     while k > 0 and _error(good[k - 1]) <= error:
         k -= 1
+    least = min(_time(r) for r in good[k : finest + 1])
     if k == 0 or _error(good[k]) == 0:
-        return _time(good[k])
+        return least
     a, b = good[k - 1], good[k]
     part = math.log(_error(a) / error) / math.log(_error(a) / _error(b))
-    seconds: float = _time(a) * (_time(b) / _time(a)) ** part
-    return seconds
+    return min(least, float(_time(a) * (_time(b) / _time(a)) ** part))
 
 
 def _error(row: Row) -> float:

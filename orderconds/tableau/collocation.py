@@ -11,6 +11,11 @@ first, last column  C(s - 1), with a_i1 = b_1 (IIIC) or a_is = 0 (IIIC*, Butcher
 mean                of two of the others (IIID: IIIC and IIIC*; IIIE: IIIA and IIIB)
 ==================  ======================================================================================
 
+Two kinds come with an embedded row to choose steps by: the quadrature of order s - 1 that leaves one node
+out, the last of Radau IIA and the middle one of Lobatto IIIA (of two the first). It differs from b by a
+multiple of the stages' divided difference. Stages of collocation stay accurate where the equation is stiff,
+and with them this estimate; that of methods of low stage order does not.
+
 No coefficient is typed in: nodes are algebraic numbers, and the rest is rational arithmetic with them.
 
 Sources: Hairer and Wanner, *Solving Ordinary Differential Equations II*, Section IV.5; Jay, *Lobatto
@@ -30,7 +35,7 @@ from orderconds.ring.decimals import endpoints
 from orderconds.ring.field import Algebraic
 from orderconds.ring.roots import real_roots
 from orderconds.ring.tower import DegreeError, Tower
-from orderconds.tableau.methods import RungeKutta
+from orderconds.tableau.methods import Embedded, RungeKutta
 from orderconds.tableau.record import Tableau
 
 Matrix = list[list[Algebraic]]
@@ -77,6 +82,18 @@ class Nodes:
             result = (result + self.lagrange[j][k] * self.tower.rational(1, k + 1)) * x
         return result
 
+    def without(self, left_out: int) -> list[Algebraic]:
+        """Return the weights of the quadrature on the other nodes, zero for the one left out.
+
+        They differ from b by a multiple of the leading coefficients of l_1, ..., l_s.
+
+        >>> Nodes(3, True, True).without(1)
+        [Algebraic(1/2), Algebraic(0), Algebraic(1/2)]
+        """
+        leading = [polynomial[-1] for polynomial in self.lagrange]
+        share = self.b[left_out] / leading[left_out]
+        return [x - share * y for x, y in zip(self.b, leading, strict=True)]
+
     def rows(self) -> Matrix:
         """Return the A of C(s)."""
         return [[self.integral(j, x) for j in range(self.s)] for x in self.c]
@@ -106,6 +123,16 @@ class Nodes:
         return self.column(self.s - 1, self.tower.field.zero)
 
 
+def last(s: int) -> int:
+    """Return the place of the last node."""
+    return s - 1
+
+
+def middle(s: int) -> int:
+    """Return the place of the middle node, the first of two."""
+    return (s - 1) // 2
+
+
 def mean(one: Callable[[Nodes], Matrix], other: Callable[[Nodes], Matrix]) -> Callable[[Nodes], Matrix]:
     """Return the rule that takes the mean of two matrices.
 
@@ -124,12 +151,16 @@ def mean(one: Callable[[Nodes], Matrix], other: Callable[[Nodes], Matrix]) -> Ca
 
 @dataclass(frozen=True)
 class Kind:
-    """Whether 0 and 1 are nodes, the rule for A, and the name; the order is 2s less one for each end."""
+    """Whether 0 and 1 are nodes, the rule for A, and the name; the order is 2s less one for each end.
+
+    ``left_out`` gives, by the number of stages, the node that the embedded row leaves out.
+    """
 
     left: bool
     right: bool
     matrix: Callable[[Nodes], Matrix]
     called: str
+    left_out: Callable[[int], int] | None = None
 
     @property
     def least(self) -> int:
@@ -144,8 +175,8 @@ class Kind:
 KINDS = {
     "gauss": Kind(False, False, Nodes.rows, "Gauss"),
     "radau1a": Kind(True, False, Nodes.columns, "Radau IA"),
-    "radau2a": Kind(False, True, Nodes.rows, "Radau IIA"),
-    "lobatto3a": Kind(True, True, Nodes.rows, "Lobatto IIIA"),
+    "radau2a": Kind(False, True, Nodes.rows, "Radau IIA", last),
+    "lobatto3a": Kind(True, True, Nodes.rows, "Lobatto IIIA", middle),
     "lobatto3b": Kind(True, True, Nodes.columns, "Lobatto IIIB"),
     "lobatto3c": Kind(True, True, Nodes.first_column, "Lobatto IIIC"),
     "lobatto3c_star": Kind(True, True, Nodes.last_column, "Lobatto IIIC*"),
@@ -153,6 +184,9 @@ KINDS = {
     "lobatto3e": Kind(True, True, mean(Nodes.rows, Nodes.columns), "Lobatto IIIE"),
 }
 """What can be constructed."""
+
+LEAST_WITH_ROW = 3
+"""The fewest stages that leave a quadrature worth comparing with when one is left out."""
 
 
 def construct(kind: str, s: int) -> Tableau:
@@ -177,7 +211,11 @@ def construct(kind: str, s: int) -> Tableau:
         ) from None
     ring, lift = nodes.tower.ring()
     A = tuple(tuple(lift(x) for x in row) for row in rule.matrix(nodes))
-    return Tableau(f"{kind}{s}", "rk", ring, RungeKutta(A, tuple(lift(x) for x in nodes.b)))
+    method = RungeKutta(A, tuple(lift(x) for x in nodes.b))
+    if rule.left_out is None or s < LEAST_WITH_ROW:
+        return Tableau(f"{kind}{s}", "rk", ring, method)
+    row = tuple(lift(x) for x in nodes.without(rule.left_out(s)))
+    return Tableau(f"{kind}{s}", "rk", ring, method, embedded=Embedded(row, s - 1))
 
 
 def nodal_polynomial(s: int, left: bool, right: bool) -> fmpq_poly:

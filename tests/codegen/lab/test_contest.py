@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import csv
 import json
+from collections.abc import Iterator
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 
@@ -12,17 +14,30 @@ from click.testing import CliRunner
 
 from codegen import scenes
 from codegen.commands.bench import command
+from codegen.lab import adaptive, contest, timing
+from codegen.lab.adaptive import AdaptiveContestant
 from codegen.lab.bench import Bench, bench, table
 from codegen.lab.contest import Contestant, EmittedContestant, Row
 from codegen.lab.journal import Journal
 from codegen.lab.peers import PeerFailed, Prepared, find
 from codegen.lab.ranking import places, seconds_to
+from codegen.lab.reference import Reference
 from codegen.lab.remembered import remembered
 from codegen.lab.study import methods_for
 from orderconds.errors import InputError
 
 FIELDS = {"scene", "method", "target", "h", "steps", "error", "seconds", "ns_per_step", "evaluations"}
 """What the JSON of ``bench`` promises."""
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _short_samples() -> Iterator[None]:
+    """Times of a bench are coarse here: nothing but their order of magnitude is looked at."""
+    with pytest.MonkeyPatch.context() as patch:
+        for module in (contest, adaptive):
+            patch.setattr(module, "samples", partial(timing.samples, batch=2e-4, batches=2))
+        patch.setattr(contest, "cost", partial(timing.cost, batch=2e-4, batches=2))
+        yield
 
 
 @pytest.fixture(scope="module")
@@ -191,6 +206,56 @@ def test_bad_input_is_one_error(arguments: list[str], message: str) -> None:
     done = CliRunner().invoke(command, arguments, standalone_mode=False)
     assert isinstance(done.exception, InputError)
     assert message in str(done.exception)
+
+
+def test_a_method_that_chooses_its_steps_stands_beside_those_of_equal_steps() -> None:
+    """The mean step is the span over the steps made; refused ones are paid for in evaluations."""
+    match = bench("free_rigid_body", [], ["c"], [], 1e-4, None, str, ["ambient:lobatto3a4"])
+    rows = match.run(str).rows
+    assert {r.method for r in rows} == {"adaptive ambient:lobatto3a4"}
+    assert [r.control for r in rows] == sorted((r.control for r in rows), reverse=True)
+    good = [r for r in rows if r.error is not None]
+    assert good
+    for row in good:
+        assert row.steps is not None
+        assert row.h == 2.0 / row.steps
+        assert (row.evaluations or 0) >= 4 * row.steps
+        assert row.seconds
+
+
+@pytest.fixture
+def stiff() -> AdaptiveContestant:
+    """The stiff spin by an implicit method of order six, beside DOP853 at a tight tolerance."""
+    scene = scenes.load("stiff_driven_spin")
+    (peer,), (method,) = find(["c-dop853"]), methods_for(scene, ["ambient:lobatto3a4"])
+    return AdaptiveContestant(
+        scene, method, Reference(scene.name, peer.prepare(scene, 1e-12).run().state, 1e-11)
+    )
+
+
+def test_stiff_equations_are_solved_in_steps_that_the_fast_rates_do_not_bound(
+    stiff: AdaptiveContestant,
+) -> None:
+    """At rates of 2000 over a span of 5 an explicit method needs more than 1500 steps, whatever is asked."""
+    row = stiff.measure(1e-3)
+    assert (row.error or 1.0) < 1e-6
+    assert (row.steps or 60) < 60
+    failed = stiff.measure(1e-30)
+    assert failed.error is None
+    assert "tolerance" in failed.failure
+
+
+def test_what_is_no_estimate_cannot_choose_steps() -> None:
+    with pytest.raises(InputError, match="embedded row"):
+        bench("free_rigid_body", [], ["c"], [], 1e-4, None, str, ["ambient:gauss2"])
+
+
+def test_a_long_run_is_timed_though_no_short_one_was_before() -> None:
+    """What a call costs is not known then, and must not be taken for all of the time."""
+    scene = scenes.load("free_rigid_body")
+    (method,) = methods_for(scene, ["cf:cf4"])
+    row = EmittedContestant(scene, method, remembered(scene)).measure(65536.0)
+    assert row.seconds
 
 
 def test_a_contestant_and_a_peer_have_one_face(body: Bench) -> None:

@@ -12,6 +12,7 @@ from orderconds.families import get
 from orderconds.proof.simplifying import simplifying
 from orderconds.tableau import RungeKutta, Tableau, available, dumps, find
 from orderconds.tableau.collocation import KINDS, construct
+from orderconds.tableau.methods import Embedded
 from orderconds.tableau.properties import properties
 
 SMALL = [(kind, s) for kind in KINDS for s in range(KINDS[kind].least, 5)]
@@ -60,9 +61,26 @@ def test_symplectic_kinds(kind: str) -> None:
 
 @pytest.mark.parametrize(("kind", "s"), SHIPPED)
 def test_the_files_of_the_library_are_what_is_constructed(kind: str, s: int) -> None:
-    filed, made = Tableau.load(find(f"{kind}{s}")).method, construct(kind, s).method
-    assert isinstance(filed, RungeKutta)
-    assert filed == made
+    filed, made = Tableau.load(find(f"{kind}{s}")), construct(kind, s)
+    assert isinstance(filed.method, RungeKutta)
+    assert filed.method == made.method
+    assert filed.embedded in (None, made.embedded)
+
+
+@pytest.mark.parametrize(("kind", "s"), [("radau2a", 3), ("radau2a", 4), ("lobatto3a", 3), ("lobatto3a", 4)])
+def test_the_embedded_row_integrates_polynomials_below_its_order_and_no_more(kind: str, s: int) -> None:
+    tableau = construct(kind, s)
+    ring, method, row = tableau.ring, tableau.method, tableau.embedded
+    assert isinstance(method, RungeKutta)
+    assert isinstance(row, Embedded)
+    assert row.order == s - 1
+    powers, defects = [ring.one] * s, []
+    for k in range(s):
+        moment = sum((w * x for w, x in zip(row.b, powers, strict=True)), ring.zero)
+        defects.append(ring.is_zero(moment - ring.rational(1, k + 1)))
+        powers = [x * c for x, c in zip(powers, method.c, strict=True)]
+    assert defects == [True] * (s - 1) + [False]
+    assert [ring.is_zero(w) for w in row.b].count(True) == 1
 
 
 def test_the_library_has_five_stages_of_each_kind_that_is_in_use() -> None:
