@@ -14,9 +14,10 @@ order ``undecided`` and its certificate ``none``; one that excludes zero proves 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Context, Decimal
+from functools import partial
 from itertools import chain, islice
 from math import factorial
 from os import PathLike
@@ -27,7 +28,7 @@ from orderconds import families
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
 from orderconds.families import Family
-from orderconds.ring import Element, Ring
+from orderconds.ring import Balls, Element, Ring
 from orderconds.served import served, unclaimed
 from orderconds.tableau import Magnus, RungeKutta, Splitting, Tableau, find
 from orderconds.tableau.properties import properties, undecided
@@ -36,6 +37,7 @@ from orderconds.tableau.work import Work, work
 if TYPE_CHECKING:
     from orderconds.proof.certificate import Certificate
     from orderconds.proof.implications import Fact
+    from orderconds.proof.reductions import Reductions
 
 RESOLUTION = Decimal("1e-3")
 """A ball supports a condition of order n only when its radius is at most this part of 1/n!, the smallest
@@ -53,6 +55,9 @@ FREE_STAGES = ("rk", "cg", "cf", "rkmk")
 EXHAUSTIVE = 2000
 """An order with more conditions than this is evaluated in batches, the simplest trees first, up to the first
 batch in which one fails; those that fail in it are named, and the error norm is left out."""
+
+Tree = tuple[Any, Callable[[], OrderCondition]]
+"""A family's own encoding of a tree, and its condition, made where it is evaluated."""
 
 
 @dataclass(frozen=True)
@@ -261,7 +266,11 @@ def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | Non
     claimed, own = tableau.embedded.order, "cf" if lower.family == "cf" else "rk"
     asked = {family.label(): family for family in wanted if family.name in FREE_STAGES}
     asked = {"rk": families.get("rk"), own: families.get(own)} | asked
-    found = {label: family_order(lower, family, claimed) for label, family in asked.items()}
+    found: dict[str, FamilyOrder] = {}
+    for label, family in asked.items():
+        known = list(found.values())
+        bound = None if label == own else _bound(family, known)
+        found[label] = family_order(lower, family, claimed, None, bound, _proved(known), brief=True)
     orders = {label: family.order for label, family in found.items()}
     return EmbeddedOrder(claimed, orders, own, found[own].failing)
 
@@ -292,7 +301,8 @@ def _orders(
         known = _settled(tableau, family, found, facts)
         if known is None:
             bound = _bound(family, found)
-            known = _certified(family_order(tableau, family, claimed, required, bound), family, facts)
+            order = family_order(tableau, family, claimed, required, bound, _proved(found))
+            known = _certified(order, family, facts)
         else:
             known = replace(known, claimed=claimed, required=required)
         found.append(known)
@@ -317,6 +327,11 @@ def _bound(family: Family, found: Sequence[FamilyOrder]) -> FamilyOrder | None:
     among = consequences([(family.label(), 1)])
     bounds = [f for f in found if f.family in among and f.decided and f.failing]
     return min(bounds, key=lambda f: f.order, default=None)
+
+
+def _proved(found: Sequence[FamilyOrder]) -> dict[str, int]:
+    """Return the orders, by label, that are more than what rounded decimals support."""
+    return {f.family: f.order for f in found if f.decided and f.certificate != "decimal"}
 
 
 def _limit(family: Family) -> int:
@@ -364,11 +379,15 @@ def family_order(
     claimed: int | None = None,
     required: int | None = None,
     bound: FamilyOrder | None = None,
+    proved: Mapping[str, int] | None = None,
+    brief: bool = False,
 ) -> FamilyOrder:
     """Find the order of ``tableau`` in ``family``: evaluate orders 1, 2, ... until a condition fails.
 
     An order at the family's limit is not exceeded where ``bound``, the order in a family whose conditions
-    are among its own, says so.
+    are among its own, says so, and with ``brief`` no order is: the conditions that fail are then those of
+    ``bound``. Conditions that follow from others, and from the orders ``proved`` in other
+    families, are not evaluated (:mod:`orderconds.proof.reductions`).
 
     >>> from orderconds.tableau import find
     >>> kutta3 = Tableau.load(find("kutta3"))
@@ -379,16 +398,21 @@ def family_order(
     method = _method(tableau, family)
     if hasattr(family, "require"):
         family.require(method, tableau.ring)
-    return _search(family, method, tableau.ring, claimed, required, bound)
+    from orderconds.proof.reductions import reductions
+
+    spared = reductions(family, method, tableau.ring, proved or {})
+    return _search(family, method, tableau.ring, spared, claimed, required, bound, brief)
 
 
 def _search(
     family: Family,
     method: Any,
     ring: Ring,
+    spared: Reductions,
     claimed: int | None = None,
     required: int | None = None,
     bound: FamilyOrder | None = None,
+    brief: bool = False,
 ) -> FamilyOrder:
     limit = max(_limit(family), (claimed or 0) + 1, (required or 0) + 1)
     certificate = "exact"
@@ -396,8 +420,11 @@ def _search(
         failing: tuple[Failure, ...] = ()
         verdicts: set[str] = set()
         whole = True
-        for batch, every in _batches(family, n):
+        # Of balls a theorem may not say more than they do: that digits support an order.
+        known = certificate == "decimal" or not isinstance(ring, Balls)
+        for trees, every in () if spared.order_follows(n) else _batches(family, n):
             whole = every
+            batch = tuple(condition() for key, condition in trees if not (known and spared.follows(n, key)))
             residuals = families.residuals(family, method, ring, batch)
             judged = [_judge(ring, residual, n) for residual in residuals]
             verdicts.update(judged)
@@ -406,7 +433,7 @@ def _search(
                 for condition, residual, verdict in zip(batch, residuals, judged, strict=True)
                 if verdict == "fails"
             )
-            if failing:
+            if failing or (not every and set(judged) == {"zero"} and spared.rest_follows(n)):
                 break
         if failing or "undecided" in verdicts:
             decided, norm = bool(failing), None
@@ -416,33 +443,37 @@ def _search(
             return FamilyOrder(family.label(), n - 1, certificate, decided, failing, norm, claimed, required)
         if "supported" in verdicts:
             certificate = "decimal"
-        if bound is not None and n == bound.order >= _limit(family):
+        if bound is not None and n == bound.order and (brief or n >= _limit(family)):
             return FamilyOrder(family.label(), n, certificate, True, bound.failing, None, claimed, required)
     return FamilyOrder(family.label(), limit, certificate, True, (), None, claimed, required, limit)
 
 
-def _batches(family: Family, n: int) -> Iterator[tuple[tuple[OrderCondition, ...], bool]]:
-    """Yield the conditions that decide order n at once (True), or very many in batches that double.
+def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
+    """Yield what decides order n at once (True), or very much in batches that double, which share an engine's
+    work.
 
-    An independent set, or every condition where a set costs more. Batches share the work of an engine.
+    An independent set, or every tree where a set costs more.
     """
-    conditions = _in_turn(family, n)
-    first = tuple(islice(conditions, EXHAUSTIVE + 1))
+    trees = _in_turn(family, n)
+    first = tuple(islice(trees, EXHAUSTIVE + 1))
     if len(first) <= EXHAUSTIVE:
         yield first, True
         return
-    conditions, size = chain(first, conditions), EXHAUSTIVE // 10
-    while batch := tuple(islice(conditions, size)):
+    trees, size = chain(first, trees), EXHAUSTIVE // 10
+    while batch := tuple(islice(trees, size)):
         yield batch, False
         size *= 2
 
 
-def _in_turn(family: Family, n: int) -> Iterator[OrderCondition]:
+def _in_turn(family: Family, n: int) -> Iterator[Tree]:
     if hasattr(family, "decisive_in_turn"):
-        lazy: Iterator[OrderCondition] = family.decisive_in_turn(n)
-        return lazy
+        return ((tree, partial(family.condition, tree)) for tree in family.decisive_in_turn(n))  # type: ignore[attr-defined]
     found: tuple[OrderCondition, ...] = getattr(family, "decisive_conditions", family.conditions)(n)
-    return iter(found)
+    return ((condition.key, partial(_made, condition)) for condition in found)
+
+
+def _made(condition: OrderCondition) -> OrderCondition:
+    return condition
 
 
 def _norm(decimals: list[str]) -> float:

@@ -58,12 +58,12 @@ class ActionFamily(ABC):
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the independent conditions of exactly this order, simplest trees preferred."""
-        return tuple(map(self._condition, _independent(self, order)[-1]))
+        return tuple(map(self.condition, _independent(self, order)[-1]))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return every tree's condition of exactly this order, simplest first, dependent ones related."""
         related = _relations(self, order)
-        return tuple(replace(self._condition(tree), relation=related.get(tree)) for tree in velocities(order))
+        return tuple(replace(self.condition(tree), relation=related.get(tree)) for tree in velocities(order))
 
     def relations(self, order: int) -> dict[Velocity, Polynomial]:
         """Return what each dependent tree's left-hand side, as printed, equals in those of independent trees.
@@ -84,11 +84,11 @@ class ActionFamily(ABC):
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return conditions that imply all of this order: the simplest of each root-switching class."""
-        return tuple(map(self._condition, representatives(order)))
+        return tuple(map(self.condition, representatives(order)))
 
-    def decisive_in_turn(self, order: int) -> Iterator[OrderCondition]:
-        """Yield the decisive conditions, each made when it is asked for."""
-        return (self._condition(of_class[0]) for of_class in classes_in_turn(order))
+    def decisive_in_turn(self, order: int) -> Iterator[Velocity]:
+        """Yield the trees of the decisive conditions."""
+        return (of_class[0] for of_class in classes_in_turn(order))
 
     def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
         """Return the left-hand sides, as printed, for a method with coefficients in ``ring``."""
@@ -99,7 +99,8 @@ class ActionFamily(ABC):
         """Return the elementary Hamiltonian whose coefficient a condition fixes."""
         return hamiltonian(condition.key)
 
-    def _condition(self, tree: Velocity) -> OrderCondition:
+    def condition(self, tree: Velocity) -> OrderCondition:
+        """Return the condition of a tree."""
         return OrderCondition(
             family=self.label(),
             order=tree.vertices,

@@ -74,13 +74,25 @@ def weight_conditions(
     >>> [str(condition) for condition in weight_conditions("sprk", directed_free_trees(2), text)]
     ['sum_i b_i c_i = 1/2']
     """
-    found = [
-        OrderCondition(
-            family, len(tree), text(tree), partial(formula, tree), Fraction(1, density(tree)), tree
-        )
-        for tree in trees
-    ]
+    found = [weight_condition(family, tree, text, formula) for tree in trees]
     return tuple(found) if switching is None else with_relations(found, switching, text)
+
+
+def weight_condition(
+    family: str,
+    tree: DirectedTree,
+    text: Callable[[DirectedTree], str],
+    formula: Callable[[DirectedTree], Formula] = weight,
+) -> OrderCondition:
+    """Return the condition ``weight = 1/gamma`` of one tree.
+
+    >>> from orderconds.trees.directed import text
+    >>> print(weight_condition("sprk", bytes((0, 3)), text))
+    sum_i b_i chat_i = 1/2
+    """
+    return OrderCondition(
+        family, len(tree), text(tree), partial(formula, tree), Fraction(1, density(tree)), tree
+    )
 
 
 def _summed(

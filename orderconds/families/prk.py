@@ -5,11 +5,17 @@ A single tableau is read as the pair of it with itself.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from orderconds.conditions import OrderCondition
-from orderconds.families.elementary_weights import WEIGHTS, kept_branches, weight, weight_conditions
+from orderconds.families.elementary_weights import (
+    WEIGHTS,
+    kept_branches,
+    weight,
+    weight_condition,
+    weight_conditions,
+)
 from orderconds.formula import Formula
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.b_series import ElementaryWeights
@@ -45,6 +51,14 @@ class PartitionedFamily:
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the same conditions."""
         return self.conditions(order)
+
+    def decisive_in_turn(self, order: int) -> Iterator[BicolouredTree]:
+        """Yield the trees of this order."""
+        return bicoloured.bicoloured_rooted_trees(order)
+
+    def condition(self, tree: BicolouredTree) -> OrderCondition:
+        """Return the condition of a tree."""
+        return weight_condition(self.name, tree, bicoloured.text, rooted_weight)
 
     def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
         """Return elementary weights; ``method`` has ``A``, ``b`` and perhaps ``A_hat``, ``b_hat``."""

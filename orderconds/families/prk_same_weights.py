@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
-from orderconds.families.elementary_weights import kept_branches, weight_conditions
+from orderconds.families.elementary_weights import kept_branches, weight_condition, weight_conditions
 from orderconds.families.prk import PartitionedFamily
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.b_series import ElementaryWeights
@@ -28,6 +28,14 @@ class SameWeightsFamily(PartitionedFamily):
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of this order, one a rooted tree with edges of two kinds."""
         return weight_conditions(self.name, directed.directed_rooted_trees(order), directed.text)
+
+    def decisive_in_turn(self, order: int) -> Iterator[DirectedTree]:
+        """Yield the trees of this order."""
+        return directed.directed_rooted_trees_in_turn(order)
+
+    def condition(self, tree: DirectedTree) -> OrderCondition:
+        """Return the condition of a tree."""
+        return weight_condition(self.name, tree, directed.text)
 
     def require(self, method: Any, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` unless b = bhat."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import factorial, prod
 
-from orderconds.trees.directed import branches, directed_rooted_trees, joined
+from orderconds.trees.directed import branches, directed_rooted_trees_in_turn, joined
 from orderconds.trees.free import free_trees
 from orderconds.trees.levels import Tree
 
@@ -25,7 +25,7 @@ def bicoloured_rooted_trees(vertices: int) -> Iterator[BicolouredTree]:
     ['[.]', '[o]', '(.)', '(o)']
     """
     for colour in (0, 1):
-        for tree in directed_rooted_trees(vertices):
+        for tree in directed_rooted_trees_in_turn(vertices):
             yield coloured(colour, tree)
 
 

@@ -86,9 +86,17 @@ def directed_rooted_trees(vertices: int) -> tuple[DirectedTree, ...]:
     >>> [text(tree) for tree in directed_rooted_trees(3)]
     ['[[.]]', '[[^.]]', '[^[.]]', '[^[^.]]', '[..]', '[^..]', '[^.^.]']
     """
-    if vertices < 1:
-        return ()
-    return tuple(joined(below) for below in _multisets(vertices - 1, vertices - 1))
+    return tuple(directed_rooted_trees_in_turn(vertices))
+
+
+def directed_rooted_trees_in_turn(vertices: int) -> Iterator[DirectedTree]:
+    """Yield the same trees; the first come before the others have been made.
+
+    >>> text(next(directed_rooted_trees_in_turn(50))).count("[")
+    49
+    """
+    if vertices >= 1:
+        yield from (joined(below) for below in _multisets_in_turn(vertices - 1, vertices - 1))
 
 
 def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
@@ -164,14 +172,25 @@ def _simplicity(tree: DirectedTree) -> tuple[int, int, int]:
 @lru_cache(maxsize=256)
 def _multisets(vertices: int, largest: int) -> tuple[list[Branch], ...]:
     """Return all multisets of branches with this many vertices in all, none with more than ``largest``."""
+    return tuple(_multisets_in_turn(vertices, largest))
+
+
+def _multisets_in_turn(vertices: int, largest: int) -> Iterator[list[Branch]]:
     if vertices == 0:
-        return ([],)
+        yield []
+        return
     if largest == 0:
-        return ()
-    single = [(kind, tree) for kind in (0, 1) for tree in directed_rooted_trees(largest)]
-    return tuple(
-        [*chosen, *rest]
-        for times in range(vertices // largest, -1, -1)
-        for chosen in combinations_with_replacement(single, times)
-        for rest in _multisets(vertices - times * largest, largest - 1)
-    )
+        return
+    for times in range(vertices // largest, -1, -1):
+        rests = (
+            None
+            if times == 1 and vertices == largest
+            else _multisets(vertices - times * largest, largest - 1)
+        )
+        if rests is None:
+            yield from ([(kind, tree)] for kind in (0, 1) for tree in directed_rooted_trees_in_turn(largest))
+            continue
+        single = [(kind, tree) for kind in (0, 1) for tree in directed_rooted_trees(largest)] if times else []
+        for chosen in combinations_with_replacement(single, times):
+            for rest in rests:
+                yield [*chosen, *rest]
