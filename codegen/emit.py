@@ -19,13 +19,13 @@ from codegen.emission import Emission, digest
 from codegen.ir.domain import FloatDomain
 from codegen.ir.kernel import Kernel, Loop
 from codegen.ir.program import Program
-from codegen.lower import families_for, lower, setting
+from codegen.lower import families_for, lower, lower_composed, setting
 from codegen.lower.kernel import to_kernel
 from codegen.lower.solver import AUTO, Choice, known_solver, solved
 from codegen.lower.variants import fastest
 from codegen.lower.variation import Variations
 from codegen.method import Method, parse
-from codegen.passes import PassReport, optimise
+from codegen.passes import Optimiser, PassReport, optimise
 from codegen.printers import target as printer_of
 from codegen.printers.arrange import arrange
 from codegen.printers.interface import Interface
@@ -78,7 +78,7 @@ class Compiled(Optimised):
 def optimise_method(scene: Setting, method: Method) -> Optimised:
     """Return a method on a scene lowered and optimised, for groups without closed forms as well."""
     view, lowered = setting(scene, method), lower(scene, method)
-    program, trace = optimise(lowered, view)
+    program, trace = optimise(lowered, view, composed=lower_composed(scene, method))
     return Optimised(scene, method, view, lowered, program, trace)
 
 
@@ -115,9 +115,9 @@ def compile_method(
         method = replace(method, adaptive=True)
     view = setting(scene, method)
     lowered = lower(scene, method)
+    passes = Optimiser(lowered, view, lower_composed(scene, method))
     candidates = []
-    for framed in (False, True) if view.has_body else (False,):
-        program, trace = optimise(lowered, view, framed=framed)
+    for program, trace in (passes.plain(), *([passes.framed()] if view.has_body else [])):
         kernel = fastest(program, view)
         candidates.append(Compiled(scene, method, view, lowered, program, trace, kernel))
     best = min(candidates, key=lambda c: work(c.kernel))
@@ -136,10 +136,10 @@ def compile_method(
 
 def work(kernel: Kernel) -> int:
     """Return about what a step costs, in additions: five sweeps over each block and the rest once."""
-    total = 0
+    total, sweeps = 0, SWEEPS * max(1, len(kernel.substeps))
     for key, counts in operations(arrange(kernel)).items():
         cost = sum(n * WEIGHTS.get(name, 1 if name in ("add", "mul") else 12) for name, n in counts.items())
-        total += cost * (1 if key == STEP else SWEEPS)
+        total += cost * (1 if key == STEP else sweeps)
     return total
 
 
@@ -219,6 +219,7 @@ def emit_compiled(
             ("order", order.text()),
             ("scene", f"{scene.title}, group {scene.group.name}"),
             *((("flows", flows_of(compiled.view)),) if compiled.view.flows else ()),
+            *((("substeps", substeps_of(compiled.kernel)),) if compiled.kernel.substeps else ()),
             *(("solved by", choice.text()) for choice in compiled.solvers),
             *((("precision", SINGLE_IS),) if single else ()),
             *((("steps", steps_of(compiled.kernel)),) if method.adaptive else ()),
@@ -283,6 +284,12 @@ def steps_of(kernel: Kernel) -> str:
         f"of one size, or chosen by the embedded row, whose estimate is O(h^{kernel.estimate.order}), and a "
         "proportional-integral controller"
     )
+
+
+def substeps_of(kernel: Kernel) -> str:
+    """Say which shorter steps make a step."""
+    each = ", ".join(f"{float(step.fraction):.6g}" for step in kernel.substeps)
+    return f"{len(kernel.substeps)}, all made by one function, of {each} times h"
 
 
 def start_of(scene: Setting) -> tuple[float, ...]:

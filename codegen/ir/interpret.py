@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import copy
+from dataclasses import replace
 from typing import Any, Protocol
 
 from codegen.ir.domain import Domain, NotConverged
@@ -92,14 +94,19 @@ def interpret(
     *,
     limit: int = 400,
     newton: bool = True,
+    solutions: dict[Var, Any] | None = None,
 ) -> dict[str, Any]:
     """Return the new state after one step, by input name.
 
     ``inputs`` gives every input of the program: a Real is a scalar of the domain, anything else a flat tuple
     of scalars (group elements row by row). Blocks are iterated until the domain says they stand still; one
     that takes long or fails is solved by Newton's method with difference quotients where the domain has them
-    (and ``newton``). After ``limit`` sweeps of either :class:`NotConverged` names the block.
+    (and ``newton``). After ``limit`` sweeps of either :class:`NotConverged` names the block. ``solutions``
+    are what unknowns are expected to be, to begin with; they receive what was found.
     """
+    if program.substeps:
+        return _composed(program, setting, domain, inputs, limit, newton)
+    expected = {} if solutions is None else solutions
     env: dict[Var, Any] = {v: inputs[v.name] for v in program.inputs}
 
     def run(assign: Assign) -> None:
@@ -112,17 +119,34 @@ def interpret(
         else:
             patience = getattr(domain, "patience", limit) if newton else limit
             try:
-                _iterate(statement, env, domain, run, min(limit, patience))
+                _iterate(statement, env, domain, run, min(limit, patience), expected)
             except (ArithmeticError, ValueError):
                 if not newton or not hasattr(domain, "increment"):
                     raise
                 _correct(statement, env, domain, run, limit)
+            expected.update((unknown, env[unknown]) for unknown in statement.unknowns)
     return {name: env[var] for name, var in program.outputs}
 
 
-def _iterate(block: Solve, env: dict[Var, Any], domain: Domain, run: Any, limit: int) -> None:
+def _composed(
+    program: Program, setting: Setting, domain: Domain, inputs: Mapping[str, Any], limit: int, newton: bool
+) -> dict[str, Any]:
+    """Return the new state after all substeps."""
+    once, state = replace(program, substeps=()), dict(inputs)
+    for step in program.substeps:
+        shorter = copy(domain)
+        shorter.h = domain.number(step.fraction) * domain.h
+        if "t" in inputs:
+            state["t"] = inputs["t"] + domain.number(step.offset) * domain.h
+        state |= interpret(once, setting, shorter, state, limit=limit, newton=newton)
+    return {name: state[name] for name, _ in program.outputs}
+
+
+def _iterate(
+    block: Solve, env: dict[Var, Any], domain: Domain, run: Any, limit: int, expected: Mapping[Var, Any]
+) -> None:
     for unknown, start in zip(block.unknowns, block.starts, strict=True):
-        env[unknown] = env[start]
+        env[unknown] = expected.get(unknown, env[start])
     size: Any = None
     for _ in range(limit):
         for assign in block.body:

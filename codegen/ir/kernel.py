@@ -15,6 +15,7 @@ from typing import ClassVar
 
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
+from codegen.ir.program import Substep
 
 LEAD = "lead.h"
 """How long the last flow of a step lasts; no name that a user can give."""
@@ -214,7 +215,8 @@ class Kernel:
 
     ``inputs`` names functions of time that the caller supplies, ``samples`` are the times they are read at.
     ``vary`` carries a variation along: its state is this one's and then the variation, its outputs are the
-    variation of the new state.
+    variation of the new state. With ``substeps`` this is one of the parts of a step, all alike: h and t are
+    those of the part.
     """
 
     name: str
@@ -227,6 +229,7 @@ class Kernel:
     samples: tuple[Sample, ...] = ()
     estimate: Estimate | None = None
     vary: Kernel | None = None
+    substeps: tuple[Substep, ...] = ()
 
     @property
     def loops(self) -> tuple[Loop, ...]:

@@ -35,29 +35,36 @@ class _Dual:
     slopes: dict[int, Pair]
 
 
-def first_order_jacobian(roots: Sequence[Expr], unknowns: Sequence[str]) -> list[list[Expr]]:
-    """Return the derivatives of roots by the unknowns up to h^1, a row a root.
-
-    :class:`NotLinearised` where a root has no expansion at h = 0 that the rules here find.
+class FirstOrder:
+    """Derivatives of expressions by the unknowns up to h^1; what several share is expanded once.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x, h = s.sym("x"), s.sym("h")
-    >>> first_order_jacobian([x * x * h + h * h * x + x], ["x"])
+    >>> FirstOrder(["x"]).jacobian([x * x * h + h * h * x + x])
     [[(1 + (h * (2 * x)))]]
     """
-    if not roots:
-        return []
-    space = roots[0].space
-    place = {name: k for k, name in enumerate(unknowns)}
-    found: dict[int, _Dual] = {}
-    for node in walk(roots):
-        found[node.id] = _visit(node, [found[a.id] for a in node.args], place, space)
-    h, none = space.sym(STEP), (space.zero, space.zero)
-    rows = []
-    for root in roots:
-        slopes = [found[root.id].slopes.get(k, none) for k in range(len(unknowns))]
-        rows.append([h * high + low for low, high in slopes])
-    return rows
+
+    def __init__(self, unknowns: Sequence[str]) -> None:
+        self.place = {name: k for k, name in enumerate(unknowns)}
+        self.found: dict[int, _Dual] = {}
+
+    def jacobian(self, roots: Sequence[Expr]) -> list[list[Expr]]:
+        """Return the derivatives of roots, all of one space, a row a root.
+
+        :class:`NotLinearised` where a root has no expansion at h = 0 that the rules here find.
+        """
+        if not roots:
+            return []
+        space, found = roots[0].space, self.found
+        for node in walk(roots, lambda n: n.id in found):
+            if node.id not in found:
+                found[node.id] = _visit(node, [found[a.id] for a in node.args], self.place, space)
+        h, none = space.sym(STEP), (space.zero, space.zero)
+        rows = []
+        for root in roots:
+            slopes = [found[root.id].slopes.get(k, none) for k in range(len(self.place))]
+            rows.append([h * high + low for low, high in slopes])
+        return rows
 
 
 def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -> _Dual:

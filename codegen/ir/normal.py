@@ -39,6 +39,7 @@ class NormalForms:
     def __init__(self, space: Space, relations: Sequence[Relation] = ()) -> None:
         self.space = space
         self.atoms: dict[int, Expr] = {}
+        self.known: dict[int, Polynomial] = {}
         self.rules: dict[tuple[int, int], Polynomial] = {}
         for (a, b), terms in relations:
             i, j = sorted((self._atom(space.sym(a)), self._atom(space.sym(b))))
@@ -59,8 +60,10 @@ class NormalForms:
 
     def polynomial(self, root: Expr) -> Polynomial:
         """Return root as a reduced polynomial; :class:`TooLong` where it has too many terms."""
-        found: dict[int, Polynomial] = {}
-        for node in walk([root]):
+        found = self.known
+        for node in walk([root], lambda n: n.id in found):
+            if node.id in found:
+                continue
             args = [found[a.id] for a in node.args]
             value: Polynomial
             match node.op:

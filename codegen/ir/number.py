@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 from orderconds.ring import QQ
@@ -36,12 +37,12 @@ class Number:
         """
         return cls(QQ, QQ.rational(p, q))
 
-    @property
+    @cached_property
     def is_zero(self) -> bool:
         """Whether this number is provably zero."""
         return self.ring.is_zero(self.element) is True
 
-    @property
+    @cached_property
     def is_one(self) -> bool:
         """Whether this number is provably one."""
         return self.ring.is_zero(self.element - 1) is True
@@ -90,6 +91,10 @@ class Number:
         return Number(self.ring, -self.element)
 
     def __float__(self) -> float:
+        return self._nearest
+
+    @cached_property
+    def _nearest(self) -> float:
         if self.is_rational:
             return float(self.fraction())
         return float(self.ring.approximate(self.element, 40))

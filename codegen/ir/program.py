@@ -205,13 +205,25 @@ EMBEDDED = "embedded"
 
 
 @dataclass(frozen=True)
+class Substep:
+    """A part of a step: it is ``fraction`` h long and begins at t + ``offset`` h."""
+
+    fraction: Number
+    offset: Number
+
+
+@dataclass(frozen=True)
 class Program:
-    """One step: inputs, statements, and the new state, named as the inputs that it replaces."""
+    """One step: inputs, statements, and the new state, named as the inputs that it replaces.
+
+    With ``substeps`` a step is the statements made for each of them, one after the other.
+    """
 
     name: str
     inputs: tuple[Var, ...]
     body: tuple[Statement, ...]
     outputs: tuple[tuple[str, Var], ...]
+    substeps: tuple[Substep, ...] = ()
 
     def assigns(self) -> Iterator[Assign]:
         """Yield every assignment in order, those inside blocks included."""
@@ -231,6 +243,7 @@ class Program:
     def text(self) -> str:
         """Spell the program, one statement a line."""
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
+        lines += [f"  for h = ({step.fraction.text()}) h:" for step in self.substeps]
         for statement in self.body:
             if isinstance(statement, Assign):
                 lines.append("  " + statement.text())

@@ -219,9 +219,10 @@ class EmittedContestant:
     def _count(self, names: frozenset[str], steps: int, sweeps: Sequence[int]) -> int:
         """Return how often operations are executed: once a step outside blocks, once a sweep inside."""
         total, block = 0, 0
+        parts = steps * max(1, len(self.compiled.program.substeps))
         for statement in self.compiled.program.body:
             if isinstance(statement, Assign):
-                total += steps * (statement.operation.name in names)
+                total += parts * (statement.operation.name in names)
                 continue
             inside = sum(a.operation.name in names for a in statement.body)
             total += inside * sweeps[block]

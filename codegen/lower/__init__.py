@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from importlib import import_module
 from typing import Any
 
@@ -10,6 +11,7 @@ from codegen.ir.program import Program
 from codegen.lower.discrete_gradient import keeps_energy
 from codegen.lower.simplify import simplified
 from codegen.lower.splitting import setting as with_flows
+from codegen.lower.substeps import substeps
 from codegen.method import Method
 from codegen.setting import Setting
 
@@ -88,3 +90,12 @@ def lower(scene: Setting, method: Method) -> Program:
     module: Any = import_module(f"codegen.lower.{LOWERINGS[method.family]}")
     program: Program = module.lower(setting(scene, method), method)
     return program
+
+
+def lower_composed(scene: Setting, method: Method) -> Program | None:
+    """Return the verified program of a step made of shorter ones that are alike, None where it is not."""
+    found = substeps(method)
+    if found is None:
+        return None
+    base, steps = found
+    return replace(lower(scene, base), substeps=steps)

@@ -37,7 +37,7 @@ from codegen.ir.kernel import (
     Sample,
     Start,
 )
-from codegen.ir.linearise import NotLinearised, first_order_jacobian
+from codegen.ir.linearise import FirstOrder, NotLinearised
 from codegen.ir.normal import NormalForms
 from codegen.ir.program import EMBEDDED, Assign, Kind, Program, Solve, Var
 from codegen.ir.tangent import tangents
@@ -173,7 +173,9 @@ def to_kernel(
     body = schedule.run()
     if chains != AS_WRITTEN:
         body = late.ordered([let for let in body if isinstance(let, Let)])
-    made = Kernel(program.name, state, scalars, body, outputs=schedule.outputs[: len(outputs)])
+    made = Kernel(
+        program.name, state, scalars, body, schedule.outputs[: len(outputs)], substeps=program.substeps
+    )
     if errors:
         made = replace(made, estimate=Estimate(schedule.outputs[len(outputs) :], 0))
     return _sampled(made, scene, domain)
@@ -264,9 +266,9 @@ def _compared(
     if not residuals:
         return None
     space = residuals[0].space
-    normal = NormalForms(space)
+    normal, linear = NormalForms(space), FirstOrder(entered.unknowns)
     try:
-        rows = first_order_jacobian(residuals, entered.unknowns)
+        rows = linear.jacobian(residuals)
     except NotLinearised:
         return None
     changes = tuple(name(f"d_{u}") for u in entered.unknowns)
@@ -275,7 +277,7 @@ def _compared(
         if var.kind not in (Kind.ALG, Kind.DUAL):
             continue
         try:
-            slopes = first_order_jacobian(env[var], entered.unknowns)
+            slopes = linear.jacobian(env[var])
         except NotLinearised:
             continue
         symbols = tuple(space.sym(name(f"{var.name}_{k}_seen")) for k in range(len(env[var])))

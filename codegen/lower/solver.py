@@ -161,7 +161,8 @@ def _compared(
         )
         others = [f"{METHODS[s]}: {text}" for s, text in spelled.items() if s != best]
         chosen[loop.label] = best
-        reasons[loop.label] = "; ".join([f"{spelled[best]} a step", *others])
+        part = "substep" if kernels[FIXED_POINT].substeps else "step"
+        reasons[loop.label] = "; ".join([f"{spelled[best]} a {part}", *others])
     return chosen, reasons
 
 
@@ -182,7 +183,7 @@ class _Trials:
     def __init__(self, kernel: Kernel, scene: Setting, initial: tuple[float, ...]) -> None:
         kernel = replace(kernel, estimate=None)
         self.interface = Interface.of(kernel, "trial_")
-        self.initial, self.span = initial, scene.span
+        self.initial, self.span, self.repeated = initial, scene.span, max(1, len(kernel.substeps))
         defaults = {name: float(scene.parameters[name]) for name in scene.runtime}
         recipe = Recipe("trial", (), initial, defaults=defaults)
         text = print_module(kernel, self.interface, recipe)["trial.py"]
@@ -202,5 +203,6 @@ class _Trials:
         except self.module["StepFailed"]:
             good = False
         newton = self.interface.newton
-        matrices = counts.matrices / steps / len(self.interface.blocks) if newton else 0.0
-        return _Trial(tuple(n / steps for n in counts.sweeps), matrices, good)
+        made = steps * self.repeated
+        matrices = counts.matrices / made / len(self.interface.blocks) if newton else 0.0
+        return _Trial(tuple(n / made for n in counts.sweeps), matrices, good)

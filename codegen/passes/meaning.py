@@ -10,7 +10,7 @@ from codegen.errors import SceneError
 from codegen.ir.domain import FloatDomain, NotConverged
 from codegen.ir.expr import evaluate
 from codegen.ir.interpret import flatten, interpret
-from codegen.ir.program import Kind, Program
+from codegen.ir.program import Kind, Program, Var
 from codegen.setting import Setting
 
 STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
@@ -23,8 +23,8 @@ REACH = 0.5
 FAILURES = (NotConverged, ArithmeticError, ValueError)
 """How an interpretation fails; ValueError for the root of a negative number."""
 
-Result = tuple[float, dict[str, Any], dict[str, Any]]
-"""Step size, inputs, new state."""
+Result = tuple[float, dict[str, Any], dict[str, Any], dict[Var, Any]]
+"""Step size, inputs, new state, and what solved the equations of the last program that was compared."""
 
 SWEEPS = 24
 """The most sweeps over a block: a step that needs more is too large to compare roundings."""
@@ -41,7 +41,9 @@ class Reference:
     """What a program means: its results after one step from points of a scene.
 
     The points are the initial state, which may be special (an equilibrium, a symmetric position), and one
-    nearby without any symmetry; the step is the largest of moderate reach for which the blocks settle.
+    nearby without any symmetry; the step is the largest of moderate reach for which the blocks settle. A
+    program that is compared begins at the solutions of the one before it: where its equations are others, it
+    moves away from them.
     """
 
     def __init__(self, program: Program, scene: Setting) -> None:
@@ -69,17 +71,21 @@ class Reference:
             step = math.ldexp(moderate, -max(excess, 0))
             if results and step > results[-1][0] / APART:
                 continue
+            solutions: dict[Var, Any] = {}
             try:
-                after = self._run(program, step, inputs, SWEEPS)
+                after = self._run(program, step, inputs, SWEEPS, solutions)
             except FAILURES:
                 continue
-            results.append((step, inputs, after))
+            results.append((step, inputs, after, solutions))
             if len(results) == TRIES:
                 break
         return results
 
-    def _run(self, program: Program, step: float, inputs: dict[str, Any], limit: int) -> dict[str, Any]:
-        return interpret(program, self.scene, FloatDomain(step), inputs, limit=limit, newton=False)
+    def _run(
+        self, program: Program, step: float, inputs: dict[str, Any], limit: int, solutions: dict[Var, Any]
+    ) -> dict[str, Any]:
+        domain = FloatDomain(step)
+        return interpret(program, self.scene, domain, inputs, limit=limit, newton=False, solutions=solutions)
 
     def differs(self, program: Program) -> str:
         """Return an account of what a program does differently, or ''."""
@@ -92,9 +98,9 @@ class Reference:
     def _in_some_step(self, program: Program, results: list[Result]) -> str:
         """Compare in the first step that the program makes."""
         failure = ""
-        for step, inputs, before in results:
+        for step, inputs, before, solutions in results:
             try:
-                after = self._run(program, step, inputs, 2 * SWEEPS)
+                after = self._run(program, step, inputs, 2 * SWEEPS, solutions)
             except NotConverged as error:
                 failure = f"interpretation failed: {error}"
             except FAILURES as error:

@@ -79,11 +79,12 @@ Statement = Simple | Beginning | Iteration
 
 @dataclass(frozen=True)
 class Arrangement:
-    """The statements of a step and its outputs, ready to be spelled."""
+    """The statements of a step and its outputs, ready to be spelled; a step makes them ``repeated`` times."""
 
     statements: tuple[Statement, ...]
     outputs: tuple[Expr, ...]
     errors: tuple[Expr, ...] = ()
+    repeated: int = 1
 
     def functions(self) -> tuple[str, ...]:
         """Return the functions called, sorted: scalar ones and sets of Stumpff functions."""
@@ -139,7 +140,8 @@ def arrange(kernel: Kernel) -> Arrangement:
     rewritten = tuple(scope.rewrite(e) for e in ends)
     statements += scope.take()
     states = len(kernel.outputs)
-    return Arrangement(tuple(statements), rewritten[:states], rewritten[states:])
+    repeated = max(1, len(kernel.substeps))
+    return Arrangement(tuple(statements), rewritten[:states], rewritten[states:], repeated)
 
 
 def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:

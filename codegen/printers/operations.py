@@ -37,6 +37,9 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
                 total[START] = _count(statement.body, statement.values)
             case _:
                 total[STEP] = _plus(total[STEP], _count([statement], ()))
+    for key in (STEP, START):
+        if key in total:
+            total[key] = {name: n * arrangement.repeated for name, n in total[key].items()}
     return total
 
 

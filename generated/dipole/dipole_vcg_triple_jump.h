@@ -17,7 +17,7 @@ enum {
 
 /* Sweeps over the equations, added up over all steps since the caller set everything to zero. */
 typedef struct {
-    size_t sweeps[3]; /* by block: the equations of xi1, n1, the equations of xi2, n2, the equations of xi3, n3 */
+    size_t sweeps[1]; /* by block: the equations of xi1, n1 */
     size_t most; /* the most that one block took in one step */
     size_t failed; /* 1 + the block that failed, 0 if none has */
     size_t matrices; /* how often a matrix of Newton's method was made */

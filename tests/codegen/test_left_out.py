@@ -10,7 +10,6 @@ import pytest
 
 from codegen.build import CompileError, Compiler, compile_files, find_compiler
 from codegen.emit import compile_method, emit_compiled
-from codegen.ir.kernel import Loop
 from codegen.lower import LOWERINGS, OF_PARTS
 from codegen.printers.c.module import FLAGS
 
@@ -81,8 +80,11 @@ def test_explicit_modules_hold_no_solver(scene, method):
 def test_implicit_ones_do(scene, method):
     """The words looked for above are those that solvers are made of."""
     header, source, module = texts(scene, method)
+    loops = compiled(scene, method).kernel.loops
+    compared = all(loop.newton is not None and loop.newton.residuals for loop in loops)
     for word in SOLVING[:-1]:
-        assert word in code(header) + code(source)
+        if not (word == "greater" and compared):  # where momenta are compared, changes are added up
+            assert word in code(header) + code(source)
     assert "for sweep" in module
 
 
@@ -128,10 +130,11 @@ def test_the_energy_variable_of_a_scene_with_time_is_not_carried_along(family):
     ("method", "stages"), [("vcg:midpoint", 1), ("vcg:triple_jump", 3), ("vcg:suzuki4", 5)]
 )
 def test_composition_tableaux_are_solved_stage_by_stage(method, stages):
-    """Each block holds the unknowns of one stage, never those of two, as a tableau that is none must."""
-    widths = [len(s.unknowns) for s in compiled("dipole", method).kernel.body if isinstance(s, Loop)]
-    (both,) = [s for s in compiled("dipole", "vcg:gauss2").kernel.body if isinstance(s, Loop)]
-    assert widths == [len(both.unknowns) // 2] * stages
+    """The block holds the unknowns of one stage, never those of two, as a tableau that is none must."""
+    kernel = compiled("dipole", method).kernel
+    (both,) = compiled("dipole", "vcg:gauss2").kernel.loops
+    assert [len(loop.unknowns) for loop in kernel.loops] == [len(both.unknowns) // 2]
+    assert len(kernel.substeps) == (stages if stages > 1 else 0)
 
 
 @pytest.mark.parametrize("scene", ["free_rigid_body", "driven_spin"])
@@ -192,7 +195,7 @@ def test_python_imports_and_defines_nothing_that_it_does_not_use(scene, method):
     made |= {n.name for n in tree.body if isinstance(n, ast.FunctionDef | ast.ClassDef)}
     made |= {n.id for n in ast.walk(tree) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
     made |= {a.arg for n in ast.walk(tree) if isinstance(n, ast.FunctionDef) for a in n.args.args}
-    public = {"step", "run", "labels", "self", "Statistics", "OK"}
+    public = {"step", "run", "labels", "self", "Statistics", "OK", "_"}
     assert made - read - public == set()
 
 

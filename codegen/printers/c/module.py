@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from codegen.ir.kernel import CHORD, ELAPSED, LEAD, LONGEST, NEWTON, Kernel, PutOff, Start
+from codegen.ir.number import Number
 from codegen.printers.arrange import Arrangement, arrange
 from codegen.printers.c.jacobian import varying
 from codegen.printers.c.statements import RESERVED, Statements, literal
@@ -44,7 +45,9 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         functions |= {"greater"}
     if inverts(kernel):
         functions.add("invert")
-    held = names.count + len(kernel.samples) * len(kernel.inputs) + remembered(kernel)
+    repeated = max(1, len(kernel.substeps))
+    held = names.count + len(kernel.samples) * len(kernel.inputs) + remembered(kernel) * repeated
+    held += interface.size * (repeated > 1)
     if kernel.estimate is not None:
         variables["order"] = kernel.estimate.order
         held += 2 * interface.size
@@ -55,6 +58,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         variables["vary_inputs"] = samples(kernel.vary, varied.symbols(), own, spelled)
         functions |= set(varied.functions())
         held = max(held, own.count) + 3 * interface.variations
+        held += (names.count + remembered(kernel) * repeated + interface.size) * (repeated > 1)
     variables["put_off"] = None
     if kernel.put_off is not None:
         variables["put_off"], more, held = put_off(kernel.put_off, arrangement, names, interface)
@@ -199,9 +203,12 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
     constant = [f"const {real} inputs[{several}]"] if several else []
     memory, start = memory_of(kernel), kernel.start
     remembering = ["struct memory *memory"] if memory else []
+    parts = len(kernel.substeps)
+    each = [f"struct memory memory[static {parts}]"] if memory else []
     step = [*time, f"{real} h", *parameters, *constant, *statistics]
     estimate = [f"{real} *error"] if interface.adaptive else []
     inner = [*time, f"{real} h", *parameters, *sampled, *remembering, *statistics, *estimate]
+    whole = [*time, f"{real} h", *parameters, *sampled, *each, *statistics]
     chosen = [f"{real} *t", f"{real} end", f"{real} *h", f"{real} rtol", f"{real} atol", "size_t limit"]
     chosen += [*parameters, *sampled, *statistics, "size_t *accepted", "size_t *rejected"]
     run = [*time, f"{real} h", "size_t steps", *parameters, *sampled, f"{real} *trajectory", "size_t stride"]
@@ -211,9 +218,11 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
     varied = [f"{real} vector[static {size}]", *time, f"{real} h", *parameters, *sampled]
     derived = [*time, f"{real} h", *parameters, *constant, f"{real} jacobian[{size * size}]"]
     passed = ["h", *(names.spelled[p] for p in interface.parameters)]
-    given = [*(["&memory"] if memory else []), *(["statistics"] if interface.blocks else [])]
+    kept = "memory" if parts else "&memory"
+    given = [*([kept] if memory else []), *(["statistics"] if interface.blocks else [])]
+    own = [*(["&memory[number]"] if memory else []), *(["statistics"] if interface.blocks else [])]
     none = ["NULL"] if interface.adaptive else []
-    called = ["input", "context"] if several else []
+    called, still = (["input", "context"], ["hold", "held"]) if several else ([], [])
     return {
         "prefix": interface.prefix,
         "upper": interface.prefix.upper(),
@@ -233,18 +242,25 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
         "step_header": signature(f"int {interface.prefix}step", f"{real} state[{interface.size}]", step, ";"),
         "run_header": signature(f"int {interface.prefix}run", f"{real} state[{interface.size}]", run, ";"),
         "inputs": interface.inputs,
-        "advance_source": signature("static inline int advance", state, inner, ""),
+        "advance_source": signature(
+            f"static inline int {'substep' if parts else 'advance'}", state, inner, ""
+        ),
+        "substeps": substeps(kernel, interface),
+        "composed_source": signature("static inline int advance", state, whole, ""),
+        "passed_substep": ", ".join(["fraction[number] * h", *passed[1:], *called, *own]),
         "step_source": signature(f"int {interface.prefix}step", state, step, ""),
         "run_source": signature(f"int {interface.prefix}run", state, run, ""),
         "passed": ", ".join([*passed, *called, *given, *none]),
-        "passed_once": ", ".join([*passed, *(["hold", "held"] if several else []), *given, *none]),
+        "passed_once": ", ".join([*passed, *still, *given, *none]),
         "variations": size,
         "vary_source": signature("static int vary", point, varied, ""),
         "jacobian_header": signature(
             f"int {interface.prefix}jacobian", f"const {real} state[{interface.size}]", derived, ";"
         ),
         "jacobian_source": signature(f"int {interface.prefix}jacobian", point, derived, ""),
-        "passed_vary": ", ".join([*passed, *(["hold", "held"] if several else [])]),
+        "passed_vary": ", ".join([*passed, *still]),
+        "passed_vary_substep": ", ".join(["fraction[number] * h", *passed[1:], *still]),
+        "passed_once_substep": ", ".join(["fraction[number] * h", *passed[1:], *still, *own]),
         "adaptive": interface.adaptive,
         "adaptive_header": signature(
             f"int {interface.prefix}run_adaptive", f"{real} state[{interface.size}]", chosen, ";"
@@ -254,6 +270,27 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
         "f": interface.format.suffix,
         "number": lambda x: literal(interface.format, interface.format.round(float(x))),
     }
+
+
+def substeps(kernel: Kernel, interface: Interface) -> dict[str, object] | None:
+    """Return the tables of the parts of a step, None where there are none."""
+    real = interface.format
+    if not kernel.substeps:
+        return None
+
+    def table(name: str, values: Sequence[Number]) -> list[str]:
+        spelled = [f"{literal(real, real.round(x))}," for x in values]
+        spelled[-1] = spelled[-1].removesuffix(",") + "}"
+        start = f"static const {real.c_type} {name}[{len(values)}] ="
+        return fill(start, ("{" + spelled[0], *spelled[1:]), ";")
+
+    tables = table("fraction", [step.fraction for step in kernel.substeps])
+    if interface.time:
+        tables += table("offset", [step.offset for step in kernel.substeps])
+    exact = "t + offset[number] * h"
+    if real is not DOUBLE:
+        exact = f"({real.c_type})((double)t + (double)offset[number] * (double)h)"
+    return {"count": len(kernel.substeps), "tables": tables, "time": exact}
 
 
 def memory_of(kernel: Kernel) -> dict[str, object]:

@@ -76,6 +76,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             "past": repr(0.4 / order),
             "alone": repr(-1.0 / order),
         }
+    parts = substeps(kernel, interface)
+    moment = [*([str(parts["time"])] if interface.time and parts else []), "fraction * h"]
     body = [*samples(kernel, arrangement.symbols(), names, statements), *body]
     text = (
         environment("python")
@@ -105,6 +107,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             remembered=listed("found = ", [names.spelled[u] for u in start.unknowns], 1) if start else [],
             unread=[i for i, s in enumerate(symbols) if s not in arrangement.symbols()],
             inner=", ".join(["state", *time, "h", *parameters, *inputs, *memory, *statistics]),
+            substeps=parts,
+            passed_substep=", ".join([*parameters, *inputs, *(["memory[k]"] if memory else []), *statistics]),
             inputs=interface.inputs,
             step=", ".join(["state", *time, "h", *inputs, *arguments, *keywords(optional)]),
             run=", ".join(
@@ -124,6 +128,15 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
                 "inner": ", ".join(["state", "vector", *time, "h", *parameters, *inputs]),
                 "arguments": ", ".join(["state", *time, "h", *inputs, *arguments]),
                 "passed": ", ".join(["state", "vector", *time, "h", *parameters, *held]),
+                "substep": parts
+                and {
+                    "vary": ", ".join(["state", "vector", *moment, *parameters, *inputs]),
+                    "state": ", ".join(
+                        ["state", *moment, *parameters, *inputs]
+                        + ["_Memory()" for _ in memory]
+                        + ["None" for _ in statistics]
+                    ),
+                },
             },
         )
     )
@@ -197,6 +210,24 @@ def put_off(
         "each": passed(read),
     }
     return found, functions, constants
+
+
+def substeps(kernel: Kernel, interface: Interface) -> dict[str, object] | None:
+    """Return the table of the parts of a step and how their times are spelled, None where there are none."""
+    if not kernel.substeps:
+        return None
+    precision = interface.format
+    single = precision is not DOUBLE
+    number = "float32({})" if single else "{}"
+    rows = []
+    for step in kernel.substeps:
+        values = [step.fraction, *([step.offset] if interface.time else [])]
+        spelled = [number.format(precision.text(precision.round(x))) for x in values]
+        rows.append(f"({', '.join(spelled)})" if interface.time else spelled[0])
+    return {
+        "rows": rows,
+        "time": "float32(float(t) + float(offset) * float(h))" if single else "t + offset * h",
+    }
 
 
 def samples(kernel: Kernel, read: frozenset[str], names: Names, statements: Statements) -> list[str]:

@@ -1,0 +1,109 @@
+"""Compositions: a step that is one shorter step made again and again becomes that step and a table.
+
+Where the stages of a tableau fall into groups, a_ij = b_j for j in an earlier group than i and a_ij = 0 for j
+in a later one, the method is the composition of the methods of the groups, with steps gamma_k h where gamma_k
+is the sum of the b_j of group k (Lemma 3.5.4 of Bogfjellmo and Marthinsen; for Crouch-Grossman methods read
+off the products of exponentials). Where the groups' coefficients over gamma_k are the same, these are one
+method, and one program serves for all. The first group may so be of more than one that is a composition.
+
+Only implicit methods are taken apart: explicit stages share what they compute.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+from codegen.ir.number import Number
+from codegen.ir.program import Substep
+from codegen.method import Method
+from orderconds.ring.protocol import Element
+from orderconds.tableau import Composition, RungeKutta
+
+FAMILIES = frozenset({"vcg", "cg", "cf", "rk", "ambient"})
+"""Families in which a composition's tableau is the composition: none that expands dexp^{-1} over the step."""
+
+
+def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
+    """Return the method that a step repeats, and how long each of its steps is; None where there is none.
+
+    >>> from codegen.method import parse
+    >>> base, steps = substeps(parse("vcg:suzuki4", ("vcg",)))
+    >>> base.tableau.method.s, [step.fraction == steps[0].fraction for step in steps]
+    (1, [True, True, False, True, True])
+    >>> substeps(parse("vcg:gauss2", ("vcg",))) is None
+    True
+    """
+    if method.family not in FAMILIES or method.adaptive:
+        return None
+    tableau = method.tableau
+    found: tuple[RungeKutta, tuple[Number, ...]] | None
+    if isinstance(tableau.method, Composition):
+        half = tableau.ring.rational(1, 2)
+        found = RungeKutta(((half,),), (tableau.ring.one,)), tuple(map(method.number, tableau.method.gamma))
+    elif isinstance(tableau.method, RungeKutta):
+        found = _repeated(method, tableau.method)
+    else:
+        return None
+    if found is None or len(found[1]) < 2:
+        return None
+    once = replace(tableau, family="rk", method=found[0], embedded=None, proof=None, file=None, path=None)
+    return replace(method, tableau=once), tuple(_timed(found[1]))
+
+
+def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
+    """Yield the substeps with the times they begin at."""
+    before = Number.rational(0)
+    for fraction in fractions:
+        yield Substep(fraction, before)
+        before = before + fraction
+
+
+def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number, ...]] | None:
+    """Return the tableau of equal groups and their steps; as many groups as possible."""
+    A = [[method.number(x) for x in row] for row in rk.A]
+    b = [method.number(x) for x in rk.b]
+    cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
+    for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
+        ends = cuts[::wide]
+        groups = [range(i, j) for i, j in pairwise(ends)]
+        sums = [_sum([b[j] for j in group]) for group in groups]
+        if any(x.is_zero for x in sums):
+            continue
+        scaled = [
+            [[x / total for x in row] for row in (*([A[i][j] for j in g] for i in g), [b[j] for j in g])]
+            for g, total in zip(groups, sums, strict=True)
+        ]
+        first = scaled[0]
+        if all(rows == first for rows in scaled) and _implicit(first):
+            elements = [tuple(_element(method, x) for x in row) for row in first]
+            return RungeKutta(tuple(elements[:-1]), elements[-1]), tuple(sums)
+    return None
+
+
+def _separate(A: Sequence[Sequence[Number]], b: Sequence[Number], k: int) -> bool:
+    """Whether the stages from k on begin where the update by those before has ended."""
+    s = len(b)
+    return all(A[i][j] == b[j] for i in range(k, s) for j in range(k)) and all(
+        A[i][j].is_zero for i in range(k) for j in range(k, s)
+    )
+
+
+def _implicit(rows: Sequence[Sequence[Number]]) -> bool:
+    return any(not x.is_zero for i, row in enumerate(rows[:-1]) for x in row[i:])
+
+
+def _sum(numbers: Sequence[Number]) -> Number:
+    total = Number.rational(0)
+    for x in numbers:
+        total = total + x
+    return total
+
+
+def _element(method: Method, x: Number) -> Element:
+    """Return a number as an element of the tableau's ring."""
+    if x.is_rational:
+        fraction = x.fraction()
+        return method.ring.rational(fraction.numerator, fraction.denominator)
+    return x.element
