@@ -60,10 +60,13 @@ class Bench:
     contestants: tuple[Contestant, ...]
     folder: Path | None
 
-    def run(self, tell: Callable[[Row], object]) -> Result:
-        """Measure everything that the journal does not hold, rank, and write the files."""
+    def run(self, tell: Callable[[Row], object], journal: Journal | None = None) -> Result:
+        """Measure everything that the journal does not hold, rank, and write the files.
+
+        The journal is by default one beside the files, which goes when they are written.
+        """
         name = self.scene.name
-        journal = Journal(self.folder / f".{name}.journal" if self.folder else None)
+        journal = journal or Journal(self.folder / f".{name}.journal" if self.folder else None)
         entries: dict[str, tuple[Row, ...]] = {}
         for contestant in self.contestants:
 

@@ -55,13 +55,15 @@ SIZE = (4.7, 3.9)
 class Curve:
     """A labelled sequence of points (x, y), and the order whose slope it should have (None: no line).
 
-    A ``peer``'s curve is drawn dashed and thin.
+    A ``peer``'s curve is drawn dashed and thin. ``place`` gives the curve its colour and mark, so that those
+    of a method are the same in all pictures; without it they follow the order of the curves.
     """
 
     label: str
     points: tuple[tuple[float, float], ...]
     order: int | None = None
     peer: bool = False
+    place: int | None = None
 
 
 def convergence_figure(name: str, curves: Sequence[Curve], error_label: str) -> str:
@@ -84,6 +86,27 @@ def efficiency_figure(name: str, curves: Sequence[Curve], error_label: str) -> s
     axes.set_xlabel("CPU time of the run")
     axes.set_ylabel(error_label)
     _ticks(axes.xaxis, seconds)
+    _legend(figure)
+    return _svg(figure, name)
+
+
+def growth_figure(name: str, curves: Sequence[Curve], label: str) -> str:
+    """Return the largest deviation so far against time, log-log, with the laws t^1/2 and t dotted."""
+    figure, axes = _canvas()
+    _draw(axes, curves, marked=False)
+    left, right = axes.get_xlim()
+    low, high = axes.get_ylim()
+    for exponent, spelled in ((0.5, "√t"), (1.0, "t")):
+        ends = (left * 1.3, right / 1.3)
+        values = [low * 3 * (x / ends[0]) ** exponent for x in ends]
+        axes.plot(ends, values, color=MUTED, linewidth=0.8, linestyle=(0, (1, 2)), zorder=1)
+        axes.annotate(
+            spelled, (ends[1], values[1]), xytext=(2, 0), textcoords="offset points", color=MUTED, fontsize=8
+        )
+    axes.set_ylim(low, high)
+    axes.set_xlabel("time")
+    axes.set_ylabel(label)
+    _ticks(axes.xaxis, power_of_ten)
     _legend(figure)
     return _svg(figure, name)
 
@@ -128,6 +151,8 @@ def _canvas() -> tuple[Any, Any]:
 
 def _legend(figure: Any) -> None:
     """Put the labels above the axes, where no curve can run into them."""
+    if not any(axes.get_legend_handles_labels()[1] for axes in figure.axes):
+        return
     figure.legend(
         loc="outside upper left",
         ncols=2,
@@ -139,12 +164,13 @@ def _legend(figure: Any) -> None:
     )
 
 
-def _draw(axes: Any, curves: Sequence[Curve]) -> None:
-    for k, curve in enumerate(curves):
+def _draw(axes: Any, curves: Sequence[Curve], *, marked: bool = True) -> None:
+    for number, curve in enumerate(curves):
+        k = number if curve.place is None else curve.place
         colour = SERIES[k % len(SERIES)]
         x, y = zip(*curve.points, strict=True)
         style = {"linestyle": (0, (3, 2)), "linewidth": 0.9, "markerfacecolor": "none"} if curve.peer else {}
-        marker = MARKERS[k % len(MARKERS)]
+        marker = MARKERS[k % len(MARKERS)] if marked else ""
         axes.plot(x, y, color=colour, marker=marker, label=curve.label, clip_on=False, **style)
     _ticks(axes.yaxis, power_of_ten)
 

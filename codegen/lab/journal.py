@@ -42,6 +42,7 @@ class Journal:
             return
         self.rows[key] = row
         if self.path is not None:
+            self.path.parent.mkdir(parents=True, exist_ok=True)
             with self.path.open("a", encoding="utf-8") as stream:
                 stream.write(json.dumps({"key": key, "row": row.as_json()}) + "\n")
                 stream.flush()

@@ -8,9 +8,10 @@ from typing import Any
 
 from codegen.certify import CertifiedOrder, certified_order
 from codegen.emission import Emission
-from codegen.emit import compile_method
+from codegen.emit import Compiled, compile_method
 from codegen.lab.converge import Convergence, converge
-from codegen.lab.ladder import FIRST
+from codegen.lab.ladder import FIRST, Ladder
+from codegen.lab.records import Records
 from codegen.lab.reference import Reference
 from codegen.lab.remembered import remembered
 from codegen.lab.runner import Emitted, Interpreted, RunFailed, Runner
@@ -87,23 +88,47 @@ def study(spelled: str, scene: Setting, methods: Sequence[Method], tell: Tell) -
     """Measure methods on a scene; ``tell`` hears what is being done."""
     tell(f"{scene.name}: reference solution")
     exact = remembered(scene)
-    return Study(spelled, scene, exact, tuple(_study(scene, m, exact, tell) for m in methods))
+    found = []
+    for method in methods:
+        tell(f"{scene.name}, {method.label}: compiling")
+        found.append(study_method(compile_method(scene, method), exact, tell))
+    return Study(spelled, scene, exact, tuple(found))
 
 
-def _study(scene: Setting, method: Method, exact: Reference, tell: Tell) -> MethodStudy:
+@dataclass(frozen=True)
+class Measured:
+    """What is measured of one method for its order: the ladders of C and Python, times, and the spread."""
+
+    compiled: Ladder
+    python: Ladder
+    times: tuple[Timing, ...]
+    spread: float | None
+
+
+def study_method(
+    compiled: Compiled, exact: Reference, tell: Tell, records: Records | None = None
+) -> MethodStudy:
+    """Return the study of one method; what was measured before is taken from ``records``."""
+    scene, method = compiled.scene, compiled.method
     name = f"{scene.name}, {method.label}"
     tell(f"{name}: order conditions")
     order = certified_order(method, scene)
-    tell(f"{name}: compiling")
-    compiled = compile_method(scene, method)
     c, python = Emitted(compiled, "c", order), Emitted(compiled, "python", order)
-    tell(f"{name}: convergence")
-    ladder = converge(c, order, exact, to_rounding=True)
-    observed = converge(python, order, exact)
-    steps = [r.steps for r in ladder.ladder.clean if r.steps <= MOST_TIMED]
-    spread = _spread((c, python, Interpreted(compiled)), steps)
-    tell(f"{name}: times")
-    return MethodStudy(method, order, ladder, observed, timings(c.final, steps), spread, c.emission)
+
+    def measure() -> Measured:
+        tell(f"{name}: convergence")
+        ladder = converge(c, order, exact, to_rounding=True).ladder
+        observed = converge(python, order, exact).ladder
+        steps = [r.steps for r in ladder.clean if r.steps <= MOST_TIMED]
+        spread = _spread((c, python, Interpreted(compiled)), steps)
+        tell(f"{name}: times")
+        return Measured(ladder, observed, timings(c.final, steps), spread)
+
+    key = ("orders", *sorted({**c.emission.files, **python.emission.files}.items()), exact.digits())
+    found = (records or Records(None)).of(key, Measured, measure)
+    ladders = {"c": found.compiled, "python": found.python}
+    seen = {t: Convergence(scene.name, method.label, t, order, ladder) for t, ladder in ladders.items()}
+    return MethodStudy(method, order, seen["c"], seen["python"], found.times, found.spread, c.emission)
 
 
 def _spread(runners: Sequence[Runner], steps: Sequence[int]) -> float | None:

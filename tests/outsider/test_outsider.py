@@ -60,7 +60,9 @@ def test_longrun():
 
 
 def test_report(tmp_path):
-    call("report", SCENE, "--method", "vcg:midpoint", "-m", "cf:cf4", "-o", str(tmp_path))
-    page = (tmp_path / "index.html").read_text()
-    assert "Spherical pendulum" in page
-    assert "vcg:midpoint" in page
+    call("report", SCENE, "--method", "vcg:midpoint", "-m", "cf:cf4", "--quick", "-o", str(tmp_path))
+    overview, page = ((tmp_path / name).read_text() for name in ("index.html", "spherical_pendulum.html"))
+    assert "Spherical pendulum" in overview
+    assert '<a href="spherical_pendulum.html">' in overview
+    for text in ("vcg:midpoint", "symplectic defect of a step", "largest deviation of energy", "wrong"):
+        assert text in page

@@ -68,6 +68,14 @@ def study(scene: Setting, methods: Sequence[Method], tell: Tell, *, long: bool =
     """
     tell(f"{scene.name}: reference solution")
     exact = remembered(scene)
+    variants, notes = harsh_variants(scene, tell)
+    for method in methods:
+        tell(f"{scene.name}, {method.label}: emitting")
+        yield study_method(compile_method(scene, method), exact, variants, notes, tell, long=long)
+
+
+def harsh_variants(scene: Setting, tell: Tell) -> tuple[tuple[tuple[Harsh, Reference], ...], tuple[str, ...]]:
+    """Return the harsh variants of a scene with their references, and notes on those that have none."""
     variants: list[tuple[Harsh, Reference]] = []
     notes: list[str] = []
     for make in VARIANTS.get(scene.name, ()):
@@ -77,22 +85,21 @@ def study(scene: Setting, methods: Sequence[Method], tell: Tell, *, long: bool =
             variants.append((harsh, remembered(harsh.scene)))
         except SceneError as error:
             notes.append(f"{harsh.name}: {error.found}")
-    for method in methods:
-        yield _study(scene, method, exact, variants, tuple(notes), tell, long)
+    return tuple(variants), tuple(notes)
 
 
-def _study(
-    scene: Setting,
-    method: Method,
+def study_method(
+    compiled: Compiled,
     exact: Reference,
     variants: Sequence[tuple[Harsh, Reference]],
     notes: tuple[str, ...],
     tell: Tell,
-    long: bool,
+    *,
+    long: bool = True,
 ) -> Stability:
+    """Return the stability of one compiled method, on its scene and on the harsh variants given."""
+    scene, method = compiled.scene, compiled.method
     name = f"{scene.name}, {method.label}"
-    tell(f"{name}: emitting")
-    compiled: Compiled = compile_method(scene, method)
     runner = Emitted(compiled, "c")
     answers = []
     for case in cases(compiled):

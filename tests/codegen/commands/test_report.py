@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from codegen.certify import CertifiedOrder
-from codegen.lab import report, study
+from codegen.lab import report, study, survey
 from orderconds.cli import program
 
 
@@ -19,18 +19,23 @@ def run(*words: str) -> Result:
 
 def test_the_page_is_written_and_named_at_the_end(tmp_path: Path) -> None:
     folder = tmp_path / "new" / "folder"
-    result = run("free_rigid_body", "-m", "cg:cg3", "-o", str(folder))
+    result = run("free_rigid_body", "-m", "cg:cg3", "--only", "orders", "-o", str(folder))
     assert result.exit_code == 0, result.output
     assert result.stdout.splitlines()[-1] == f"the report: {folder / 'index.html'}"
-    assert [p.name for p in folder.iterdir()] == ["index.html"]
+    assert sorted(p.name for p in folder.iterdir()) == ["free_rigid_body.html", "index.html"]
     assert (folder / "index.html").read_text(encoding="utf-8").endswith("</html>\n")
 
 
 def test_json_holds_the_measurements_and_stdout_nothing_else(tmp_path: Path) -> None:
-    found = json.loads(run("free_rigid_body", "-m", "rkmk(0):euler", "-o", str(tmp_path), "--json").stdout)
+    found = json.loads(
+        run("free_rigid_body", "-m", "rkmk(0):euler", "--quick", "-o", str(tmp_path), "--json").stdout
+    )
     (scene,) = found["scenes"]
     (method,) = scene["methods"]
     assert (scene["scene"], method["method"]) == ("free_rigid_body", "rkmk(0):euler")
+    assert {row["method"] for row in scene["cost"]} == {"rkmk(0):euler", "c-dop853", "c-rk4-projected"}
+    assert [s["verdict"] for s in scene["stability"]] == ["holds"]
+    assert [run["steps"] for run in scene["longruns"]] == [10_000]
     assert method["c"]["verdict"] == method["python"]["verdict"] == method["verdict"] == "holds"
 
 
@@ -38,10 +43,10 @@ def test_an_order_that_is_not_observed_exits_1_and_stands_in_the_page(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(study, "certified_order", lambda method, scene: CertifiedOrder(4, "exact"))
-    result = run("free_rigid_body", "-m", "cg:cg3", "-o", str(tmp_path))
+    result = run("free_rigid_body", "-m", "cg:cg3", "--only", "orders", "-o", str(tmp_path))
     assert result.exit_code == 1
     assert "fails: observed order 3.00, stated 4" in result.stdout
-    assert '<td class="fails">fails</td>' in (tmp_path / "index.html").read_text(encoding="utf-8")
+    assert '<td class="fails">fails</td>' in (tmp_path / "free_rigid_body.html").read_text(encoding="utf-8")
 
 
 def test_a_user_scene_is_reported_by_its_own_words(tmp_path: Path) -> None:
@@ -57,9 +62,9 @@ def test_a_user_scene_is_reported_by_its_own_words(tmp_path: Path) -> None:
         "    f=Matrix([cos(t), sin(2*t), m[2]]) + m, y0=Matrix([1, 0, 0]))\n"
     )
     folder = tmp_path / "out"
-    result = run(str(scene), "-m", "rkmk(2):rk4", "-o", str(folder))
+    result = run(str(scene), "-m", "rkmk(2):rk4", "--quick", "-o", str(folder))
     assert result.exit_code == 0, result.output
-    page = (folder / "index.html").read_text(encoding="utf-8")
+    page = (folder / "spin.html").read_text(encoding="utf-8")
     assert "as its author says it" in page
     assert str(tmp_path) not in page
 
@@ -75,7 +80,7 @@ def test_a_user_scene_is_reported_by_its_own_words(tmp_path: Path) -> None:
 def test_bad_input_is_one_message_before_anything_is_measured(
     words: tuple[str, ...], said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(report, "study", None)
+    monkeypatch.setattr(report, "survey", None)
     result = run(*words, "-o", str(tmp_path))
     assert result.exit_code == 2
     assert result.stdout == ""
@@ -86,7 +91,7 @@ def test_bad_input_is_one_message_before_anything_is_measured(
 def test_a_folder_that_cannot_be_written_to_is_found_out_first(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(report, "measure", None)
+    monkeypatch.setattr(report, "survey", None)
     blocked = tmp_path / "file"
     blocked.write_text("", encoding="utf-8")
     result = run("free_rigid_body", "-o", str(blocked / "inside"))
@@ -107,5 +112,38 @@ def test_what_only_the_compiler_writes_is_reported_without_its_conditions(tmp_pa
     """No index sum spells the conditions of dexp cut off, or what fails of a program of brackets."""
     methods = {"free_rigid_body": "rkmk:kutta3", "dipole": "vrkmk_pade(0):gauss1"}
     for scene, method in methods.items():
-        result = run(scene, "-m", method, "-o", str(tmp_path / scene))
+        result = run(scene, "-m", method, "--only", "orders", "-o", str(tmp_path / scene))
         assert result.exit_code == 0, result.output
+
+
+def test_an_interrupted_report_goes_on_where_it_stopped(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    words = ("free_rigid_body", "-m", "cg:cg3", "--only", "long", "--quick", "-o", str(tmp_path))
+    longrun, calls = survey.longrun, []
+
+    def counted(*arguments, **options):
+        calls.append(arguments)
+        return longrun(*arguments, **options)
+
+    def interrupted(*arguments):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(survey, "longrun", counted)
+    monkeypatch.setattr(report, "render", interrupted)
+    assert run(*words).exit_code != 0
+    assert (tmp_path / ".measured").is_dir()
+    monkeypatch.undo()
+    monkeypatch.setattr(survey, "longrun", counted)
+    result = run(*words)
+    assert result.exit_code == 0, result.output
+    assert len(calls) == 1
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["free_rigid_body.html", "index.html"]
+    run(*words)
+    assert len(calls) == 2
+
+
+def test_the_gallery_is_all_or_named(tmp_path: Path) -> None:
+    result = run("dipole", "--all", "-o", str(tmp_path))
+    assert result.exit_code == 2
+    assert "name SCENEs, or give --all" in result.output

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 
 import pytest
 
+from codegen.lab import contest
 from codegen.lab import study as measured
-from codegen.lab.page import render
-from codegen.lab.study import Study, methods_for, study
+from codegen.lab.needs import NEEDS
+from codegen.lab.page import page_name, render, render_overview
+from codegen.lab.survey import Effort, Survey, plan, survey
 from codegen.lab.timing import Timing
 from codegen.scenes import load
 
@@ -36,43 +39,58 @@ class Balanced(HTMLParser):
         assert self.open.pop() == tag
 
 
+SHORT = Effort(1.0, ("c-rk4-projected",), 1000, back=True, harsh=False, endurance=False)
+
+
 @pytest.fixture(scope="module")
-def found() -> Study:
+def found() -> Survey:
     told: list[str] = []
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(measured, "timings", lambda run, steps: tuple(Timing(n, n * 1e-7) for n in steps))
-        scene = load("free_rigid_body")
-        result = study("free_rigid_body", scene, methods_for(scene, ("cg:cg3", "cf:cf4")), told.append)
+        patch.setattr(contest, "samples", lambda call: (1e-4, 2e-4))
+        methods = ("cg:cg3", "cf:cf4")
+        result = survey(plan("free_rigid_body", load("free_rigid_body"), methods, effort=SHORT), told.append)
     assert "free_rigid_body, cf:cf4: convergence" in told
     return result
 
 
 @pytest.fixture(scope="module")
-def page(found: Study) -> str:
-    return render([found], "orderconds report free_rigid_body -o DIR")
+def overview(found: Survey) -> str:
+    return render_overview([found], "orderconds report free_rigid_body -o DIR")
 
 
-def test_every_tag_is_closed(page: str) -> None:
+@pytest.fixture(scope="module", params=["scene", "overview"])
+def document(request: pytest.FixtureRequest, page: str, overview: str) -> str:
+    return page if request.param == "scene" else overview
+
+
+@pytest.fixture(scope="module")
+def page(found: Survey) -> str:
+    return render(found, "orderconds report free_rigid_body -o DIR")
+
+
+def test_every_tag_is_closed(document: str) -> None:
     parser = Balanced()
-    parser.feed(page)
+    parser.feed(document)
     assert parser.open == []
 
 
-def test_nothing_is_fetched(page: str) -> None:
+def test_nothing_is_fetched(document: str) -> None:
     parser = Balanced()
-    parser.feed(page)
+    parser.feed(document)
     for tag, attributes in parser.seen:
         assert tag not in {"script", "link", "img", "iframe"}
-        for name in ("src", "href", "xlink:href"):
+        for name in ("src", "xlink:href"):
             assert (attributes.get(name) or "#").startswith("#")
-    assert "@import" not in page
-    assert "url(http" not in page
+        assert re.fullmatch(r"#\w+|free_rigid_body\.html|index\.html", attributes.get("href") or "#top")
+    assert "@import" not in document
+    assert "url(http" not in document
 
 
-def test_every_link_within_the_page_has_its_target(page: str) -> None:
-    targets = set(re.findall(r' id="([^"]+)"', page))
-    assert set(re.findall(r'href="#([^"]+)"', page)) <= targets
-    assert set(re.findall(r"url\(#([^)]+)\)", page)) <= targets
+def test_every_link_within_the_page_has_its_target(document: str) -> None:
+    targets = set(re.findall(r' id="([^"]+)"', document))
+    assert set(re.findall(r'href="#([^"]+)"', document)) <= targets
+    assert set(re.findall(r"url\(#([^)]+)\)", document)) <= targets
 
 
 def test_the_page_shows_orders_conditions_residuals_and_what_was_left_out(page: str) -> None:
@@ -86,19 +104,38 @@ def test_the_page_shows_orders_conditions_residuals_and_what_was_left_out(page: 
         "−1/24",
         "equation solving: every stage is explicit here",
         "orderconds emit free_rigid_body --method cg:cg3 --target c",
-        "orderconds report free_rigid_body -m cg:cg3 -m cf:cf4 -o DIR",
+        "orderconds report free_rigid_body -m cg:cg3 -m cf:cf4 --only orders -o DIR",
+        "orderconds report free_rigid_body -m cg:cg3 -m cf:cf4 --only long -o DIR",
+        "orderconds bench free_rigid_body -m cg:cg3 -m cf:cf4 -a c-rk4-projected --budget 1 -o DIR",
+        "largest deviation of energy",
+        "momentum times 1e+75",
         "prefers-color-scheme: dark",
         'name="viewport"',
     ):
         assert text in page
 
 
-def test_the_page_is_the_same_when_the_times_are(page: str, found: Study) -> None:
-    assert render([found], "orderconds report free_rigid_body -o DIR") == page
+def test_the_page_is_the_same_when_the_times_are(page: str, found: Survey) -> None:
+    assert render(found, "orderconds report free_rigid_body -o DIR") == page
 
 
-def test_text_of_a_scene_cannot_become_markup(found: Study) -> None:
-    from dataclasses import replace
-
+def test_text_of_a_scene_cannot_become_markup(found: Survey) -> None:
     wild = replace(found.scene, title="<script>alert(1)</script> & (x)")
-    assert "<script" not in render([replace(found, scene=wild)], "x")
+    spoilt = replace(found, plan=replace(found.plan, scene=wild))
+    assert "<script" not in render(spoilt, "x") + render_overview([spoilt], "x")
+
+
+def test_the_overview_links_to_the_page_and_names_what_meets_each_need(overview: str, found: Survey) -> None:
+    assert f'<a href="{page_name(found)}">' in overview
+    for need in NEEDS:
+        assert need.name in overview
+    assert re.findall(r"Met by none[^<]*", overview) == ["Met by none of the methods here: symplectic, adaptive."]
+
+
+def test_a_part_that_was_not_asked_for_has_no_section(found: Survey) -> None:
+    only = replace(found, cost=None, advice=(), stability=(), longruns=())
+    short = render(only, "x")
+    assert '<section id="orders">' in short
+    for part in ("advice", "cost", "stability", "long"):
+        assert f'id="{part}"' not in short
+        assert f'href="#{part}"' not in short
