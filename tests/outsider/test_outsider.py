@@ -60,7 +60,7 @@ def test_longrun():
 
 
 def test_report(tmp_path):
-    call("report", SCENE, "--method", "vcg:midpoint", "-m", "cf:cf4", "--quick", "-o", str(tmp_path))
+    call("report", SCENE, "--method", "vcg:midpoint", "--quick", "-o", str(tmp_path))
     overview, page = ((tmp_path / name).read_text() for name in ("index.html", "spherical_pendulum.html"))
     assert "Spherical pendulum" in overview
     assert '<a href="spherical_pendulum.html">' in overview

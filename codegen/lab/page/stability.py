@@ -66,7 +66,7 @@ def _cases(found: Stability) -> dict[str, Any]:
                 "verdict": a.verdict,
                 "kind": _kind(a),
                 "error": "" if a.error is None else scientific(a.error),
-                "digits": "" if a.determined is None else f"{a.determined:.0f}",
+                "digits": "" if a.determined in (None, float("inf")) else f"{a.determined:.0f}",
             }
         )
     return {"label": found.method, "count": len(found.answers), "rows": rows}

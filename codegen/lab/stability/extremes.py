@@ -66,13 +66,14 @@ class Answer:
     determined: float | None = None
 
     def as_json(self) -> dict[str, Any]:
-        """Return plain data."""
+        """Return plain data; the digits of nothing but zeros are null, for all are determined."""
+        digits = self.determined
         return {
             "case": self.case.name,
             "h": self.case.h if math.isfinite(self.case.h) else None,
             "verdict": self.verdict,
             "error": self.error,
-            "digits_determined": self.determined,
+            "digits_determined": None if digits is None or math.isinf(digits) else digits,
         }
 
 

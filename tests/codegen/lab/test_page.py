@@ -129,7 +129,9 @@ def test_the_overview_links_to_the_page_and_names_what_meets_each_need(overview:
     assert f'<a href="{page_name(found)}">' in overview
     for need in NEEDS:
         assert need.name in overview
-    assert re.findall(r"Met by none[^<]*", overview) == ["Met by none of the methods here: symplectic, adaptive."]
+    assert re.findall(r"Met by none[^<]*", overview) == [
+        "Met by none of the methods here: symplectic, adaptive."
+    ]
 
 
 def test_a_part_that_was_not_asked_for_has_no_section(found: Survey) -> None:
