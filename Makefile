@@ -48,7 +48,7 @@ demo: $(INSTALLED) compiler
 	  $(BIN)/orderconds converge dipole --target $$target \
 	    --method vcg:midpoint --method vcg:triple_jump || exit; \
 	done
-	$(BIN)/orderconds report free_rigid_body dipole -o $(REPORT)
+	$(BIN)/orderconds report free_rigid_body dipole --quick -o $(REPORT)
 
 test: $(INSTALLED)
 	$(PYTEST) -m 'not slow'
