@@ -17,7 +17,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Context, Decimal
-from functools import partial
+from functools import cached_property, partial
 from itertools import chain, islice
 from math import factorial
 from os import PathLike
@@ -62,11 +62,22 @@ Tree = tuple[Any, Callable[[], OrderCondition]]
 
 @dataclass(frozen=True)
 class Failure:
-    """A condition that does not hold: ``residual`` is the method's value minus the exact flow's."""
+    """A condition that does not hold; ``value``, an element of ``ring``, is the method's minus the exact
+    flow's."""
 
     condition: OrderCondition
-    residual: str
-    decimal: str
+    ring: Ring = field(repr=False)
+    value: Element
+
+    @cached_property
+    def residual(self) -> str:
+        """The residual, exact where the ring is."""
+        return self.ring.text(self.value)
+
+    @cached_property
+    def decimal(self) -> str:
+        """The residual to 20 digits."""
+        return self.ring.approximate(self.value)
 
     def as_json(self) -> dict[str, object]:
         """Return the JSON object of one failing condition."""
@@ -429,7 +440,7 @@ def _search(
             judged = [_judge(ring, residual, n) for residual in residuals]
             verdicts.update(judged)
             failing = tuple(
-                Failure(condition, ring.text(residual), ring.approximate(residual))
+                Failure(condition, ring, residual)
                 for condition, residual, verdict in zip(batch, residuals, judged, strict=True)
                 if verdict == "fails"
             )

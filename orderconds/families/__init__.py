@@ -134,6 +134,8 @@ def residuals(
     >>> residuals(rk, euler.method, euler.ring, rk.conditions(2))
     (-1/2,)
     """
+    if not conditions:
+        return ()
     if isinstance(ring, Balls):
         with precision(ring.bits):  # once, and not in each operation
             found = _residuals(family, method.map(lambda x: x.value), Enclosures(ring.bits), conditions)

@@ -108,7 +108,21 @@ class NumberField:
         if self.parent is None or self.parent_image is None or x.field.height >= self.height:
             raise TypeError(f"{x.field} is no subfield of {self} by construction")
         below = self.parent.lift(x).polynomial
-        return Algebraic(self, substituted(below, self.parent_image, self.modulus))
+        if below.degree() <= 0:
+            return Algebraic(self, below)
+        image = fmpq_poly([0])
+        for power, c in zip(self._parent_powers, below.coeffs(), strict=False):
+            image = image + power * c
+        return Algebraic(self, image)
+
+    @cached_property
+    def _parent_powers(self) -> tuple[fmpq_poly, ...]:
+        """The powers of the parent's primitive element, which are a basis of the parent over Q."""
+        assert self.parent is not None
+        powers = [fmpq_poly([1])]
+        for _ in range(self.parent.degree - 1):
+            powers.append(powers[-1] * self.parent_image % self.modulus)
+        return tuple(powers)
 
     @property
     def named_roots(self) -> tuple[tuple[str, tuple[str, ...], str], ...]:
