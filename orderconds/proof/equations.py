@@ -135,10 +135,16 @@ def equations(tableau: Tableau) -> Equations:
 
 
 def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return the conditions that do not follow from others for the file's spelling."""
-    from orderconds.proof.spelling import independent_conditions
+    """Return the conditions that do not follow from others for the file's spelling.
+
+    Where there are as many as unknowns a proof needs them all.
+    """
+    from orderconds.proof.spelling import decisive_conditions, independent_conditions
 
     family = families.get(proof.conditions)
+    candidates = tuple(c for of_order in decisive_conditions(family, proof.order) for c in of_order)
+    if len(candidates) == len(proof.unknowns):
+        return candidates
 
     def read(method: Any, ring: Any) -> Any:
         return replace(tableau, ring=ring, method=method).read_as(family.formats) or method

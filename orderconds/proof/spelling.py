@@ -13,22 +13,21 @@ statement stronger.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from random import Random
 from typing import Any
 
-import numpy as np
 from flint import fmpz
 
 from orderconds.conditions import OrderCondition
-from orderconds.families import Family, in_ring
-from orderconds.ring.protocol import Element
-from orderconds.ring.rank import pivot_columns
-from orderconds.ring.residues import Residue, Residues
-from orderconds.series.action_rank import products
+from orderconds.families import Family
+from orderconds.ring.samples import Sample, Samples, pivots
+from orderconds.series.monomials import products
 from orderconds.tableau.indeterminates import radicals
 from orderconds.tableau.unknowns import Spelled
 
-BLOCK = 256
-"""Members evaluated together."""
+FIRST = 40
+"""Members to begin with: a sub-family mostly has few conditions."""
 
 SPARE = 24
 """Members beyond the number of columns, so that chance does not hide a dependence."""
@@ -49,7 +48,7 @@ def independent_conditions(
     >>> [c.tree for c in independent_conditions(families.get("vcg"), spelled, 3)]
     ['o(o o)']
     """
-    candidates = [list(_decisive(family, n)) for n in range(1, order + 1)]
+    candidates = decisive_conditions(family, order)
     found: list[tuple[OrderCondition, ...]] = []
     for prime in _primes():
         try:
@@ -72,74 +71,81 @@ def _independent(
     family: Family, spelled: Spelled, candidates: Sequence[Sequence[OrderCondition]], prime: int, read: Any
 ) -> tuple[OrderCondition, ...]:
     everything = [c for of_order in candidates for c in of_order]
-    columns = len(everything)
+    columns = FIRST
     while True:
-        values = dict(
-            zip(everything, _sampled(family, spelled, everything, prime, columns, read), strict=True)
-        )
+        sampled = _sampled(family, spelled, everything, prime, columns, read)
+        values = dict(zip(everything, sampled, strict=True))
         kept: list[OrderCondition] = []
-        generators: list[tuple[int, Residue]] = []
+        generators: list[tuple[int, _Value]] = []
         widest = 0
         for n, of_order in enumerate(candidates, start=1):
             decomposable = list(products(generators, n))
-            pivots = pivot_columns([*decomposable, *(values[c] for c in of_order)])
-            chosen = [of_order[p - len(decomposable)] for p in pivots if p >= len(decomposable)]
+            sampled = [*decomposable, *(values[c] for c in of_order)]
+            found = pivots([x.coordinates() for x in sampled], prime)
+            chosen = [of_order[p - len(decomposable)] for p in found if p >= len(decomposable)]
             widest = max(widest, len(decomposable) + len(chosen))
-            kept += [c for c in chosen if not _constant(values[c])]
+            kept += [c for c in chosen if not values[c].is_constant()]
             generators += [(n, values[c]) for c in chosen]
         if widest + SPARE <= columns:
             return tuple(kept)
-        columns = 2 * (widest + SPARE)
+        columns = widest + 2 * SPARE
 
 
-def _constant(x: Residue) -> bool:
-    """Say whether a value is that of the flow for all members: a condition that holds by the spelling."""
-    return bool((x.values == x.values[-1]).all())
+@dataclass(frozen=True)
+class _Value:
+    """What a condition's left-hand side is at random members and at the exact flow."""
+
+    members: Sample
+    flow: int
+
+    def __mul__(self, other: _Value) -> _Value:
+        return _Value(self.members * other.members, self.flow * other.flow % self.members.ring.prime)
+
+    def coordinates(self) -> list[int]:
+        return [*self.members.ring.coordinates(self.members), self.flow]
+
+    def is_constant(self) -> bool:
+        """Say whether it is that of the flow for all members: a condition that holds by the spelling."""
+        return self.members.ring.constant(self.members) == self.flow
 
 
 def _sampled(
     family: Family, spelled: Spelled, conditions: Sequence[OrderCondition], prime: int, count: int, read: Any
-) -> list[Residue]:
-    """Return the values at so many random members and, last, at the flow."""
-    generator = np.random.default_rng(prime)
-    alone = len(radicals(spelled)) == 1
-    blocks = []
-    for start in range(0, count, BLOCK):
-        ring = _Members(prime, min(BLOCK, count - start), generator, alone)
-        known = {u.constant: ring.random(generator) for u in spelled.decimals()}
-        method: Any = spelled.method(ring, known)[0]
-        values = family.evaluate(method if read is None else read(method, ring), ring, conditions)
-        blocks.append([x.values for x in values])
-    one = Residues(prime, 1)
-    blocks.append([in_ring(one, c.rhs).values for c in conditions])
-    whole = Residues(prime, count + 1)
-    return [whole.element(np.concatenate(parts)) for parts in zip(*blocks, strict=True)]
+) -> list[_Value]:
+    """Return the values at so many random members and at the flow."""
+    ring = _Members(prime, count, Random(prime), alone=len(radicals(spelled)) == 1)
+    known = {u.constant: ring.random(ring.generator) for u in spelled.decimals()}
+    method: Any = spelled.method(ring, known)[0]
+    values = family.evaluate(method if read is None else read(method, ring), ring, conditions)
+    flow = [c.rhs.numerator * pow(c.rhs.denominator, -1, prime) % prime for c in conditions]
+    return [_Value(x, exact) for x, exact in zip(values, flow, strict=True)]
 
 
-class _Members(Residues):
-    """Residues in which radicals are random numbers, except the square root of a rational that stands alone.
+class _Members(Samples):
+    """Samples in which radicals are random numbers, except the square root of a rational that stands alone.
 
     That is a root modulo the prime, whichever of the two: what holds there for all members holds over the
     field that it generates.
     """
 
-    def __init__(self, prime: int, samples: int, generator: np.random.Generator, alone: bool) -> None:
-        super().__init__(prime, samples)
-        self._generator, self._alone = generator, alone
-        self._roots: dict[tuple[tuple[int, ...], int], Residue] = {}
+    def __init__(self, prime: int, count: int, generator: Random, alone: bool) -> None:
+        super().__init__(prime, count)
+        self.generator, self._alone = generator, alone
+        self._roots: dict[tuple[tuple[int, ...], int], Sample] = {}
 
-    def root(self, x: Element, index: int) -> Residue:
+    def root(self, x: Sample, index: int) -> Sample:
         """Return a random number, the same for the same radical, or the one square root there is."""
-        if self._alone and index == 2 and (x.values == x.values[0]).all():
-            root = pow(int(x.values[0]), (self.prime + 1) // 4, self.prime)
-            if root * root % self.prime == int(x.values[0]):
+        value = self.constant(x)
+        if self._alone and index == 2 and value is not None:
+            root = pow(value, (self.prime + 1) // 4, self.prime)
+            if root * root % self.prime == value:
                 return self.rational(root)
             raise _NoRoot
-        return self._roots.setdefault((self.key(x), index), self.random(self._generator))
+        return self._roots.setdefault((self.key(x), index), self.random(self.generator))
 
-    def named_root(self, minpoly: Any, near: Any, unit: Any, name: str) -> Residue:
+    def named_root(self, minpoly: Any, near: Any, unit: Any, name: str) -> Sample:
         """Return a random number, the same for the same name."""
-        return self._roots.setdefault(((), hash_of(name)), self.random(self._generator))
+        return self._roots.setdefault(((), hash_of(name)), self.random(self.generator))
 
 
 class _NoRoot(Exception):
@@ -155,7 +161,12 @@ def hash_of(name: str) -> int:
     return int.from_bytes(name.encode(), "big")
 
 
-def _decisive(family: Family, order: int) -> tuple[OrderCondition, ...]:
+def decisive_conditions(family: Family, order: int) -> list[tuple[OrderCondition, ...]]:
+    """Return conditions that imply all up to ``order``, for every method of the family, by order.
+
+    >>> from orderconds import families
+    >>> [len(of_order) for of_order in decisive_conditions(families.get("vcg"), 3)]
+    [1, 2, 10]
+    """
     decisive = getattr(family, "decisive_conditions", family.conditions)
-    found: tuple[OrderCondition, ...] = decisive(order)
-    return found
+    return [decisive(n) for n in range(1, order + 1)]

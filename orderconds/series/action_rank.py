@@ -9,7 +9,7 @@ dexpinv cut too early).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 
 import numpy as np
@@ -22,6 +22,7 @@ from orderconds.series.action import ActionSeries
 from orderconds.series.action_counts import tree_counts
 from orderconds.series.action_switching import representatives
 from orderconds.series.action_trees import Velocity
+from orderconds.series.monomials import products
 
 RandomSeries = Callable[[Residues, np.random.Generator], ActionSeries]
 """Makes the action series of random methods of a family, one a sample."""
@@ -106,28 +107,3 @@ def _largest_rank(order: int) -> int:
             for n in range(degree, order + 1):
                 count[n] += count[n - degree]
     return count[order]
-
-
-def products(generators: Sequence[tuple[int, Residue]], degree: int) -> Iterator[Residue]:
-    """Yield every monomial of exactly that degree in generators given as (degree, value).
-
-    >>> ring = Residues(101, 1)
-    >>> b, bc = ring.rational(3), ring.rational(5)
-    >>> [int(x.values[0]) for x in products([(1, b), (2, bc)], 3)]  # b^3, b bc
-    [27, 15]
-    """
-    yield from _monomials(generators, degree, 0, None)
-
-
-def _monomials(
-    generators: Sequence[tuple[int, Residue]], degree: int, start: int, so_far: Residue | None
-) -> Iterator[Residue]:
-    if degree == 0:
-        if so_far is not None:
-            yield so_far
-        return
-    for place in range(start, len(generators)):
-        weight, value = generators[place]
-        if weight <= degree:
-            term = value if so_far is None else so_far * value
-            yield from _monomials(generators, degree - weight, place, term)

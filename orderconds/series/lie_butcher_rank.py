@@ -14,8 +14,8 @@ import numpy as np
 
 from orderconds.ring.rank import pivot_columns
 from orderconds.ring.residues import PRIMES, Residue, Residues
-from orderconds.series.action_rank import products
 from orderconds.series.lie_butcher import ForestSeries, exact_value
+from orderconds.series.monomials import products
 from orderconds.trees.counts import ordered_forest_count
 from orderconds.trees.levels import Forest
 

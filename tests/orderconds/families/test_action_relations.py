@@ -13,7 +13,7 @@ from orderconds.families import get
 from orderconds.ring import QQ, Residues
 from orderconds.ring.rank import pivot_columns
 from orderconds.series.action_counts import tree_counts
-from orderconds.series.action_rank import products
+from orderconds.series.monomials import products
 from orderconds.tableau import CommutatorFree, RungeKutta, Stage
 
 FAMILIES = ("vcg", "vcf", "vrkmk(0)", "vrkmk(1)", "vrkmk(2)", "vrkmk")

@@ -8,8 +8,8 @@ from orderconds.families.ordered_forests import lyndon_forests
 from orderconds.ring import Residues
 from orderconds.ring.rank import pivot_columns
 from orderconds.ring.residues import PRIMES
-from orderconds.series.action_rank import products
 from orderconds.series.lie_butcher_rank import independent_forests
+from orderconds.series.monomials import products
 from orderconds.tableau import CommutatorFree, RungeKutta, Stage
 from orderconds.trees.counts import (
     directed_free_tree_count,

@@ -12,7 +12,7 @@ from orderconds.formula.brute_force import value
 from orderconds.ring import QQ, PowerSeries, Residues
 from orderconds.ring.rank import pivot_columns
 from orderconds.ring.residues import PRIMES
-from orderconds.series.action_rank import products
+from orderconds.series.monomials import products
 from orderconds.tableau import PartitionedRungeKutta, Tableau, dumps, find
 
 COUNTS = {

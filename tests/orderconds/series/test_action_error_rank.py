@@ -26,7 +26,7 @@ from flint import nmod_mat
 
 from orderconds.families import get, in_ring
 from orderconds.ring import Residues
-from orderconds.series.action_rank import products
+from orderconds.series.monomials import products
 from orderconds.tableau.methods import CommutatorFree, RungeKutta, Stage
 
 PRIME = 268435399  # below 2^28: sums of 2^7 products fit in 63 bits

@@ -18,7 +18,7 @@ from flint import nmod_mat
 from orderconds import families
 from orderconds.families import in_ring
 from orderconds.ring import Residues
-from orderconds.series.action_rank import products
+from orderconds.series.monomials import products
 from orderconds.tableau import CommutatorFree, RungeKutta, Stage
 from orderconds.trees.counts import ordered_forest_count, rooted_tree_count
 

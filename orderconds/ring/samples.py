@@ -1,0 +1,158 @@
+"""Residues modulo a prime, many samples at once, without NumPy, whose import takes as long as a check.
+
+The ring (Z/p)^n of n samples is (Z/p)[z]/((z - 0)(z - 1) ... (z - (n - 1))), the sample k being the value at
+z = k: sums and products of polynomials are those of all samples. Coefficients are a linear change of
+coordinates of the samples, so that ranks may be taken of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import reduce
+from operator import mul
+from random import Random
+from typing import Any
+
+from flint import nmod_mat, nmod_poly
+
+
+class Samples:
+    """The ring of ``count`` samples modulo ``prime``, more than that.
+
+    >>> R = Samples(101, 2)
+    >>> x = R.element([3, 5])
+    >>> R.text(x * x - 2 / (R.one * 2))
+    '[8, 24]'
+    """
+
+    def __init__(self, prime: int, count: int) -> None:
+        if not 0 < count < prime:
+            raise ValueError(f"{count} samples modulo {prime}")
+        self.prime, self.count = prime, count
+        self.name = f"samples({prime})"
+        self.modulus = reduce(mul, [nmod_poly([-k, 1], prime) for k in range(count)])
+        self.zero, self.one = self.rational(0), self.rational(1)
+
+    def rational(self, p: int, q: int = 1) -> Sample:
+        """Return p/q in every sample; ValueError where the prime divides q."""
+        return Sample(self, nmod_poly([int(p) * pow(int(q), -1, self.prime)], self.prime))
+
+    def element(self, values: Sequence[int]) -> Sample:
+        """Return the element with these values (Lagrange)."""
+        total = nmod_poly([0], self.prime)
+        for k, value in enumerate(values):
+            other = self.modulus // nmod_poly([-k, 1], self.prime)
+            total = total + other * (value * pow(int(other(k)), -1, self.prime))
+        return Sample(self, total)
+
+    def random(self, generator: Random) -> Sample:
+        """Return independent uniform residues: coefficients are as random as values."""
+        return Sample(
+            self, nmod_poly([generator.randrange(self.prime) for _ in range(self.count)], self.prime)
+        )
+
+    def is_zero(self, x: Sample) -> bool:
+        """Decide that every sample vanishes."""
+        return bool(x.polynomial.is_zero())
+
+    def constant(self, x: Sample) -> int | None:
+        """Return the value that all samples share, None where they differ."""
+        return int(x.polynomial[0]) if x.polynomial.degree() <= 0 else None
+
+    def coordinates(self, x: Sample) -> list[int]:
+        """Return as many residues as there are samples, a linear image of them that determines them."""
+        found = [int(c) for c in x.polynomial.coeffs()]
+        return found + [0] * (self.count - len(found))
+
+    def text(self, x: Sample) -> str:
+        """Spell the samples."""
+        return str([int(x.polynomial(k)) for k in range(self.count)])
+
+    def key(self, x: Sample) -> tuple[int, ...]:
+        """Return the coordinates."""
+        return tuple(self.coordinates(x))
+
+    def approximate(self, x: Sample, digits: int = 20) -> str:
+        """Return the samples; they have no size to approximate."""
+        return self.text(x)
+
+
+class Sample:
+    """A vector of samples with componentwise arithmetic."""
+
+    __slots__ = ("polynomial", "ring")
+
+    def __init__(self, ring: Samples, polynomial: nmod_poly) -> None:
+        self.ring, self.polynomial = ring, polynomial
+
+    def __repr__(self) -> str:
+        return f"Sample({self.ring.text(self)} mod {self.ring.prime})"
+
+    def __add__(self, other: Any) -> Sample:
+        return Sample(self.ring, self.polynomial + _plain(other))
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> Sample:
+        return Sample(self.ring, self.polynomial - _plain(other))
+
+    def __rsub__(self, other: Any) -> Sample:
+        return Sample(self.ring, _plain(other) - self.polynomial)
+
+    def __neg__(self) -> Sample:
+        return Sample(self.ring, -self.polynomial)
+
+    def __mul__(self, other: Any) -> Sample:
+        found = self.polynomial * _plain(other)
+        return Sample(self.ring, found if found.degree() < self.ring.count else found % self.ring.modulus)
+
+    __rmul__ = __mul__
+
+    def reciprocal(self) -> Sample:
+        """Return 1/x; ZeroDivisionError where a sample is zero."""
+        common, inverse, _ = self.polynomial.xgcd(self.ring.modulus)
+        if common.degree() != 0:
+            raise ZeroDivisionError(f"a sample is zero modulo {self.ring.prime}")
+        return Sample(self.ring, inverse)
+
+    def __truediv__(self, other: Any) -> Sample:
+        divisor = other if isinstance(other, Sample) else self.ring.rational(other)
+        return self * divisor.reciprocal()
+
+    def __rtruediv__(self, other: Any) -> Sample:
+        return self.reciprocal().__mul__(other)
+
+    def __pow__(self, n: int) -> Sample:
+        base, n = (self, n) if n >= 0 else (self.reciprocal(), -n)
+        result = self.ring.one
+        for _ in range(n):
+            result = result * base
+        return result
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Sample) and bool(self.polynomial == other.polynomial)
+
+    def __hash__(self) -> int:
+        return hash(self.ring.key(self))
+
+
+def _plain(x: Any) -> Any:
+    return x.polynomial if isinstance(x, Sample) else int(x)
+
+
+def pivots(columns: Sequence[Sequence[int]], prime: int) -> tuple[int, ...]:
+    """Return the places of the columns that are no combination of earlier ones modulo ``prime``.
+
+    >>> pivots([[1, 1], [2, 2], [1, 3], [4, 6]], 101)
+    (0, 2)
+    """
+    if not columns:
+        return ()
+    height = len(columns[0])
+    matrix = nmod_mat(height, len(columns), [column[i] for i in range(height) for column in columns], prime)
+    reduced, rank = matrix.rref()
+    found: list[int] = []
+    for column in range(len(columns)):
+        if len(found) < rank and int(reduced[len(found), column]):
+            found.append(column)
+    return tuple(found)

@@ -1,0 +1,30 @@
+"""Products of graded generators: what conditions of lower order say at a higher one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from orderconds.ring.protocol import Element
+
+
+def products(generators: Sequence[tuple[int, Element]], degree: int) -> Iterator[Element]:
+    """Yield every monomial of exactly that degree in generators given as (degree, value).
+
+    >>> list(products([(1, 3), (2, 5)], 3))  # b^3, b bc with b = 3, bc = 5
+    [27, 15]
+    """
+    yield from _monomials(generators, degree, 0, None)
+
+
+def _monomials(
+    generators: Sequence[tuple[int, Element]], degree: int, start: int, so_far: Element | None
+) -> Iterator[Element]:
+    if degree == 0:
+        if so_far is not None:
+            yield so_far
+        return
+    for place in range(start, len(generators)):
+        weight, value = generators[place]
+        if weight <= degree:
+            term = value if so_far is None else so_far * value
+            yield from _monomials(generators, degree - weight, place, term)
