@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import comb
 from typing import ClassVar
 
 from codegen.ir.expr import Expr, walk
@@ -90,7 +89,8 @@ class Loop:
     r d <= ``UNIT`` with the rate r = d/e (the next change would be below rounding). In the first sweep r is
     the last rate of the step before, where the kernel has a :class:`Start`, doubled for each step that has
     ended in its first sweep since; after ``limit`` sweeps without that it has
-    failed, and so has a change that is not finite. ``read_anew`` says that nothing but the unknowns is read
+    failed, and so has a change that is not finite, and Newton's method where a matrix just made gives no
+    smaller change than the sweep before. ``read_anew`` says that nothing but the unknowns is read
     after the loop, so that the last change may be larger.
     """
 
@@ -139,28 +139,25 @@ class Loop:
 class Start:
     """unknowns = values over body, unless solutions of earlier steps are known.
 
-    The unknowns then begin at the polynomial through the last solutions, at most ``depth`` of them, continued
-    by a step: with u1, u2, ... (the latest first) at u1, 2 u1 - u2, 3 u1 - 3 u2 + u3 and so on. Where that
-    was off by more than ``ROUGH`` of what the unknowns have moved in the step, by the first change of its
-    loops, only u1 is kept for the next one. The unknowns are those of all loops of the kernel, in order.
+    The unknowns then begin at the polynomial through the last solutions, continued by a step: with u1,
+    u2, ... (latest first) at u1, 2 u1 - u2, 3 u1 - 3 u2 + u3 and so on. At most ``depth`` solutions are
+    kept, by their differences; the degree grows while these fall. Where that was off by more than
+    ``ROUGH`` of what the unknowns have moved in the step, by the first change of its loops, only u1 is
+    kept for the next one. The unknowns are those of all loops of the kernel, in order.
+
+    Where the loops do not settle, the solutions before are forgotten; where that does not help, the step is
+    halved until they do, and each solution is where the loops of a longer step begin, until the whole step is
+    solved, after ``TRIES`` of them, or where steps longer by ``SHORTEST`` of themselves cannot be followed.
     """
 
     unknowns: tuple[str, ...]
     body: tuple[Let, ...]
     values: tuple[Expr, ...]
-    depth: int = 9
+    depth: int = 16
 
     ROUGH: ClassVar[float] = 0.5
-
-    @property
-    def weights(self) -> tuple[tuple[int, ...], ...]:
-        """The factors of u1, u2, ... where one, two, ... solutions are known.
-
-        >>> Start((), (), (), depth=3).weights
-        ((1,), (2, -1), (3, -3, 1))
-        """
-        rows = range(1, self.depth + 1)
-        return tuple(tuple((-1) ** k * comb(n, k + 1) for k in range(n)) for n in rows)
+    TRIES: ClassVar[int] = 100
+    SHORTEST: ClassVar[float] = 2.0**-8
 
 
 @dataclass(frozen=True)

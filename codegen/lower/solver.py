@@ -189,6 +189,14 @@ class _Trials:
         text = print_module(kernel, self.interface, recipe)["trial.py"]
         self.module: dict[str, Any] = {"__name__": "trial"}
         exec(compile(text, "trial.py", "exec"), self.module)
+        self.module["_continued"] = self._anew
+
+    def _anew(self, *arguments: Any) -> Any:
+        """Make a step without the solutions before it, and no more: what needs continuation is too long."""
+        for memory in arguments:
+            if isinstance(memory, self.module["_Memory"]):
+                memory.__init__()
+        return self.module["_checked"](*arguments)
 
     def run(self, longer: int) -> _Trial:
         """Make steps, so many times as long as usual: several where they are not."""

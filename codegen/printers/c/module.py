@@ -25,9 +25,6 @@ TIME = "t"
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """The flags that emitted C is promised to compile under, without a warning."""
 
-PAST = 16
-"""How many solutions of the equations are kept, by their differences, to guess the next from."""
-
 STATUSES = ("OK", "NOT_CONVERGED", "NOT_FINITE", "BAD_STEP", "LIMIT")
 """The status codes, each after the prefix in capitals."""
 
@@ -47,7 +44,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         functions.add("invert")
     repeated = max(1, len(kernel.substeps))
     held = names.count + len(kernel.samples) * len(kernel.inputs) + remembered(kernel) * repeated
-    held += interface.size * (repeated > 1)
+    held += interface.size * ((repeated > 1) + bool(interface.blocks))
     if kernel.estimate is not None:
         variables["order"] = kernel.estimate.order
         held += 2 * interface.size
@@ -204,11 +201,13 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
     memory, start = memory_of(kernel), kernel.start
     remembering = ["struct memory *memory"] if memory else []
     parts = len(kernel.substeps)
+    core = "substep" if parts else "advance"
     each = [f"struct memory memory[static {parts}]"] if memory else []
     step = [*time, f"{real} h", *parameters, *constant, *statistics]
     estimate = [f"{real} *error"] if interface.adaptive else []
     inner = [*time, f"{real} h", *parameters, *sampled, *remembering, *statistics, *estimate]
     whole = [*time, f"{real} h", *parameters, *sampled, *each, *statistics]
+    continuing = [*time, f"{real} h", *parameters, *sampled, *remembering, *statistics]
     chosen = [f"{real} *t", f"{real} end", f"{real} *h", f"{real} rtol", f"{real} atol", "size_t limit"]
     chosen += [*parameters, *sampled, *statistics, "size_t *accepted", "size_t *rejected"]
     run = [*time, f"{real} h", "size_t steps", *parameters, *sampled, f"{real} *trajectory", "size_t stride"]
@@ -218,9 +217,10 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
     varied = [f"{real} vector[static {size}]", *time, f"{real} h", *parameters, *sampled]
     derived = [*time, f"{real} h", *parameters, *constant, f"{real} jacobian[{size * size}]"]
     passed = ["h", *(names.spelled[p] for p in interface.parameters)]
+    counted = ["statistics"] if interface.blocks else []
     kept = "memory" if parts else "&memory"
-    given = [*([kept] if memory else []), *(["statistics"] if interface.blocks else [])]
-    own = [*(["&memory[number]"] if memory else []), *(["statistics"] if interface.blocks else [])]
+    given = [*([kept] if memory else []), *counted]
+    own = [*(["&memory[number]"] if memory else []), *counted]
     none = ["NULL"] if interface.adaptive else []
     called, still = (["input", "context"], ["hold", "held"]) if several else ([], [])
     return {
@@ -235,16 +235,15 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
         "memory": memory,
         "solution": solution([names.spelled[u] for u in start.unknowns], real) if start else [],
         "zero": literal(interface.format, 0.0),
+        "one": literal(interface.format, 1.0),
         "fabs": f"fabs{interface.format.suffix}",
-        "depth": PAST,
+        "depth": start.depth if start else 0,
         "rough": literal(interface.format, Start.ROUGH),
         "blocks": [comment(label) for label in interface.blocks],
         "step_header": signature(f"int {interface.prefix}step", f"{real} state[{interface.size}]", step, ";"),
         "run_header": signature(f"int {interface.prefix}run", f"{real} state[{interface.size}]", run, ";"),
         "inputs": interface.inputs,
-        "advance_source": signature(
-            f"static inline int {'substep' if parts else 'advance'}", state, inner, ""
-        ),
+        "advance_source": signature(f"static inline int {core}", state, inner, ""),
         "substeps": substeps(kernel, interface),
         "composed_source": signature("static inline int advance", state, whole, ""),
         "passed_substep": ", ".join(["fraction[number] * h", *passed[1:], *called, *own]),
@@ -252,6 +251,13 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
         "run_source": signature(f"int {interface.prefix}run", state, run, ""),
         "passed": ", ".join([*passed, *called, *given, *none]),
         "passed_once": ", ".join([*passed, *still, *given, *none]),
+        "continuation_source": signature("static int continued", state, continuing, ""),
+        "continued": ", ".join(["part * h", *passed[1:], *called, "memory", *counted, *none]),
+        "continued_once": ", ".join([*passed, *still, *given]),
+        "continued_run": ", ".join([*passed, *called, *given]),
+        "core": core,
+        "tries": Start.TRIES,
+        "shortest": Start.SHORTEST,
         "variations": size,
         "vary_source": signature("static int vary", point, varied, ""),
         "jacobian_header": signature(
@@ -321,7 +327,7 @@ def remembered(kernel: Kernel) -> int:
     """Return how many numbers a run remembers, and what inverting a matrix takes besides."""
     matrices = [len(loop.unknowns) for loop in kernel.loops if loop.newton is not None]
     memory, start = [n * n + 2 * n + 1 for n in matrices], kernel.start
-    return sum(memory) + ((PAST + 4) * len(start.unknowns) + 4 + len(kernel.loops) if start else 0)
+    return sum(memory) + ((start.depth + 5) * len(start.unknowns) + 8 + len(kernel.loops) if start else 0)
 
 
 def signature(start: str, state: str, arguments: list[str], end: str) -> list[str]:

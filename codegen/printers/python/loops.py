@@ -17,7 +17,7 @@ def beginning(s: Statements, statement: Beginning) -> Iterator[str]:
     """Yield the lines that give the unknowns of all loops their first values."""
     unknowns = [s.names.spelled[u] for u in statement.start.unknowns]
     yield "    if memory.past:"
-    yield from unpacked(unknowns, "memory.extrapolated()", 2)
+    yield from unpacked(unknowns, "memory.guess", 2)
     yield "    else:"
     for inner in statement.body:
         yield from s.simple(inner, 2)
@@ -104,6 +104,9 @@ def _newton(
     yield from (f"        {x} += {y}" for x, y in zip(now, changes, strict=True))
     yield from _decision(s, statement, [], [f"abs({c})" for c in changes], now, previous)
     if kept:
+        if not compared:
+            yield f"        if make_{number} and 0.0 < {previous} <= change:  # it goes astray"
+            yield f"            raise _failed(NOT_CONVERGED, {_failure(statement)}"
         least = 0.25 if compared else Newton.CONTRACTION
         yield f"        make_{number} = 0.0 < {least} * {previous} < change"
     yield f"        {previous} = change"

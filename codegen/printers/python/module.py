@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Kernel, PutOff
+from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Kernel, PutOff, Start
 from codegen.printers.arrange import Arrangement, arrange
 from codegen.printers.expression import spell
 from codegen.printers.interface import Interface
@@ -103,7 +103,6 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             memory=bool(memory),
             depth=start.depth if start else 0,
             rough=start.ROUGH if start else 0.0,
-            weights=[listed_weights(row, single) for row in start.weights] if start else [],
             remembered=listed("found = ", [names.spelled[u] for u in start.unknowns], 1) if start else [],
             unread=[i for i, s in enumerate(symbols) if s not in arrangement.symbols()],
             inner=", ".join(["state", *time, "h", *parameters, *inputs, *memory, *statistics]),
@@ -116,6 +115,9 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             ),
             once=", ".join(["state", *time, "h", "1", *held, *parameters, *(f"{n}={n}" for n in statistics)]),
             passed=", ".join(["h", *parameters, *inputs, *memory, *statistics]),
+            continued=", ".join(["state", *time, "part * h", *parameters, *inputs, *memory, *statistics]),
+            tries=Start.TRIES,
+            shortest=Start.SHORTEST,
             put_off=ending,
             again=", ".join(["state", *time, "h", "made", *parameters]),
             body=[*body, *ends],
@@ -239,11 +241,6 @@ def samples(kernel: Kernel, read: frozenset[str], names: Names, statements: Stat
         lines += listed("", targets, 1)
         lines[-1] += f" = _sampled(inputs, {time})"
     return lines
-
-
-def listed_weights(row: tuple[int, ...], single: bool) -> str:
-    """Spell a row of factors of an extrapolation."""
-    return ", ".join(f"float32({x}.0)" if single else f"{x}.0" for x in row)
 
 
 def unpacking(symbols: list[str]) -> list[str]:
