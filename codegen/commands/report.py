@@ -18,6 +18,7 @@ PARTS = ("orders", "cost", "stability", "long")
 )
 @click.argument("scenes", nargs=-1, metavar="[SCENE]...")
 @click.option("--method", "-m", "methods", multiple=True, help="TABLEAU or FAMILY:TABLEAU; may be repeated.")
+@click.option("--adaptive", multiple=True, help="Methods that choose their steps, for the cost.")
 @click.option("--against", "-a", "peers", multiple=True, help="Peers, as for bench.")
 @click.option("--only", "parts", multiple=True, type=click.Choice(PARTS), help="Parts; all by default.")
 @click.option("--all", "everything", is_flag=True, help="Every scene of the gallery.")
@@ -30,6 +31,7 @@ PARTS = ("orders", "cost", "stability", "long")
 def command(
     scenes: tuple[str, ...],
     methods: tuple[str, ...],
+    adaptive: tuple[str, ...],
     peers: tuple[str, ...],
     parts: tuple[str, ...],
     everything: bool,
@@ -48,7 +50,7 @@ def command(
 
     if everything and scenes:
         raise click.UsageError("name SCENEs, or give --all")
-    request = Request(read_scenes(scenes, everything), methods, peers, parts, effort or "usual")
+    request = Request(read_scenes(scenes, everything), methods, peers, parts, effort or "usual", adaptive)
     with counting("reading scenes and methods") as tell:
         path, surveys = report(request, output, tell)
     if as_json:

@@ -31,11 +31,12 @@ DEFECT = 1e-9
 class Features:
     """What an emitted method has.
 
-    ``explicit``: it solves no equations, so that every step takes the same time; ``stack`` is what a call
+    ``on_manifold``: steps are made by the group, so that only rounding leaves it; ``explicit``: it solves no equations, so that every step takes the same time; ``stack`` is what a call
     takes of it at most, in bytes, ``lines`` the length of its C.
     """
 
     label: str
+    on_manifold: bool
     symplectic: bool
     explicit: bool
     adaptive: bool
@@ -49,6 +50,7 @@ def features(compiled: Compiled, emission: Emission, label: str = "") -> Feature
     found = re.search(r"stack: +at most (\d+) bytes", source)
     return Features(
         label or compiled.method.label,
+        compiled.method.family != "ambient" or compiled.scene.group.abelian,
         is_symplectic(compiled),
         not compiled.kernel.loops,
         compiled.method.adaptive,
@@ -85,6 +87,7 @@ class Need:
 
 NEEDS = (
     Need("any emitted method", "the fastest of all", lambda f: True),
+    Need("on the manifold", "the state stays on it but for rounding", lambda f: f.on_manifold),
     Need("symplectic", "energy and momenta stay near their values for long times", lambda f: f.symplectic),
     Need("explicit", "no equations to solve: each step takes the same time", lambda f: f.explicit),
     Need("adaptive", "steps are chosen by an estimate of the error", lambda f: f.adaptive),

@@ -32,19 +32,23 @@ class Request:
     peers: tuple[str, ...] = ()
     parts: tuple[str, ...] = ()
     effort: str = "usual"
+    adaptive: tuple[str, ...] = ()
 
     def plans(self) -> tuple[Plan, ...]:
         """Return the plan of each scene; a mistake in any name shows here, before anything is measured."""
         effort: Effort = EFFORTS[self.effort]
         chosen = [(name, scenes.load(name)) for name in dict.fromkeys(self.scenes or SCENES)]
         return tuple(
-            plan(name, scene, self.methods, self.peers, effort, self.parts or PARTS) for name, scene in chosen
+            plan(name, scene, self.methods, self.peers, effort, self.parts or PARTS, self.adaptive)
+            for name, scene in chosen
         )
 
     def command(self) -> str:
         """Return the command of this report."""
         words = ["orderconds report", *map(bare, self.scenes)]
-        words += [f"-m {quoted(bare(m))}" for m in self.methods] + [f"-a {peer}" for peer in self.peers]
+        words += [f"-m {quoted(bare(m))}" for m in self.methods]
+        words += [f"--adaptive {quoted(bare(m))}" for m in self.adaptive]
+        words += [f"-a {peer}" for peer in self.peers]
         words += [f"--only {part}" for part in self.parts]
         words += [] if self.effort == "usual" else [f"--{self.effort}"]
         return " ".join([*words, "-o DIR"])

@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from codegen.certify import certified_order
 from codegen.emit import Compiled, compile_method, emit_compiled
 from codegen.errors import MethodError
+from codegen.lab.adaptive import AdaptiveContestant
 from codegen.lab.bench import Bench, Result
 from codegen.lab.contest import Contestant, EmittedContestant, PeerContestant
 from codegen.lab.journal import Journal
@@ -37,12 +38,20 @@ from codegen.setting import Setting
 ORDERS, COST, STABILITY, LONG = PARTS = ("orders", "cost", "stability", "long")
 """The parts of a report, in the order of its pages."""
 
-OF_FIELDS = ("rkmk(0):euler", "cg:cg3", "rkmk(2):rk4", "cf:cf4", "rkmk:butcher6")
-OF_HAMILTONIANS = (
-    *("vcg:midpoint", "vcg:triple_jump", "vrkmk(2):gauss2", "vcf:vcf_gauss2", "cf:cf4"),
-    *("splitting:blanes_moan_rkn6a", "splitting:blanes_moan4"),
-)
-"""What a report shows where nobody chose; of these what the scene can take."""
+OF_FIELDS = {"rkmk(0):euler": 1, "cg:cg3": 3, "rkmk(2):rk4": 4, "cf:cf4": 4, "rkmk:butcher6": 6}
+OF_HAMILTONIANS = {
+    "vcg:midpoint": 2,
+    "vcg:triple_jump": 4,
+    "vrkmk(2):gauss2": 4,
+    "vcf:vcf_gauss2": 4,
+    "cf:cf4": 4,
+    "splitting:blanes_moan4": 4,
+    "splitting:blanes_moan_rkn6a": 6,
+}
+"""What a report shows where nobody chose: methods that have this order on the scene."""
+
+CHOOSING = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
+"""Beside them, by embedded rows; on Hamiltonian scenes the first, so that ten colours serve for all."""
 
 
 @dataclass(frozen=True)
@@ -62,8 +71,8 @@ class Effort:
     endurance: bool
 
 
-QUICK = Effort(0.002, ("c",), 10_000, back=False, harsh=False, endurance=False)
-USUAL = Effort(0.05, ("c", "heyoka"), 100_000, back=True, harsh=True, endurance=False)
+QUICK = Effort(0.002, ("c-dop853",), 10_000, back=False, harsh=False, endurance=False)
+USUAL = Effort(0.05, ("c-dop853", "heyoka"), 100_000, back=True, harsh=True, endurance=False)
 FULL = Effort(0.5, ("all",), 1_000_000, back=True, harsh=True, endurance=True)
 
 
@@ -77,6 +86,7 @@ class Plan:
     peers: tuple[str, ...]
     effort: Effort
     parts: tuple[str, ...] = PARTS
+    adaptive: tuple[Method, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -124,32 +134,45 @@ def plan(
     peers: Sequence[str] = (),
     effort: Effort = USUAL,
     parts: Sequence[str] = PARTS,
+    adaptive: Sequence[str] = (),
 ) -> Plan:
     """Return the plan of a survey; errors of names and spellings as :func:`codegen.method.parse`.
 
-    Without methods those of the usual ones that the scene can take are chosen, without peers those of the
-    effort that are installed.
+    Without methods the usual ones are chosen (:func:`usual`), without peers those of the effort that are
+    installed. ``adaptive`` are methods that run once more, in steps chosen by their embedded rows.
     """
     families = families_for(scene)
-    chosen = tuple(parse(m, families) for m in methods) if methods else usual(scene)
+    chosen = tuple(parse(m, families) for m in methods)
+    choosing = tuple(replace(parse(m, families), adaptive=True) for m in adaptive)
+    for method in choosing:
+        method.embedded()
+    if not methods and not adaptive:
+        chosen, choosing = usual(scene)
     others = tuple(peers) if peers else tuple(p for p in effort.peers if p != "heyoka" or installed(p))
     find(others)
-    return Plan(spelled, scene, chosen, others, effort, tuple(p for p in PARTS if p in parts))
+    asked = tuple(p for p in PARTS if p in parts)
+    return Plan(spelled, scene, chosen, others, effort, asked, choosing)
 
 
-def usual(scene: Setting) -> tuple[Method, ...]:
-    """Return the methods that are shown where nobody chose: those that the scene can take."""
+def usual(scene: Setting) -> tuple[tuple[Method, ...], tuple[Method, ...]]:
+    """Return the methods that are shown where nobody chose, and those that choose their steps.
+
+    Of the list those that the scene can take and that have their order there: a splitting may find no exact
+    flow, or parts for which its conditions say less.
+    """
     families, found = families_for(scene), []
-    for spelling in OF_HAMILTONIANS if scene.is_hamiltonian else OF_FIELDS:
+    for spelling, order in (OF_HAMILTONIANS if scene.is_hamiltonian else OF_FIELDS).items():
         if spelling.partition(":")[0].partition("(")[0] not in families:
             continue
         try:
             method = parse(spelling, families)
-            certified_order(method, scene)
+            if certified_order(method, scene).order == order:
+                found.append(method)
         except MethodError:
-            continue  # a splitting whose condition on the parts does not hold, or without exact flows
-        found.append(method)
-    return tuple(found)
+            continue
+    count = 1 if scene.is_hamiltonian else len(CHOOSING)
+    choosing = (replace(parse(spelling, families), adaptive=True) for spelling in CHOOSING[:count])
+    return tuple(found), tuple(choosing)
 
 
 def survey(plan: Plan, tell: Tell, records: Records | None = None) -> Survey:
@@ -165,11 +188,15 @@ def survey(plan: Plan, tell: Tell, records: Records | None = None) -> Survey:
         made.append((compile_method(scene, method), time.perf_counter() - start))
     compiled = [c for c, _ in made]
     emissions = [emit_compiled(c, "c", order=certified_order(c.method, scene)) for c in compiled]
-    known = tuple(map(features, compiled, emissions))
+    known = list(map(features, compiled, emissions))
     orders: tuple[MethodStudy, ...] = ()
     if ORDERS in plan.parts:
         orders = tuple(study_method(c, exact, tell, records) for c in compiled)
-    cost = _cost(plan, exact, made, tell, records) if COST in plan.parts else None
+    cost = None
+    if COST in plan.parts:
+        choosing = [AdaptiveContestant(scene, m, exact, "c", effort.budget) for m in plan.adaptive]
+        known += [features(c.compiled, c.runner.emission, c.label) for c in choosing]
+        cost = _cost(plan, exact, made, choosing, tell, records)
     advice = advise(cost.entries, known) if cost else ()
     stability: tuple[Stability, ...] = ()
     if STABILITY in plan.parts:
@@ -182,19 +209,25 @@ def survey(plan: Plan, tell: Tell, records: Records | None = None) -> Survey:
         longruns.append(
             records.of(key, LongRun, lambda c=c, h=h: longrun(c, h, effort.steps, back=effort.back))  # type: ignore[misc]
         )
-    return Survey(plan, exact, known, orders, cost, advice, stability, tuple(longruns))
+    return Survey(plan, exact, tuple(known), orders, cost, advice, stability, tuple(longruns))
 
 
 def _cost(
-    plan: Plan, exact: Reference, made: Sequence[tuple[Compiled, float]], tell: Tell, records: Records
+    plan: Plan,
+    exact: Reference,
+    made: Sequence[tuple[Compiled, float]],
+    choosing: Sequence[AdaptiveContestant],
+    tell: Tell,
+    records: Records,
 ) -> Result:
-    """Return the bench of all methods and the peers."""
+    """Return the bench of all methods, those that choose their steps, and the peers."""
     scene, budget = plan.scene, plan.effort.budget
     contestants: list[Contestant] = []
     for compiled, seconds in made:
         contestant = EmittedContestant(scene, compiled.method, exact, "c", budget, compiled)
         contestant.emission_seconds += seconds
         contestants.append(contestant)
+    contestants += choosing
     contestants += [PeerContestant(scene, peer, exact, budget) for peer in find(plan.peers)]
     folder = records.folder
     journal = Journal(folder / f"{scene.name}.journal" if folder else None)

@@ -85,6 +85,7 @@ def bench_again(survey: Survey) -> str:
     """Return the command that measures a scene's bench again."""
     plan = survey.plan
     words = ["orderconds bench", bare(plan.spelled), *(f"-m {quoted(bare(m.label))}" for m in plan.methods)]
+    words += [f"--adaptive {quoted(bare(m.label))}" for m in plan.adaptive]
     words += [f"-a {peer}" for peer in plan.peers]
     return " ".join([*words, f"--budget {plan.effort.budget:g}", "-o DIR"])
 
