@@ -31,8 +31,9 @@ DEFECT = 1e-9
 class Features:
     """What an emitted method has.
 
-    ``on_manifold``: steps are made by the group, so that only rounding leaves it; ``explicit``: it solves no equations, so that every step takes the same time; ``stack`` is what a call
-    takes of it at most, in bytes, ``lines`` the length of its C.
+    ``on_manifold``: steps are made by the group, so that only rounding leaves it; ``explicit``: it solves no
+    equations, so that every step of one size takes the same time; ``stack`` is what a call takes of it at
+    most, in bytes, ``lines`` the length of its C.
     """
 
     label: str
