@@ -49,7 +49,8 @@ class NumberField:
     """The real field Q[x]/(modulus) with the embedding that sends x to the enclosed root.
 
     ``generators`` are the adjoined roots, ``images`` their polynomials in x, ``parent`` the field before
-    the last generator and ``parent_image`` the image of its x.
+    the last generator and ``parent_image`` the image of its x. ``reciprocals`` have been computed before: a
+    method divides by the same few weights, and one division costs as much as many products.
     """
 
     def __init__(
@@ -68,6 +69,7 @@ class NumberField:
         self.name = f"QQ({', '.join(g.power(1) for g in generators)})" if generators else "QQ()"
         self._enclosure = enclosure
         self._enclosed: dict[int, arb] = {}
+        self.reciprocals: dict[str, Algebraic] = {}
         self.zero = Algebraic(self, fmpq_poly([0]))
         self.one = Algebraic(self, fmpq_poly([1]))
 
@@ -298,7 +300,11 @@ class Algebraic:
         """Return 1/x; ZeroDivisionError for x = 0."""
         if self.polynomial.is_zero():
             raise ZeroDivisionError("division by an algebraic number that is zero")
-        return Algebraic(self.field, self.polynomial.xgcd(self.field.modulus)[1])
+        key = str(self.polynomial)
+        known = self.field.reciprocals
+        if key not in known:
+            known[key] = Algebraic(self.field, self.polynomial.xgcd(self.field.modulus)[1])
+        return known[key]
 
     def __truediv__(self, other: Any) -> Algebraic:
         if (pair := self._pair(other)) is None:

@@ -23,16 +23,15 @@ from math import factorial, prod
 class _Node:
     """What the three kinds share: number of copies of H, a reading cost, symmetry, canonical text."""
 
-    __slots__ = ("cost", "key", "symmetry", "text", "vertices")
+    __slots__ = ("cost", "key", "text", "vertices")
 
     vertices: int
     cost: int
-    symmetry: int
     text: str
     key: tuple[int, int, int, str]
 
-    def _describe(self, vertices: int, cost: int, symmetry: int, text: str) -> None:
-        self.vertices, self.cost, self.symmetry, self.text = vertices, cost, symmetry, text
+    def _describe(self, vertices: int, cost: int, text: str) -> None:
+        self.vertices, self.cost, self.text = vertices, cost, text
         self.key = (vertices, cost, len(text), text)
 
     def __str__(self) -> str:
@@ -58,9 +57,13 @@ class Velocity(_Node):
         self._describe(
             1 + sum(c.vertices for c in children),
             _nesting(word) + sum(p.cost for p in momenta) + _mixing(word),
-            _symmetry(word, momenta),
             f"o({inner})" if inner else "o",
         )
+
+    @property
+    def symmetry(self) -> int:
+        """The order of the group of symmetries, which permute momenta."""
+        return _symmetry(self.word, self.momenta)
 
 
 class Force(_Node):
@@ -80,9 +83,13 @@ class Force(_Node):
         self._describe(
             1 + sum(c.vertices for c in children),
             3 + _nesting(before + after) + sum(p.cost for p in momenta) + 6 * (len(before) + len(after)),
-            _symmetry(before + after, momenta),
             f"f({_inside(letters, momenta)})",
         )
+
+    @property
+    def symmetry(self) -> int:
+        """The order of the group of symmetries, which permute momenta."""
+        return _symmetry(self.before + self.after, self.momenta)
 
 
 class Transport(_Node):
@@ -100,9 +107,13 @@ class Transport(_Node):
         self._describe(
             sum(t.vertices for t in word),
             4 + _nesting(word) + 6 * (len(word) - 1),
-            _symmetry(word, ()),
             f"L({' '.join(t.text for t in word)})",
         )
+
+    @property
+    def symmetry(self) -> int:
+        """The order of the group of symmetries."""
+        return _symmetry(self.word, ())
 
 
 Momentum = Force | Transport

@@ -1,16 +1,18 @@
 """Elementary weights of Runge-Kutta and partitioned Runge-Kutta methods: B-series over any ring (HLW III.1).
 
 Each subtree has one vector over the stages, computed once: the product over its branches of
-``sum_j a_ij tau_branch(j)``.
+``sum_j a_ij tau_branch(j)``. Where nodes are the roots of one rational polynomial the vectors are polynomials
+(:mod:`orderconds.series.nodal`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Sequence
 from functools import lru_cache
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from orderconds.ring.protocol import Element, Ring
+from orderconds.series.nodal import Matrix, NodalAlgebra, nodal_algebra
 from orderconds.trees.levels import Tree, children
 
 TreeT = TypeVar("TreeT", bound=Hashable)
@@ -37,35 +39,64 @@ class ElementaryWeights(Generic[TreeT]):
         b: Sequence[Element],
         branches: Callable[[TreeT], Sequence[tuple[int, TreeT]]],
     ) -> None:
-        self._ring, self._branches = ring, branches
-        self._matrices = [[sparse(ring, row) for row in matrix] for matrix in matrices]
-        self._b = sparse(ring, b)
-        self._stages = len(b)
-        self._vectors: dict[TreeT, tuple[Element, ...]] = {}
-        self._sums: dict[tuple[int, TreeT], tuple[Element, ...]] = {}
+        self._branches = branches
+        self._stages: Any = nodal_algebra(ring, matrices, b) or StageVectors(ring, matrices, b)
+        self._ring = ring
+        self._rational = isinstance(self._stages, NodalAlgebra)
+        self._vectors: dict[TreeT, Any] = {}
+        self._sums: dict[tuple[int, TreeT], Any] = {}
 
     def __call__(self, tree: TreeT) -> Element:
         """Return the elementary weight of a tree."""
-        return self._dot(self._b, self.stages(tree))
+        found = self._stages.weigh(self._vector(tree))
+        return self._ring.rational(found.p, found.q) if self._rational else found
 
-    def stages(self, tree: TreeT) -> tuple[Element, ...]:
+    def _vector(self, tree: TreeT) -> Any:
         """Return tau_tree(i) for each stage i."""
         if tree not in self._vectors:
-            vector = [self._ring.one] * self._stages
+            vector = self._stages.one
             for branch in self._branches(tree):
-                vector = [x * y for x, y in zip(vector, self._summed(branch), strict=True)]
-            self._vectors[tree] = tuple(vector)
+                vector = self._stages.multiply(vector, self._summed(branch))
+            self._vectors[tree] = vector
         return self._vectors[tree]
 
-    def _summed(self, branch: tuple[int, TreeT]) -> tuple[Element, ...]:
+    def _summed(self, branch: tuple[int, TreeT]) -> Any:
         if branch not in self._sums:
             kind, tree = branch
-            vector = self.stages(tree)
-            self._sums[branch] = tuple(self._dot(row, vector) for row in self._matrices[kind])
+            self._sums[branch] = self._stages.apply(kind, self._vector(tree))
         return self._sums[branch]
 
-    def _dot(self, row: Sequence[tuple[int, Element]], vector: Sequence[Element]) -> Element:
-        return sum((weight * vector[j] for j, weight in row), self._ring.zero)
+
+class StageVectors:
+    """Vectors over the stages, one ring element each.
+
+    >>> from orderconds.ring import QQ
+    >>> half = QQ.rational(1, 2)
+    >>> stages = StageVectors(QQ, ([[half]],), [QQ.one])
+    >>> stages.weigh(stages.apply(0, stages.one))
+    1/2
+    """
+
+    def __init__(self, ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) -> None:
+        self._zero = ring.zero
+        self._matrices = [[sparse(ring, row) for row in matrix] for matrix in matrices]
+        self._b = sparse(ring, b)
+        self.one = (ring.one,) * len(b)
+
+    def multiply(self, x: Sequence[Element], y: Sequence[Element]) -> tuple[Element, ...]:
+        """Return the componentwise product."""
+        return tuple(p * q for p, q in zip(x, y, strict=True)) if x is not self.one else tuple(y)
+
+    def apply(self, kind: int, x: Sequence[Element]) -> tuple[Element, ...]:
+        """Return A x, A the matrix of that number."""
+        return tuple(self._dot(row, x) for row in self._matrices[kind])
+
+    def weigh(self, x: Sequence[Element]) -> Element:
+        """Return b.x."""
+        return self._dot(self._b, x)
+
+    def _dot(self, row: Sequence[tuple[int, Element]], x: Sequence[Element]) -> Element:
+        return sum((weight * x[j] for j, weight in row), self._zero)
 
 
 def runge_kutta_series(

@@ -124,12 +124,20 @@ class Nodes:
 
 
 def last(s: int) -> int:
-    """Return the place of the last node."""
+    """Return the place of the last node.
+
+    >>> last(3)
+    2
+    """
     return s - 1
 
 
 def middle(s: int) -> int:
-    """Return the place of the middle node, the first of two."""
+    """Return the place of the middle node, the first of two.
+
+    >>> middle(3), middle(4)
+    (1, 1)
+    """
     return (s - 1) // 2
 
 

@@ -19,8 +19,11 @@ Branch = tuple[int, DirectedTree]
 """The kind of the edge that leads to a subtree, and the subtree."""
 
 _LOWERED = bytes((0, 1)) + bytes(range(254))
+_RAISED = bytes(range(2, 256)) + bytes(2)
+_HUNG = (b"\2", b"\3")
 
 
+@lru_cache(maxsize=1 << 17)
 def branches(tree: DirectedTree) -> tuple[Branch, ...]:
     r"""Return the branches at the root.
 
@@ -41,7 +44,7 @@ def joined(below: tuple[Branch, ...] | list[Branch]) -> DirectedTree:
     >>> text(joined([(1, bytes((0,))), (0, bytes((0,)))]))
     '[^..]'
     """
-    raised = (bytes((2 + kind,)) + bytes(level + 2 for level in child[1:]) for kind, child in below)
+    raised = [_HUNG[kind] + child[1:].translate(_RAISED) for kind, child in below]
     return b"\0" + b"".join(sorted(raised, reverse=True))
 
 
