@@ -7,25 +7,21 @@ with -h; a symmetric method returns to the start up to rounding.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from codegen.emit import Compiled
-from codegen.groups import LeftMultiplication
-from codegen.ir.domain import ExprDomain
-from codegen.ir.program import Kind
 from codegen.lab.distance import distance
 from codegen.lab.drift import BLOCKS, Drift, fit
+from codegen.lab.kept import MANIFOLD, functions
+from codegen.lab.roundoff import Growth, roundoff
 from codegen.lab.runner import Emitted
-from codegen.lab.straight import straight_line
 from codegen.lab.symplecticity import symplectic_defect
 from codegen.load import StepFailed
 from codegen.setting import Setting
 
 SAMPLES = 1000
-FUNCTIONS = {name: getattr(math, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
 
 
 @dataclass(frozen=True)
@@ -46,7 +42,8 @@ class LongRun:
     nothing is said of what was kept where that is too short.
     ``reversals`` are numbers of steps with the distance from the start after the way there and back: of the
     whole run and, as chaos magnifies rounding, of a hundredth of it. ``symplectic`` is the defect of one
-    step, None off T*G and for a run that failed.
+    step, None off T*G and for a run that failed. ``rounding`` is how it grows in what the method keeps
+    exactly.
     """
 
     scene: str
@@ -57,6 +54,7 @@ class LongRun:
     reversals: tuple[tuple[int, float], ...]
     symplectic: float | None
     failure: str = ""
+    rounding: tuple[Growth, ...] = ()
 
     def as_json(self) -> dict[str, Any]:
         """Return plain data, without the sampled deviations."""
@@ -79,13 +77,21 @@ class LongRun:
             "reversals": [{"steps": n, "distance": x} for n, x in self.reversals],
             "symplectic_defect": self.symplectic,
             "failure": self.failure,
+            "rounding": [g.as_json() for g in self.rounding],
         }
 
 
-def longrun(compiled: Compiled, h: float, steps: int, *, back: bool = True) -> LongRun:
+ROUNDED = 20_000
+"""Steps over which the growth of rounding is looked at, at most, for each of several starts."""
+
+
+def longrun(
+    compiled: Compiled, h: float, steps: int, *, back: bool = True, rounding: bool = False
+) -> LongRun:
     """Run emitted C over many steps from the scene's initial state, and say what was kept.
 
-    ``back`` asks for the way back as well, which doubles the run.
+    ``back`` asks for the way back as well, which doubles the run, ``rounding`` for how rounding grows, with
+    and without compensation (:mod:`codegen.lab.roundoff`).
     """
     scene, runner = compiled.scene, Emitted(compiled, "c")
     first = float(scene.span[0])
@@ -114,7 +120,10 @@ def longrun(compiled: Compiled, h: float, steps: int, *, back: bool = True) -> L
             failure = f"on the way back, {failed}"
     paired = scene.is_hamiltonian and not failure
     symplectic = symplectic_defect(compiled, rows[len(rows) // 2], h) if paired else None
-    return LongRun(scene.name, compiled.method.label, h, steps, kept, tuple(reversals), symplectic, failure)
+    grown = roundoff(compiled, h, min(steps, ROUNDED)) if rounding and not failure else ()
+    return LongRun(
+        scene.name, compiled.method.label, h, steps, kept, tuple(reversals), symplectic, failure, grown
+    )
 
 
 def _kept(name: str, times: Sequence[float], values: Sequence[float]) -> Kept:
@@ -134,29 +143,3 @@ def _quantities(scene: Setting, rows: Sequence[Any], times: Sequence[float]) -> 
         scale = abs(start) if start else max(1.0, *(abs(v[0]) for v in series))
         found[name] = [(v[0] - start) / scale for v in series]
     return found
-
-
-MANIFOLD = "manifold"
-
-
-def functions(scene: Setting) -> dict[str, Callable[..., tuple[float, ...]]]:
-    """Return what a scene keeps as functions of state and time: its invariants, and the manifold's laws."""
-    domain = ExprDomain()
-    state = tuple(domain.space.sym(s) for s in scene.symbols)
-    roots = {name: (scene.invariant(domain, name, state),) for name in scene.invariants}
-    laws = _laws(scene, domain, state)
-    if laws:
-        roots[MANIFOLD] = laws
-    return {name: straight_line(scene, exprs).python(float, FUNCTIONS) for name, exprs in roots.items()}
-
-
-def _laws(scene: Setting, domain: ExprDomain, state: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return what must vanish on the blocks of the state that are elements of the group."""
-    start, found = 0, []
-    for block in scene.state:
-        values = state[start : start + len(block.symbols)]
-        start += len(values)
-        acting = block.kind is Kind.POINT and isinstance(scene.action, LeftMultiplication)
-        if block.kind is Kind.GROUP or acting:
-            found += [x for _, x in scene.group.laws(domain, values)]
-    return tuple(found)

@@ -59,21 +59,22 @@ class Effort:
     """How much is measured.
 
     ``budget`` are CPU seconds that one run of the bench may take, ``steps`` those of a long run, ``back``
-    asks for its way back, ``harsh`` for harsh variants of the scene, ``endurance`` for runs of ten million
-    steps.
+    asks for its way back, ``rounding`` for how rounding grows, ``harsh`` for harsh variants of the scene,
+    ``endurance`` for runs of ten million steps.
     """
 
     budget: float
     peers: tuple[str, ...]
     steps: int
     back: bool
+    rounding: bool
     harsh: bool
     endurance: bool
 
 
-QUICK = Effort(0.002, ("c-dop853",), 10_000, back=False, harsh=False, endurance=False)
-USUAL = Effort(0.05, ("c-dop853", "heyoka"), 100_000, back=True, harsh=True, endurance=False)
-FULL = Effort(0.5, ("all",), 1_000_000, back=True, harsh=True, endurance=True)
+QUICK = Effort(0.002, ("c-dop853",), 10_000, back=False, rounding=False, harsh=False, endurance=False)
+USUAL = Effort(0.05, ("c-dop853", "heyoka"), 100_000, back=True, rounding=True, harsh=True, endurance=False)
+FULL = Effort(0.5, ("all",), 1_000_000, back=True, rounding=True, harsh=True, endurance=True)
 
 
 @dataclass(frozen=True)
@@ -205,10 +206,12 @@ def survey(plan: Plan, tell: Tell, records: Records | None = None) -> Survey:
     for c, emission in zip(compiled, emissions, strict=True) if LONG in plan.parts else ():
         tell(f"{scene.name}, {c.method.label}: {effort.steps} steps")
         h = float((scene.span[1] - scene.span[0]) / 100)
-        key = ("long", sorted(emission.files.items()), h, effort.steps, effort.back)
-        longruns.append(
-            records.of(key, LongRun, lambda c=c, h=h: longrun(c, h, effort.steps, back=effort.back))  # type: ignore[misc]
-        )
+        key = ("long", sorted(emission.files.items()), h, effort.steps, effort.back, effort.rounding)
+
+        def measure(c: Compiled = c, h: float = h) -> LongRun:
+            return longrun(c, h, effort.steps, back=effort.back, rounding=effort.rounding)
+
+        longruns.append(records.of(key, LongRun, measure))
     return Survey(plan, exact, tuple(known), orders, cost, advice, stability, tuple(longruns))
 
 

@@ -9,7 +9,8 @@ from markupsafe import Markup
 
 from codegen.lab.drift import CONFIDENCE
 from codegen.lab.figures import Curve, growth_figure
-from codegen.lab.longrun import MANIFOLD, LongRun
+from codegen.lab.kept import MANIFOLD
+from codegen.lab.longrun import LongRun
 from codegen.lab.page.spelling import Picture, scientific
 
 LEAST = 1e-17
@@ -40,6 +41,7 @@ def section(runs: Sequence[LongRun], again: str) -> dict[str, Any]:
         "steps": f"{first.steps:,}".replace(",", " "),
         "h": f"{first.h:g}",
         "confidence": f"{100 * CONFIDENCE:.0f} %",
+        "rounded": max((g.steps[-1] for run in runs for g in run.rounding), default=0),
         "runs": [_run(run) for run in runs],
     }
 
@@ -76,4 +78,14 @@ def _run(run: LongRun) -> dict[str, Any]:
         "symplectic": "–" if run.symplectic is None else scientific(run.symplectic),
         "back": "; ".join(f"{scientific(x)} after {n}" for n, x in run.reversals),
         "failure": run.failure,
+        "rounding": [
+            {
+                "name": g.quantity,
+                "steps": "compensated" if g.compensated else "plain",
+                "rms": scientific(g.sizes[-1]),
+                "exponent": f"{g.exponent:.2f} ± {g.half_width:.2f}",
+                "law": g.law,
+            }
+            for g in run.rounding
+        ],
     }

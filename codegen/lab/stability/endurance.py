@@ -9,7 +9,7 @@ from typing import Any
 
 from codegen.emit import Compiled
 from codegen.lab.distance import distance
-from codegen.lab.longrun import MANIFOLD, functions
+from codegen.lab.kept import MANIFOLD, functions
 from codegen.lab.runner import Emitted
 from codegen.load import StepFailed
 

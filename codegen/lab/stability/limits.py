@@ -14,7 +14,7 @@ from typing import Any
 
 from codegen.emit import Compiled
 from codegen.lab.distance import distance
-from codegen.lab.longrun import functions
+from codegen.lab.kept import functions
 from codegen.lab.reference import Reference
 from codegen.lab.runner import Emitted
 from codegen.load import StepFailed

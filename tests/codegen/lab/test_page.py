@@ -39,7 +39,7 @@ class Balanced(HTMLParser):
         assert self.open.pop() == tag
 
 
-SHORT = Effort(1.0, ("c-rk4-projected",), 1000, back=True, harsh=False, endurance=False)
+SHORT = Effort(1.0, ("c-rk4-projected",), 1000, back=True, rounding=True, harsh=False, endurance=False)
 
 
 @pytest.fixture(scope="module")
@@ -108,6 +108,7 @@ def test_the_page_shows_orders_conditions_residuals_and_what_was_left_out(page: 
         "orderconds report free_rigid_body -m cg:cg3 -m cf:cf4 --only long -o DIR",
         "orderconds bench free_rigid_body -m cg:cg3 -m cf:cf4 -a c-rk4-projected --budget 1 -o DIR",
         "largest deviation of energy",
+        "compensated",
         "momentum times 1e+75",
         "prefers-color-scheme: dark",
         'name="viewport"',
