@@ -15,6 +15,9 @@ from flint import arb, fmpq
 from orderconds.ring.balls import Balls
 from orderconds.ring.precision import working_bits
 
+ZERO = arb(0)
+"""The slope along a variable that has not entered: no arithmetic is done with this very object."""
+
 
 class Jets:
     """The ring of functions of ``width`` variables near a point or on a box, to first order.
@@ -31,7 +34,7 @@ class Jets:
     def __init__(self, width: int) -> None:
         self.width = width
         self.name = f"jets({width})"
-        self._flat = (arb(0),) * width
+        self._flat = (ZERO,) * width
         self.zero = Jet(arb(0), self._flat)
         self.one = Jet(arb(1), self._flat)
 
@@ -40,7 +43,7 @@ class Jets:
 
     def variable(self, place: int, value: arb) -> Jet:
         """Return the variable of that place, enclosed by ``value``."""
-        gradient = [arb(0)] * self.width
+        gradient = [ZERO] * self.width
         gradient[place] = arb(1)
         return Jet(value, tuple(gradient))
 
@@ -59,7 +62,7 @@ class Jets:
             raise ValueError("a root of a number whose sign is not known")
         value = -((-x.value).root(index)) if negative else x.value.root(index)
         slope = value / (x.value * index)
-        return Jet(value, tuple(slope * g for g in x.gradient))
+        return Jet(value, tuple([g if g is ZERO else slope * g for g in x.gradient]))
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Jet:
         """Return the one real root of ``minpoly`` within ``unit`` of ``near``, a constant."""
@@ -100,13 +103,18 @@ class Jet:
             return Jet(self.value + other, self.gradient)
         return Jet(
             self.value + other.value,
-            tuple(g + h for g, h in zip(self.gradient, other.gradient, strict=True)),
+            tuple(
+                [
+                    h if g is ZERO else g if h is ZERO else g + h
+                    for g, h in zip(self.gradient, other.gradient, strict=True)
+                ]
+            ),
         )
 
     __radd__ = __add__
 
     def __neg__(self) -> Jet:
-        return Jet(-self.value, tuple(-g for g in self.gradient))
+        return Jet(-self.value, tuple([g if g is ZERO else -g for g in self.gradient]))
 
     def __sub__(self, other: Any) -> Jet:
         return self.__add__(-other)
@@ -116,9 +124,17 @@ class Jet:
 
     def __mul__(self, other: Any) -> Jet:
         if not isinstance(other, Jet):
-            return Jet(self.value * other, tuple(g * other for g in self.gradient))
+            return Jet(self.value * other, tuple([g if g is ZERO else g * other for g in self.gradient]))
         x, y = self.value, other.value
-        return Jet(x * y, tuple(g * y + x * h for g, h in zip(self.gradient, other.gradient, strict=True)))
+        return Jet(
+            x * y,
+            tuple(
+                [
+                    (h if h is ZERO else x * h) if g is ZERO else g * y if h is ZERO else g * y + x * h
+                    for g, h in zip(self.gradient, other.gradient, strict=True)
+                ]
+            ),
+        )
 
     __rmul__ = __mul__
 
@@ -128,7 +144,7 @@ class Jet:
             raise ZeroDivisionError("division by a ball that contains zero")
         value = 1 / self.value
         slope = -value * value
-        return Jet(value, tuple(slope * g for g in self.gradient))
+        return Jet(value, tuple([g if g is ZERO else slope * g for g in self.gradient]))
 
     def __truediv__(self, other: Any) -> Jet:
         if not isinstance(other, Jet):
@@ -140,7 +156,7 @@ class Jet:
 
     def __pow__(self, n: int) -> Jet:
         base, n = (self, n) if n >= 0 else (self.reciprocal(), -n)
-        result = Jet(arb(1), (arb(0),) * len(self.gradient))
+        result = Jet(arb(1), (ZERO,) * len(self.gradient))
         for _ in range(n):
             result = result * base
         return result

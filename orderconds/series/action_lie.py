@@ -44,7 +44,8 @@ class MuntheKaasActionSeries(ActionSeries):
         self._powers: dict[tuple[int, int, Letters], Element] = {}
         self._summands: dict[tuple[int, Letters], Element] = {}
         self._exponentials: dict[tuple[int, Letters], Element] = {}
-        self._rationals: dict[Fraction, Element] = {}
+        self._in_ring: dict[int, list[tuple[Element, int, int]]] = {}
+        self._inverse_factorials: list[Element] = []
 
     def coefficient(self, row: int, word: Word) -> Element:
         """Return the coefficient of a word in exp(X_i), or exp(Y)."""
@@ -60,9 +61,7 @@ class MuntheKaasActionSeries(ActionSeries):
         key = (row, word)
         if key not in self._exponentials:
             self._exponentials[key] = self._sum(
-                self._power(row, n, word) * self.ring.rational(1, factorial(n))
-                if n > 1
-                else self._power(row, 1, word)
+                self._power(row, n, word) * self._inverse_factorial(n) if n > 1 else self._power(row, 1, word)
                 for n in range(1, len(word) + 1)
             )
         return self._exponentials[key]
@@ -87,30 +86,36 @@ class MuntheKaasActionSeries(ActionSeries):
         """Return the coefficient of a word in dexpinv_{(r),X_j} xi_j."""
         key = (j, word)
         if key not in self._summands:
-            terms, total = self._terms(len(word) - 1), self.ring.zero
+            terms, total, last = self._coefficients(len(word) - 1), self.ring.zero, len(word) - 1
             for place, letter in enumerate(word):
-                if isinstance(letter, int) and letter != j:
+                varied = isinstance(letter, int)
+                if varied and letter != j:
                     continue
-                before, behind = word[:place], word[place + 1 :]
-                inner = self._sum(
-                    # In a word the first letter acts first: X^(k-m) xi X^m reads the word of X^m first.
-                    self._times(self._times(self._rational(q), j, m, before), j, n, behind)
-                    for q, m, n in terms
-                    # A power of X has a word's coefficient only if the word is empty where the power is 1.
-                    if bool(m) is bool(before) and bool(n) is bool(behind)
-                    if m <= len(before) and n <= len(behind)
-                )
-                total = total + (inner if isinstance(letter, int) else inner * self.tau(letter)[j])
+                before, behind, after = word[:place], word[place + 1 :], last - place
+                inner = self.ring.zero
+                for q, m, n in terms:
+                    # In a word the first letter acts first: X^(k-m) xi X^m reads the word of X^m first. A
+                    # power of X has a word's coefficient only if the word is empty where the power is 1.
+                    if m <= place and n <= after and bool(m) is bool(place) and bool(n) is bool(after):
+                        term = q * self._power(j, m, before) if m else q
+                        inner = inner + (term * self._power(j, n, behind) if n else term)
+                total = total + (inner if varied else inner * self.tau(letter)[j])  # type: ignore[arg-type]
             self._summands[key] = total
         return self._summands[key]
 
-    def _times(self, factor: Element, row: int, n: int, word: Letters) -> Element:
-        return factor * self._power(row, n, word) if n else factor
+    def _inverse_factorial(self, n: int) -> Element:
+        while len(self._inverse_factorials) <= n:
+            self._inverse_factorials.append(self.ring.rational(1, factorial(len(self._inverse_factorials))))
+        return self._inverse_factorials[n]
 
-    def _rational(self, q: Fraction) -> Element:
-        if q not in self._rationals:
-            self._rationals[q] = self.ring.rational(q.numerator, q.denominator)
-        return self._rationals[q]
+    def _coefficients(self, most: int) -> list[tuple[Element, int, int]]:
+        """Return :meth:`_terms` with coefficients in the ring."""
+        if most not in self._in_ring:
+            terms = self._terms(most)
+            self._in_ring[most] = [
+                (self.ring.rational(q.numerator, q.denominator), m, n) for q, m, n in terms
+            ]
+        return self._in_ring[most]
 
     def _terms(self, most: int) -> Terms:
         """Return (coefficient, m, n) for the terms X^n xi X^m with m + n <= ``most``."""

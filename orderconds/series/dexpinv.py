@@ -39,6 +39,8 @@ class DexpinvSeries:
         self._powers: dict[tuple[int, int, Forest], Element] = {}
         self._summands: dict[tuple[int, Forest], Element] = {}
         self._exponentials: dict[tuple[int, Forest], Element] = {}
+        self._in_ring: dict[int, list[tuple[Element, int, int]]] = {}
+        self._inverse_factorials: list[Element] = []
 
     def __call__(self, forest: Forest) -> Element:
         """Return the value of the step on a forest."""
@@ -59,7 +61,8 @@ class DexpinvSeries:
         if (i, word) not in self._exponentials:
             result = self._ring.zero
             for n in range(1, word.count(0) + 1):
-                result = result + self._power(i, n, word) * self._ring.rational(1, factorial(n))
+                power = self._power(i, n, word)
+                result = result + (power if n == 1 else power * self._inverse_factorial(n))
             self._exponentials[i, word] = result
         return self._exponentials[i, word]
 
@@ -85,22 +88,35 @@ class DexpinvSeries:
         if (j, word) not in self._summands:
             ring, result = self._ring, self._ring.zero
             letters = word.count(0)
-            longest = letters - 1 if self._cutoff is None else min(letters - 1, self._cutoff)
-            for first, tree, rest in _pointed(word):
+            terms = self._terms(letters - 1 if self._cutoff is None else min(letters - 1, self._cutoff))
+            for place, (first, tree, rest) in enumerate(_pointed(word)):
                 before, behind = word[:first], word[rest:]
                 inner = ring.zero
-                for coefficient, m, n in dexpinv_terms(longest):
-                    # ad_u^k x = sum comb(k, m) (-1)^m u^(k-m) x u^m, and u^m, rightmost, acts first.
-                    if m <= before.count(0) and n <= behind.count(0):
-                        inner = inner + (
-                            ring.rational(coefficient.numerator, coefficient.denominator)
-                            * self._power(j, m, before)
-                            * self._power(j, n, behind)
-                        )
+                for coefficient, m, n in terms:
+                    # ad_u^k x = sum comb(k, m) (-1)^m u^(k-m) x u^m, and u^m, rightmost, acts first. A word
+                    # is in u^m only if it has m letters at least, and the empty one in u^0 alone.
+                    if bool(m) is bool(place) and m <= place:
+                        behind_it = letters - 1 - place
+                        if bool(n) is bool(behind_it) and n <= behind_it:
+                            term = coefficient * self._power(j, m, before) if m else coefficient
+                            inner = inner + (term * self._power(j, n, behind) if n else term)
                 if ring.is_zero(inner) is not True:
                     result = result + inner * self._exponential(j, branches(tree))
             self._summands[j, word] = result
         return self._summands[j, word]
+
+    def _terms(self, longest: int) -> list[tuple[Element, int, int]]:
+        """Return :func:`dexpinv_terms` with coefficients in the ring."""
+        if longest not in self._in_ring:
+            self._in_ring[longest] = [
+                (self._ring.rational(q.numerator, q.denominator), m, n) for q, m, n in dexpinv_terms(longest)
+            ]
+        return self._in_ring[longest]
+
+    def _inverse_factorial(self, n: int) -> Element:
+        while len(self._inverse_factorials) <= n:
+            self._inverse_factorials.append(self._ring.rational(1, factorial(len(self._inverse_factorials))))
+        return self._inverse_factorials[n]
 
 
 @lru_cache(maxsize=64)

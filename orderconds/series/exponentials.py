@@ -30,6 +30,7 @@ class ProductOfExponentials:
 
     def __init__(self, ring: Ring, count: int, letter: Callable[[int, int], Element | None]) -> None:
         self._ring, self._count, self._letter = ring, count, letter
+        self._inverse_factorials: list[Element] = []
         self._partial: dict[Word, list[Element]] = {(): [ring.one] * (count + 1)}
 
     def __call__(self, word: Word) -> Element:
@@ -41,6 +42,9 @@ class ProductOfExponentials:
         if word not in self._partial:
             found = [self._ring.zero]
             heads = [self._sweep(word[:end]) for end in range(len(word))]
+            while len(self._inverse_factorials) <= len(word):
+                n = len(self._inverse_factorials)
+                self._inverse_factorials.append(self._ring.rational(1, factorial(n)))
             for J in range(self._count):
                 value, run = found[-1], self._ring.one
                 # The last r letters come from this exponential, those before from earlier ones.
@@ -48,9 +52,9 @@ class ProductOfExponentials:
                     x = self._letter(J, word[-r])
                     if x is None:
                         break
-                    run = run * x
-                    share = heads[-r][J] * run
-                    value = value + (share if r == 1 else share * self._ring.rational(1, factorial(r)))
+                    run = x if r == 1 else run * x
+                    share = run if r == len(word) else heads[-r][J] * run
+                    value = value + (share if r == 1 else share * self._inverse_factorials[r])
                 found.append(value)
             self._partial[word] = found
         return self._partial[word]

@@ -48,6 +48,7 @@ class WordCoefficients:
         self._ring, self._letter = ring, letter
         self._prefixes: dict[Forest, tuple[Element, ...]] = {b"": (ring.one,) * (exponentials + 1)}
         self._exponentials = exponentials
+        self._inverse_factorials: list[Element] = []
 
     def __call__(self, word: Forest) -> Element:
         """Return the coefficient of a word."""
@@ -60,17 +61,20 @@ class WordCoefficients:
             starts = [place for place, level in enumerate(word) if level == 0]
             heads = [self._partial(word[:start]) for start in reversed(starts)]
             letters = trees_of(word)[::-1]
+            is_zero, whole = self._ring.is_zero, len(letters)
+            while len(self._inverse_factorials) <= whole:
+                n = len(self._inverse_factorials)
+                self._inverse_factorials.append(self._ring.rational(1, factorial(n)))
             for number in range(self._exponentials):
                 coefficient, run = found[-1], self._ring.one
                 # The last r letters of the word come from this exponential, the others from before it.
                 for r, (head, tree) in enumerate(zip(heads, letters, strict=True), start=1):
-                    run = run * self._letter(number, tree)
-                    if self._ring.is_zero(run) is True:
+                    letter = self._letter(number, tree)
+                    run = letter if r == 1 else run * letter
+                    if is_zero(run) is True:
                         break
-                    share = head[number] * run
-                    coefficient = coefficient + (
-                        share if r == 1 else share * _inverse_factorial(self._ring, r)
-                    )
+                    share = run if r == whole else head[number] * run
+                    coefficient = coefficient + (share if r == 1 else share * self._inverse_factorials[r])
                 found.append(coefficient)
             self._prefixes[word] = tuple(found)
         return self._prefixes[word]
@@ -168,7 +172,3 @@ def forest_residuals(series: ForestSeries, ring: Ring, order: int) -> dict[Fores
         exact = exact_value(forest)
         found[forest] = value - ring.rational(exact.numerator, exact.denominator)
     return found
-
-
-def _inverse_factorial(ring: Ring, n: int) -> Element:
-    return ring.rational(1, factorial(n))
