@@ -367,12 +367,12 @@ def deep(scene, method, precision):
     return emit(scene, method, "c", prefix="deep_", precision=precision).files
 
 
-@pytest.mark.parametrize("level", ["-O0", "-O1", "-O2"])
+@pytest.mark.parametrize("level", ["-O0", pytest.param("-O1", marks=pytest.mark.slow), "-O2"])
 @pytest.mark.parametrize(
     ("scene", "method"),
     [("free_rigid_body", "cf4"), ("dipole", "vcg:triple_jump"), ("fast_heavy_top", "splitting:forest_ruth4")],
 )
-@pytest.mark.parametrize("precision", ["double", "single"])
+@pytest.mark.parametrize("precision", ["double", pytest.param("single", marks=pytest.mark.slow)])
 def test_the_stated_stack_is_enough_and_not_far_too_much(compiler, scene, method, level, precision, tmp_path):
     files = deep(scene, method, precision)
     stated = int(re.search(r"stack: +at most (\d+) bytes", files["deep.c"])[1])

@@ -143,7 +143,12 @@ CASES = {
 CLEAN = {"c": ("gcc", "clang"), "python": ("",)}
 """Target to the compilers that its texts are checked with."""
 
-ALL = [pytest.param(case, id=case.method) for cases in CASES.values() for case in cases]
+ALL = [
+    pytest.param(case, id=case.method, marks=() if case is cases[0] else pytest.mark.slow)
+    for cases in CASES.values()
+    for case in cases
+]
+"""The first case of a family is tried in every run of the tests."""
 
 
 def test_every_family_and_every_target_is_tried():

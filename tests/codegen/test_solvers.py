@@ -56,8 +56,14 @@ def stepped(made, state, h):
     return [x for block in view.state for x in after[block.name]]
 
 
-@pytest.mark.parametrize("target", sorted(TARGETS))
-@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize(
+    ("solver", "target"),
+    [
+        pytest.param(s, t, marks=() if t == "c" or s == CHORD else pytest.mark.slow)
+        for s in SOLVERS
+        for t in sorted(TARGETS)
+    ],
+)
 @pytest.mark.parametrize("family", IMPLICIT)
 def test_every_solver_finds_the_solution_of_the_interpreter(family, solver, target):
     integrator, state = loaded(*IMPLICIT[family], solver, target)

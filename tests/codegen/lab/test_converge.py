@@ -59,8 +59,14 @@ def measure(
     return converge(runner(setting, chosen, target, digits, order), order, exact(scene), steps=steps)
 
 
-@pytest.mark.parametrize("target", TARGETS)
-@pytest.mark.parametrize("case", sorted(PUBLISHED))
+@pytest.mark.parametrize(
+    ("case", "target"),
+    [
+        pytest.param(c, t, marks=pytest.mark.slow if t == "interpreter" and "dipole" in c else ())
+        for c in sorted(PUBLISHED)
+        for t in TARGETS
+    ],
+)
 def test_published_errors_are_reproduced_to_three_digits(case: str, target: str, exact: Exact) -> None:
     scene, method = case.split()
     steps, errors = PUBLISHED[case]

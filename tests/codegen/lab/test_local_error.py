@@ -134,7 +134,7 @@ def test_on_the_cotangent_group():
     agree(hamiltonian_scene("SO(3)"), Method("rkmk", shipped("rk4"), 1), 3)
 
 
-@pytest.mark.parametrize("group", ["SO(3)", "GL(2)"])
+@pytest.mark.parametrize("group", ["SO(3)", pytest.param("GL(2)", marks=pytest.mark.slow)])
 @pytest.mark.parametrize(("method", "order"), VARIATIONAL)
 def test_variational_methods_by_action_trees(group, method, order):
     agree(hamiltonian_scene(group), method, order)

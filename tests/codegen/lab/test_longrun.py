@@ -74,7 +74,11 @@ def test_a_step_that_is_not_symplectic_has_one():
 
 @pytest.mark.parametrize(
     ("method", "printed"),
-    [("vcg:midpoint", 1e-3), ("vcg:triple_jump", 1e-5), ("vrkmk(2):gauss2", 1e-7)],
+    [
+        ("vcg:midpoint", 1e-3),
+        pytest.param("vcg:triple_jump", 1e-5, marks=pytest.mark.slow),
+        pytest.param("vrkmk(2):gauss2", 1e-7, marks=pytest.mark.slow),
+    ],
 )
 def test_the_energy_of_the_dipole_stays_as_printed(method, printed):
     """Thesis section 3.6: over (0, 1000) with h = 0.01; chaotic, so within a factor of two."""

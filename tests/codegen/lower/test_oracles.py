@@ -377,7 +377,7 @@ def check(scene, method, domain, expected):
                     assert abs(x - y) < 1e-34 * max(1, abs(y))
 
 
-HAMILTONIANS = ("SO(3)", "R^3", "GL(2)", "Heisenberg")
+HAMILTONIANS = ("SO(3)", "R^3", pytest.param("GL(2)", marks=pytest.mark.slow), "Heisenberg")
 RATIONAL = {name: shipped(name) for name in ("midpoint", "heun", "kutta3", "rk4")} | {
     f"full{s}": full(s) for s in (1, 2, 3)
 }
@@ -423,7 +423,7 @@ class TestVariationalCommutatorFreeIsItsEquation:
 class TestVariationalMuntheKaasIsItsEquation:
     @pytest.mark.parametrize("cutoff", [0, 1, 2, 4])
     @pytest.mark.parametrize("tableau", ["midpoint", "kutta3", "full2"])
-    @pytest.mark.parametrize("group", ["SO(3)", "GL(2)"])
+    @pytest.mark.parametrize("group", ["SO(3)", pytest.param("GL(2)", marks=pytest.mark.slow)])
     def test_exactly(self, group, tableau, cutoff):
         method = Method("vrkmk", RATIONAL[tableau], cutoff)
         check(hamiltonian_scene(group), method, SeriesDomain(QQ, ORDER), lambda o: o.vrkmk(cutoff))

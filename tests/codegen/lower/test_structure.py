@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from functools import cache
 
 import numpy as np
 import pytest
@@ -68,8 +69,13 @@ DIRECTIONS = np.block([[np.eye(3), np.zeros((3, 3))], [np.zeros((3, 3)), Q * INE
 """Tangent vectors (xi, nu) as columns: those of the momentum move the velocity by one."""
 
 
+@cache
+def emitted(method):
+    return emit("dipole", method, "c")
+
+
 def stepper(method):
-    integrator = load(emit("dipole", method, "c"))
+    integrator = load(emitted(method))
 
     def step(q, mu, h=H):
         state = np.array(integrator.step([*q.ravel(), *mu], h))

@@ -146,7 +146,7 @@ SPLIT = {
 
 
 @pytest.mark.parametrize("name", SPLIT)
-@pytest.mark.parametrize("group", ["GL(3)", "SO(3)", "unipotent"])
+@pytest.mark.parametrize("group", [pytest.param("GL(3)", marks=pytest.mark.slow), "SO(3)", "unipotent"])
 def test_residuals_and_errors_have_one_rank_and_joint_rank(name, group):
     family = families.get(name)
     method = family.random_method(RING, np.random.default_rng(11), ORDER)

@@ -419,7 +419,9 @@ MONOMIALS = {
 }
 
 
-@pytest.mark.parametrize("group", SPACES)
+@pytest.mark.parametrize(
+    "group", [pytest.param(g, marks=pytest.mark.slow if g == "GL(2)" else ()) for g in SPACES]
+)
 @pytest.mark.parametrize("label", MONOMIALS)
 def test_residuals_errors_and_both_have_equal_ranks_in_every_order_to_four(label, group):
     generator = np.random.default_rng(4)
