@@ -18,6 +18,23 @@ static inline double dot(const double a[static 3], const double b[static 3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/* The functions of z for angles that are small in nearly every step: all else is called. */
+static __attribute__((noinline)) void far_functions(double z, double c[static 3])
+{
+    sinc_cosc_defect(z, c, c + 1, c + 2);
+}
+
+static inline void functions_of(double z, double c[static 3])
+{
+    if (z <= TINY) {
+        c[0] = tiny_1(z, z * z);
+        c[1] = tiny_2(z, z * z);
+        c[2] = tiny_3(z, z * z);
+    } else {
+        far_functions(z, c);
+    }
+}
+
 /* The torque of gravity and charge, where the vertical seen from the body is g. */
 static inline void torque(const double g[static 3], double t[static 3])
 {

@@ -13,13 +13,12 @@
  *     q' = q exp(Y_2) exp(Y_1),
  *
  * with the exponents Y_1 and Y_2 of CF4's update. The twelve equations are solved by Newton's method; its Jacobian
- * to first order in h is inverted in every eighth step. The start is the extrapolation of the last nine solutions;
+ * to first order in h is inverted in every eighth step. The start is extrapolated from the last solutions;
  * the iteration ends where the next correction would be below rounding.
  */
+#define UNKNOWNS 12
 #include "dipole.h"
-#include <stddef.h>
-
-#define PAST 9
+#include "past.h"
 
 static const double b[4] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0}, c[4] = {0.0, 0.5, 0.5, 1.0};
 static const double a[4][4] = {{0}, {0.5}, {0.0, 0.5}, {0.0, 0.0, 1.0}};
@@ -33,8 +32,7 @@ typedef struct {
 static inline void functions(rotation *g)
 {
     const double z = dot(g->x, g->x);
-    sinc_cosc(z, g->k, g->k + 1);
-    g->k[2] = sinc_defect(z);
+    sinc_cosc_defect(z, g->k, g->k + 1, g->k + 2);
 }
 
 static inline void matrix(rotation *g)
@@ -245,15 +243,13 @@ static void inverse(const double u[static 12], double h, double B[static 12][12]
     }
 }
 
-static const double extrapolation[PAST][PAST] = {{1}, {2, -1}, {3, -3, 1}, {4, -6, 4, -1}, {5, -10, 10, -5, 1},
-    {6, -15, 20, -15, 6, -1}, {7, -21, 35, -35, 21, -7, 1}, {8, -28, 56, -70, 56, -28, 8, -1},
-    {9, -36, 84, -126, 126, -84, 36, -9, 1}};
-
 size_t handwritten_run(double state[static 12], double h, size_t steps)
 {
-    double q[9], m[3], u[12], r[12], impulse[3], B[12][12], past[2 * PAST][12];
+    double q[9], m[3], u[12], r[12], impulse[3], B[12][12];
+    struct past past;
     double rate = 1.0;
     size_t sweeps = 0;
+    forget(&past);
     for (int i = 0; i < 9; i++) {
         q[i] = state[i];
     }
@@ -263,22 +259,9 @@ size_t handwritten_run(double state[static 12], double h, size_t steps)
     }
     for (size_t n = 0; n < steps; n++) {
         if (n > 0) {
-            /* every solution is kept twice, so that the last nine stand together */
-            const size_t place = PAST - 1 - (n - 1) % PAST;
-            const double(*last)[12] = (const double(*)[12])(past + place);
-            const size_t known = n < PAST ? n : PAST;
-            const double *weight = extrapolation[known - 1];
-            for (int i = 0; i < 12; i++) {
-                past[place][i] = past[place + PAST][i] = u[i];
-                u[i] *= weight[0];
-            }
-            for (size_t k = 1; k < known; k++) {
-                for (int i = 0; i < 12; i++) {
-                    u[i] += weight[k] * last[k][i];
-                }
-            }
+            extrapolate(&past, u);
         }
-        if (n % 8 == 0 || n < PAST) {
+        if (n % 8 == 0 || n < DEPTH) {
             inverse(u, h, B);
         }
         double before = 0.0;

@@ -9,33 +9,15 @@
  *
  * because exp(-ad_y) dexp_{2y} is even and dexp_{2y} exp(-ad_y) - (1 - exp(-ad_y))/(2 ad_y) = dexp_y/2. Only
  * q^T e3 enters the equation. It is solved by Newton's method with the Jacobian to first order in h, from the
- * extrapolation of the last three solutions, until the next correction would be below rounding.
+ * extrapolation of the last solutions, until the next correction would be below rounding.
  */
-#include "rotation.h"
-#include <stddef.h>
-
-static const double inertia[3] = {1.01, 1.0, 0.01};
-
-static inline void torque(const double g[static 3], double t[static 3])
-{
-    const double p = 3.26 + 3.0 * (0.1 * g[1] - g[2]), m = 3.26 - 3.0 * (0.1 * g[1] + g[2]);
-    const double u = 1.5 / (p * sqrt(p)), v = 1.5 / (m * sqrt(m));
-    const double v1 = -0.1 * (u + v), v2 = u - v - 1.0;
-    t[0] = g[1] * v2 - g[2] * v1;
-    t[1] = -g[0] * v2;
-    t[2] = g[0] * v1;
-}
-
-static inline void cross(const double a[static 3], const double b[static 3], double c[static 3])
-{
-    c[0] = a[1] * b[2] - a[2] * b[1];
-    c[1] = a[2] * b[0] - a[0] * b[2];
-    c[2] = a[0] * b[1] - a[1] * b[0];
-}
+#define UNKNOWNS 3
+#include "dipole.h"
+#include "past.h"
 
 /* Solve for W from the start in w; return the number of evaluations, 0 where it does not converge. */
 static inline size_t solve(const double G0[static 3], const double m[static 3], double h, double w[static 3],
-    double N[static 3])
+    double N[static 3], double *rate)
 {
     const double k = 0.5 * h;
     double before = 0.0;
@@ -44,16 +26,18 @@ static inline size_t solve(const double G0[static 3], const double m[static 3], 
         const double y[3] = {k * w[0], k * w[1], k * w[2]};
         const double L[3] = {inertia[0] * w[0], w[1], inertia[2] * w[2]};
         const double z = y[0] * y[0] + y[1] * y[1] + y[2] * y[2];
-        double c1, c2, u[3], v[3], G[3], t[3], P[3], F[3];
-        sinc_cosc(z, &c1, &c2);
-        const double c3 = sinc_defect(z);
+        double c[3], u[3], v[3], G[3], t[3], P[3], F[3];
+        functions_of(z, c);
+        const double c1 = c[0], c2 = c[1], c3 = c[2];
         cross(y, G0, u);
         cross(y, u, v);
+        #pragma GCC unroll 3
         for (int i = 0; i < 3; i++) {
             G[i] = G0[i] - c1 * u[i] + c2 * v[i];
         }
         torque(G, t);
         cross(L, w, N);
+        #pragma GCC unroll 3
         for (int i = 0; i < 3; i++) {
             N[i] += t[i];
             P[i] = m[i] + k * N[i];
@@ -61,6 +45,7 @@ static inline size_t solve(const double G0[static 3], const double m[static 3], 
         cross(y, P, u);
         cross(y, u, v);
         cross(y, N, u);
+        #pragma GCC unroll 3
         for (int i = 0; i < 3; i++) {
             F[i] = L[i] - (P[i] + k * c2 * u[i] + c3 * v[i]);
         }
@@ -87,24 +72,28 @@ static inline size_t solve(const double G0[static 3], const double m[static 3], 
         const double e[3] = {a00 * F[0] + a01 * F[1] + a02 * F[2], a10 * F[0] + a11 * F[1] + a12 * F[2],
             a20 * F[0] + a21 * F[1] + a22 * F[2]};
         const double change = fabs(e[0]) + fabs(e[1]) + fabs(e[2]);
-        const double rate = before > 0.0 ? change / before : 1.0;
+        if (before > 0.0) {
+            *rate = change / before;
+        }
+        #pragma GCC unroll 3
         for (int i = 0; i < 3; i++) {
             w[i] -= e[i];
         }
         const double scale = 1.0 + fabs(w[0]) + fabs(w[1]) + fabs(w[2]);
-        if (change * (rate + h * h) <= 2e-16 * scale && rate < 0.5) {
+        if (change * (*rate + h * h) <= 2e-16 * scale && *rate < 0.5) {
             /* the part of N that is quadratic in W is kept exact, the rest moves by h times the correction */
             const double K[3] = {inertia[0] * w[0], w[1], inertia[2] * w[2]};
             double s[3], o[3];
             cross(K, w, s);
             const double p[3] = {w[0] + e[0], w[1] + e[1], w[2] + e[2]};
             cross(L, p, o);
+            #pragma GCC unroll 3
             for (int i = 0; i < 3; i++) {
                 N[i] += s[i] - o[i];
             }
             return sweep;
         }
-        if (change <= 4e-16 * scale || (change <= 6e-14 * scale && rate >= 0.5)) {
+        if (change <= 4e-16 * scale || (change <= 6e-14 * scale && *rate >= 0.5)) {
             return sweep; /* it stands still at rounding level */
         }
         before = change;
@@ -114,41 +103,30 @@ static inline size_t solve(const double G0[static 3], const double m[static 3], 
 
 size_t handwritten_run(double state[static 12], double h, size_t steps)
 {
-    double q[9], m[3], w1[3], w2[3], w3[3], w[3], N[3];
+    double q[9], m[3], w[3], N[3], rate = 1.0;
     size_t sweeps = 0;
+    struct past past;
+    forget(&past);
     for (int i = 0; i < 9; i++) {
         q[i] = state[i];
     }
+    #pragma GCC unroll 3
     for (int i = 0; i < 3; i++) {
         m[i] = q[i] * state[9] + q[3 + i] * state[10] + q[6 + i] * state[11];
         w[i] = m[i] / inertia[i];
     }
     for (size_t n = 0; n < steps; n++) {
-        for (int i = 0; i < 3; i++) {
-            w3[i] = n > 1 ? w2[i] : w[i];
-            w2[i] = n > 0 ? w1[i] : w[i];
-            w1[i] = w[i];
-            w[i] = n > 2 ? 3.0 * (w1[i] - w2[i]) + w3[i] : w[i];
+        if (n > 0) {
+            extrapolate(&past, w);
         }
-        const size_t made = solve(q + 6, m, h, w, N);
+        const size_t made = solve(q + 6, m, h, w, N, &rate);
         if (made == 0) {
             return 0;
         }
         sweeps += made;
         const double x[3] = {h * w[0], h * w[1], h * w[2]};
-        double c1, c2;
-        sinc_cosc(x[0] * x[0] + x[1] * x[1] + x[2] * x[2], &c1, &c2);
-        const double a = c1 * x[0], b = c1 * x[1], c = c1 * x[2];
-        const double xy = c2 * x[0] * x[1], xz = c2 * x[0] * x[2], yz = c2 * x[1] * x[2];
-        const double xx = c2 * x[0] * x[0], yy = c2 * x[1] * x[1], zz = c2 * x[2] * x[2];
-        const double E[9] = {1.0 - (yy + zz), xy - c, xz + b, xy + c, 1.0 - (xx + zz), yz - a, xz - b, yz + a,
-            1.0 - (xx + yy)};
-        for (int i = 0; i < 9; i += 3) {
-            const double r0 = q[i], r1 = q[i + 1], r2 = q[i + 2];
-            q[i] = r0 * E[0] + r1 * E[3] + r2 * E[6];
-            q[i + 1] = r0 * E[1] + r1 * E[4] + r2 * E[7];
-            q[i + 2] = r0 * E[2] + r1 * E[5] + r2 * E[8];
-        }
+        turn(q, x);
+        #pragma GCC unroll 3
         for (int i = 0; i < 3; i++) {
             m[i] += h * N[i];
         }
@@ -156,6 +134,7 @@ size_t handwritten_run(double state[static 12], double h, size_t steps)
     for (int i = 0; i < 9; i++) {
         state[i] = q[i];
     }
+    #pragma GCC unroll 3
     for (int i = 0; i < 3; i++) {
         state[9 + i] = q[3 * i] * m[0] + q[3 * i + 1] * m[1] + q[3 * i + 2] * m[2];
     }

@@ -10,23 +10,15 @@
  * where E = (1 - ad_x/2 + ad_x^2/12)^{-1} and S = mu x xi/2 - (2 x mu.xi - xi mu.x - mu xi.x)/12. On SO(3) every
  * function of ad_x is 1 + b ad_x + c ad_x^2 with b and c rational in z = |x|^2 and in the Stumpff functions of z, and
  * products with ad_x are shared. The six equations are solved by Newton's method; its Jacobian to first order in h is
- * inverted in every second step. The start is the extrapolation of the last nine solutions; the iteration ends where
+ * inverted in every second step. The start is extrapolated from the last solutions; the iteration ends where
  * the next correction would be below rounding.
  */
+#define UNKNOWNS 6
 #include "dipole.h"
-#include <stddef.h>
-
-#define PAST 9
+#include "past.h"
 #define R 0.28867513459481288225 /* sqrt(3)/6 */
 
 static const double a11 = 0.25, a12 = 0.25 - R, a21 = 0.25 + R, a22 = 0.25;
-
-/* c1, c2, c3 of z */
-static inline void stumpff(double z, double c[static 3])
-{
-    sinc_cosc(z, c, c + 1);
-    c[2] = sinc_defect(z);
-}
 
 /* The force N, the momentum mu and the slope T of one stage. */
 static inline void stage(const double x[static 3], const double w[static 3], const double G0[static 3],
@@ -34,7 +26,7 @@ static inline void stage(const double x[static 3], const double w[static 3], con
 {
     const double z = dot(x, x);
     double k[3], v[3], vv[3], g[3], gg[3], G[3], t[3], xi[3], W[3], P[3], u[3], uu[3], s[3];
-    stumpff(z, k);
+    functions_of(z, k);
     const double p = 1.0 - z * (1.0 / 12.0), d = 1.0 / (p * p + 0.25 * z);
     const double b = 0.5 * d, c = (1.0 / 6.0 + z * (1.0 / 144.0)) * d;
     const double b0 = b - k[0] - z * (k[1] * b - k[0] * c), c0 = c - k[0] * b + k[1] * (1.0 - z * c);
@@ -81,7 +73,7 @@ static inline void residual(const double w[static 6], const double G0[static 3],
     }
     stage(x1, w, G0, N1, mu1, T1);
     stage(x2, w + 3, G0, N2, mu2, T2);
-    stumpff(dot(y, y), k);
+    functions_of(dot(y, y), k);
     #pragma GCC unroll 9
     for (int i = 0; i < 3; i++) {
         impulse[i] = 0.5 * h * (N1[i] + N2[i]);
@@ -155,15 +147,13 @@ static void inverse(const double w[static 6], double h, double B[static 6][6])
     }
 }
 
-static const double extrapolation[PAST][PAST] = {{1}, {2, -1}, {3, -3, 1}, {4, -6, 4, -1}, {5, -10, 10, -5, 1},
-    {6, -15, 20, -15, 6, -1}, {7, -21, 35, -35, 21, -7, 1}, {8, -28, 56, -70, 56, -28, 8, -1},
-    {9, -36, 84, -126, 126, -84, 36, -9, 1}};
-
 size_t handwritten_run(double state[static 12], double h, size_t steps)
 {
-    double q[9], m[3], w[6], r[6], impulse[3], B[6][6], past[2 * PAST][6];
+    double q[9], m[3], w[6], r[6], impulse[3], B[6][6];
+    struct past past;
     double rate = 1.0;
     size_t sweeps = 0;
+    forget(&past);
     #pragma GCC unroll 9
     for (int i = 0; i < 9; i++) {
         q[i] = state[i];
@@ -175,24 +165,9 @@ size_t handwritten_run(double state[static 12], double h, size_t steps)
     }
     for (size_t n = 0; n < steps; n++) {
         if (n > 0) {
-            /* every solution is kept twice, so that the last nine stand together */
-            const size_t place = PAST - 1 - (n - 1) % PAST;
-            const double(*last)[6] = (const double(*)[6])(past + place);
-            const size_t known = n < PAST ? n : PAST;
-            const double *weight = extrapolation[known - 1];
-            #pragma GCC unroll 9
-            for (int i = 0; i < 6; i++) {
-                past[place][i] = past[place + PAST][i] = w[i];
-                w[i] *= weight[0];
-            }
-            for (size_t k = 1; k < known; k++) {
-                #pragma GCC unroll 9
-                for (int i = 0; i < 6; i++) {
-                    w[i] += weight[k] * last[k][i];
-                }
-            }
+            extrapolate(&past, w);
         }
-        if (n % 2 == 0 || n < PAST) {
+        if (n % 2 == 0 || n < DEPTH) {
             inverse(w, h, B);
         }
         double before = 0.0;

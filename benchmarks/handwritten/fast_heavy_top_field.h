@@ -11,8 +11,15 @@
 #include "rotation.h"
 #include <stddef.h>
 
-static const double slowness = 1.0 / 15.234375, weight = 147.15; /* 1/I1, and m g |X| */
-static const double excess = 1.0 / 0.46875 - 1.0 / 15.234375;
+/* h/I1, h (1/I3 - 1/I1) and h m g |X|: the field is multiplied by the step */
+struct body {
+    double slowness, excess, weight;
+};
+
+static inline struct body body(double h)
+{
+    return (struct body){h / 15.234375, h * (1.0 / 0.46875 - 1.0 / 15.234375), h * 147.15};
+}
 
 struct place {
     double d[3], m[3];
@@ -29,18 +36,19 @@ static inline void cross(const double a[static 3], const double b[static 3], dou
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-static inline __attribute__((always_inline)) void field(const struct place *s, struct rate *f)
+static inline __attribute__((always_inline)) void field(const struct body *top, const struct place *s, struct rate *f)
 {
     const double *d = s->d, *m = s->m;
-    const double speed = excess * (m[0] * d[0] + m[1] * d[1] + m[2] * d[2]);
+    const double speed = top->excess * (m[0] * d[0] + m[1] * d[1] + m[2] * d[2]);
     double v[3];
     cross(m, d, v);
+    #pragma GCC unroll 3
     for (int i = 0; i < 3; i++) {
-        f->x[i] = slowness * m[i] + speed * d[i];
+        f->x[i] = top->slowness * m[i] + speed * d[i];
         f->n[i] = speed * v[i];
     }
-    f->n[0] -= weight * d[1];
-    f->n[1] += weight * d[0];
+    f->n[0] -= top->weight * d[1];
+    f->n[1] += top->weight * d[0];
 }
 
 /* c += c1 x cross c + c2 x cross (x cross c) */
@@ -50,27 +58,10 @@ static inline void turn(const double x[static 3], double c1, double c2, const do
     double v[3], w[3];
     cross(x, c, v);
     cross(x, v, w);
+    #pragma GCC unroll 3
     for (int i = 0; i < 3; i++) {
         y[i] = c[i] + (c1 * v[i] + c2 * w[i]);
     }
-}
-
-/* sin(s)/s, (1 - cos(s))/s^2 and (s - sin(s))/s^3 of z = s^2, by one branch where z is small */
-static inline void sinc_cosc_defect(double z, double *c1, double *c2, double *c3)
-{
-    if (z <= 0.0625) {
-        const double w = z * z;
-        const double w2 = w * w;
-        *c1 = (1.0 - z * (1.0 / 6.0)) + w * (1.0 / 120.0 - z * (1.0 / 5040.0))
-            + w2 * (1.0 / 362880.0 - z * (1.0 / 39916800.0));
-        *c2 = (0.5 - z * (1.0 / 24.0)) + w * (1.0 / 720.0 - z * (1.0 / 40320.0))
-            + w2 * (1.0 / 3628800.0 - z * (1.0 / 479001600.0));
-        *c3 = (1.0 / 6.0 - z * (1.0 / 120.0)) + w * (1.0 / 5040.0 - z * (1.0 / 362880.0))
-            + w2 * (1.0 / 39916800.0 - z * (1.0 / 6227020800.0));
-        return;
-    }
-    sinc_cosc(z, c1, c2);
-    *c3 = sinc_defect(z);
 }
 
 /*
@@ -102,6 +93,7 @@ static inline void bracket(const struct rate *x, const struct rate *y, struct ra
     cross(x->x, y->x, b->x);
     cross(x->x, y->n, b->n);
     cross(y->x, x->n, v);
+    #pragma GCC unroll 3
     for (int i = 0; i < 3; i++) {
         b->n[i] -= v[i];
     }
@@ -109,6 +101,7 @@ static inline void bracket(const struct rate *x, const struct rate *y, struct ra
 
 static inline void begin(const double state[static 12], struct place *s, double a[static 3])
 {
+    #pragma GCC unroll 3
     for (int i = 0; i < 3; i++) {
         a[i] = state[3 * i];
         s->d[i] = state[3 * i + 1];
@@ -120,6 +113,7 @@ static inline void end(const struct place *s, const double a[static 3], double s
 {
     double b[3];
     cross(a, s->d, b);
+    #pragma GCC unroll 3
     for (int i = 0; i < 3; i++) {
         state[3 * i] = a[i];
         state[3 * i + 1] = s->d[i];
