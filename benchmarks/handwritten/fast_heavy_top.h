@@ -30,25 +30,35 @@ static inline void turn_column(double x, double y, double z, double c1, double c
     c[2] += c1 * w + c2 * r;
 }
 
-/* turn by exp(x), kick by mu += g gX x -e3, and make x = k mu for the turn that follows */
-static inline __attribute__((always_inline)) void turn_and_kick(struct top *s, double x[static 3], double g, double k)
+/* a kick and the turn after it: mu_2 stands still, so that much is the same in every step */
+struct kick {
+    double g, k, kg, c, cc; /* g, k, k g, k mu_2 and its square */
+};
+
+static inline struct kick prepared(double g, double k, double m2)
+{
+    return (struct kick){g, k, k * g, k * m2, k * m2 * (k * m2)};
+}
+
+/* turn by exp(x), kick by mu += g gX x -e3, and make x = k mu for the turn that follows; x[3] is x[2] squared */
+static inline void turn_and_kick(struct top *s, double x[static 4], const struct kick *kick)
 {
     const double *d = s->d, a = x[0], b = x[1], c = x[2];
     const double u = b * d[2] - c * d[1], v = c * d[0] - a * d[2], w = a * d[1] - b * d[0];
     const double p = b * w - c * v, q = c * u - a * w, r = a * v - b * u;
-    const double kg = k * g;
-    const double x0 = k * s->m[0] - kg * d[1], x1 = k * s->m[1] + kg * d[0];
-    const double ku = kg * u, kv = kg * v, kp = kg * p, kq = kg * q;
+    const double x0 = kick->k * s->m[0] - kick->kg * d[1], x1 = kick->k * s->m[1] + kick->kg * d[0];
+    const double ku = kick->kg * u, kv = kick->kg * v, kp = kick->kg * p, kq = kick->kg * q;
     double c1, c2;
-    sinc_cosc(a * a + b * b + c * c, &c1, &c2);
-    x[0] = x0 - (c1 * kv + c2 * kq);
-    x[1] = x1 + (c1 * ku + c2 * kp);
-    x[2] = k * s->m[2];
+    sinc_cosc((a * a + x[3]) + b * b, &c1, &c2);
+    x[0] = (x0 - c1 * kv) - c2 * kq;
+    x[1] = (x1 + c1 * ku) + c2 * kp;
+    x[2] = kick->c;
+    x[3] = kick->cc;
     s->d[0] += c1 * u + c2 * p;
     s->d[1] += c1 * v + c2 * q;
     s->d[2] += c1 * w + c2 * r;
-    s->m[0] -= g * s->d[1];
-    s->m[1] += g * s->d[0];
+    s->m[0] -= kick->g * s->d[1];
+    s->m[1] += kick->g * s->d[0];
     turn_column(a, b, c, c1, c2, s->a);
 }
 

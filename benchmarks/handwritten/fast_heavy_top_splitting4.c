@@ -13,14 +13,19 @@ void handwritten_run(double state[static 12], double h, size_t steps)
     struct top s;
     begin(&s, state);
     kick(&s, B[0] * g);
-    double x[3] = {A[0] * k * s.m[0], A[0] * k * s.m[1], A[0] * k * s.m[2]};
+    const double turns[6] = {A[1], A[2], A[2], A[1], A[0], A[0]}, kicks[6] = {B[1], B[2], B[3], B[2], B[1], 2.0 * B[0]};
+    struct kick table[6];
+    for (int i = 0; i < 6; i++) {
+        table[i] = prepared(kicks[i] * g, turns[i] * k, s.m[2]);
+    }
+    double x[4] = {A[0] * k * s.m[0], A[0] * k * s.m[1], table[5].c, table[5].cc};
     for (size_t n = 1; n <= steps; n++) {
-        turn_and_kick(&s, x, B[1] * g, A[1] * k);
-        turn_and_kick(&s, x, B[2] * g, A[2] * k);
-        turn_and_kick(&s, x, B[3] * g, A[2] * k);
-        turn_and_kick(&s, x, B[2] * g, A[1] * k);
-        turn_and_kick(&s, x, B[1] * g, A[0] * k);
-        turn_and_kick(&s, x, n < steps ? 2.0 * B[0] * g : B[0] * g, A[0] * k);
+        if (n == steps) {
+            table[5] = prepared(B[0] * g, A[0] * k, s.m[2]);
+        }
+        for (int i = 0; i < 6; i++) {
+            turn_and_kick(&s, x, &table[i]);
+        }
     }
     end(&s, h * (double)steps, state);
 }

@@ -14,22 +14,20 @@ void handwritten_run(double state[static 12], double h, size_t steps)
     const double k = h / inertia, g = h * weight;
     struct top s;
     begin(&s, state);
-    double x[3] = {A[0] * k * s.m[0], A[0] * k * s.m[1], A[0] * k * s.m[2]};
+    struct kick table[14];
+    for (int i = 0; i < 14; i++) {
+        const double turn = i < 13 ? A[i < 7 ? i + 1 : 13 - i] : 2.0 * A[0];
+        table[i] = prepared(B[i < 7 ? i : 13 - i] * g, turn * k, s.m[2]);
+    }
+    const struct kick first = prepared(0.0, A[0] * k, s.m[2]);
+    double x[4] = {A[0] * k * s.m[0], A[0] * k * s.m[1], first.c, first.cc};
     for (size_t n = 1; n <= steps; n++) {
-        turn_and_kick(&s, x, B[0] * g, A[1] * k);
-        turn_and_kick(&s, x, B[1] * g, A[2] * k);
-        turn_and_kick(&s, x, B[2] * g, A[3] * k);
-        turn_and_kick(&s, x, B[3] * g, A[4] * k);
-        turn_and_kick(&s, x, B[4] * g, A[5] * k);
-        turn_and_kick(&s, x, B[5] * g, A[6] * k);
-        turn_and_kick(&s, x, B[6] * g, A[7] * k);
-        turn_and_kick(&s, x, B[6] * g, A[6] * k);
-        turn_and_kick(&s, x, B[5] * g, A[5] * k);
-        turn_and_kick(&s, x, B[4] * g, A[4] * k);
-        turn_and_kick(&s, x, B[3] * g, A[3] * k);
-        turn_and_kick(&s, x, B[2] * g, A[2] * k);
-        turn_and_kick(&s, x, B[1] * g, A[1] * k);
-        turn_and_kick(&s, x, B[0] * g, n < steps ? 2.0 * A[0] * k : A[0] * k);
+        if (n == steps) {
+            table[13] = prepared(B[0] * g, A[0] * k, s.m[2]);
+        }
+        for (int i = 0; i < 14; i++) {
+            turn_and_kick(&s, x, &table[i]);
+        }
     }
     turn(&s, x);
     end(&s, h * (double)steps, state);

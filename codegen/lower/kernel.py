@@ -72,8 +72,9 @@ class _Block:
         return (*self.images, *(x for _, x in self.kept))
 
 
-AS_WRITTEN, ORDERED, SHORTENED = range(3)
-"""What is done about long chains: nothing, assignments in order, all of :mod:`codegen.lower.late`."""
+AS_WRITTEN, COMBINED, ORDERED, SHORTENED = range(4)
+"""What is done about long chains: nothing, steps and constants are multiplied first, assignments stand in
+order, all of :mod:`codegen.lower.late`."""
 
 
 def to_kernel(
@@ -154,8 +155,10 @@ def to_kernel(
     if scene.body_group is not None:
         outputs = _framed(scene, outputs, lambda q, mu: scene.body_group.Adt(domain, q, mu))
         lower = lower and _framed(scene, lower, lambda q, mu: scene.body_group.Adt(domain, q, mu))
-    if chains == SHORTENED:
-        outputs = late.run(outputs, frozenset({"h", *scene.runtime}))
+    if chains in (COMBINED, SHORTENED):
+        outputs = late.run(
+            outputs, frozenset({"h", LEAD, ELAPSED, *scene.runtime}), spread=chains == SHORTENED
+        )
     if variations is not None:
         seeds = variations.seeds(domain)
         blocks = [b for block in blocks for b in (block, _varied(block, seeds, space, name))]
@@ -171,7 +174,7 @@ def to_kernel(
     durations = [v.name for v in program.inputs if v.name in (LEAD, ELAPSED)]
     scalars = (TIME, "h", *scene.runtime, *durations)
     body = schedule.run()
-    if chains != AS_WRITTEN:
+    if chains in (ORDERED, SHORTENED):
         body = late.ordered([let for let in body if isinstance(let, Let)])
     made = Kernel(
         program.name, state, scalars, body, schedule.outputs[: len(outputs)], substeps=program.substeps

@@ -57,12 +57,13 @@ def _measured(root: Expr, ready: dict[int, int]) -> int:
     return ready[root.id]
 
 
-def run(roots: Sequence[Expr], invariant: frozenset[str]) -> tuple[Expr, ...]:
+def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -> tuple[Expr, ...]:
     """Return the roots with the longest chains shortened.
 
     ``invariant`` names the symbols that do not change from step to step: products of them cost nothing.
+    Without ``spread`` these are multiplied first, and nothing is spread over late values.
     """
-    return _Chains(tuple(roots), invariant).rewritten()
+    return _Chains(tuple(roots), invariant, spread).rewritten()
 
 
 @dataclass
@@ -71,6 +72,7 @@ class _Chains:
 
     roots: tuple[Expr, ...]
     invariant: frozenset[str]
+    spread: bool = True
     nodes: list[Expr] = field(init=False)
     level: dict[int, int] = field(default_factory=dict)
     ready: dict[int, int] = field(default_factory=dict)
@@ -96,7 +98,7 @@ class _Chains:
 
     def rewritten(self) -> tuple[Expr, ...]:
         """Return the roots anew."""
-        ends = self._ends()
+        ends = self._ends() if self.spread else frozenset()
         for node in self.nodes:
             args = [self.new[a.id] for a in node.args]
             plain = node.space._make(node.op, tuple(args), node.payload) if args else node

@@ -30,7 +30,7 @@ class Snippet:
 def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
     """Return every snippet; the same names serve each target.
 
-    The shorter polynomial near zero is for doubles: in single precision the longer one is as short.
+    The shorter polynomials near zero are for doubles: in single precision the longer one is as short.
     """
     found = [Snippet("greater", "greater"), Snippet("quotient", "quotient")]
     found.append(Snippet("invert", "invert", ("fabs",)))
@@ -46,8 +46,10 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
         values: dict[str, Any] = {"k": k, "first": first, "even": rest[::2], "odd": rest[1::2]}
         found.append(Snippet(f"stumpff_series_{k}", "stumpff_series", (), values))
         if precision is DOUBLE:
-            short = {"k": k, "short": stumpff.constants(k, stumpff.SMALL)}
-            found.append(Snippet(f"stumpff_small_{k}", "stumpff_small", (), short))
+            for size, last in (("small", stumpff.SMALL), ("tiny", stumpff.TINY)):
+                short = [precision.round(c) for c in stumpff.economised(k, last)]
+                values = {"k": k, "size": size, "last": str(last), "short": short}
+                found.append(Snippet(f"stumpff_{size}_{k}", "stumpff_small", (), values))
     for orders in stumpff.SETS:
         name = "stumpff_" + "".join(map(str, orders))
         library = ["sqrt"]
@@ -63,8 +65,13 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
         # What is small enough to be inlined everywhere stands alone; the rest is called seldom.
         far, small = f"{name}_far", float(stumpff.SMALL)
         found.append(Snippet(far, "stumpff", series, values | {"name": far, "small": small}))
-        calls = (*(f"stumpff_small_{k}" for k in orders), far)
-        found.append(Snippet(name, "stumpff_near", calls, values | {"small": small, "far": far}))
+        # Three functions in two forms would be too long for a C compiler to inline.
+        sizes = ("tiny", "small") if len(orders) < 3 else ("small",)
+        calls = (*(f"stumpff_{size}_{k}" for size in sizes for k in orders), far)
+        tiny = float(stumpff.TINY) if "tiny" in sizes else ""
+        found.append(
+            Snippet(name, "stumpff_near", calls, values | {"tiny": tiny, "small": small, "far": far})
+        )
     return tuple(found)
 
 

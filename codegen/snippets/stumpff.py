@@ -18,8 +18,10 @@ from codegen.printers.precision import DOUBLE, Precision
 SWITCH = (1, 1, 1, 4)
 """The polynomial of c_k serves up to z = SWITCH[k]; c_1(4) = 0.4546."""
 
-SMALL = Fraction(1, 16)
-"""Up to here a shorter polynomial serves: angles up to a quarter."""
+SMALL, TINY = Fraction(1, 16), Fraction(1, 256)
+"""Up to these shorter polynomials serve: angles up to a quarter and to a sixteenth."""
+
+PI = Fraction("3.14159265358979323846264338327950288")
 
 
 SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n))
@@ -54,6 +56,43 @@ def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> 
     ):
         terms.append(term)
     return tuple(terms)
+
+
+def economised(k: int, last: Fraction, bits: int = 53) -> tuple[Fraction, ...]:
+    """Return the shortest polynomial for c_k up to ``last`` that errs by half a unit of the last bit at most.
+
+    From its Taylor polynomial multiples of Chebyshev polynomials are taken, stretched so that they vanish at
+    zero, where the value stays exact: of all polynomials with one leading term these are the least.
+
+    >>> [len(economised(1, last)) for last in (TINY, SMALL)]
+    [4, 5]
+    """
+    terms = list(coefficients(k, last, bits + 3))
+    spent, allowance = Fraction(0), Fraction(1, 2 ** (bits + 1) * factorial(k))
+    while True:
+        shift = _cosine(PI / (2 * (len(terms) - 1)))
+        stretched = _chebyshev(len(terms) - 1, (1 + shift) / last, -shift)
+        multiple = terms[-1] / stretched[-1]
+        spent += abs(multiple)
+        if spent > allowance:
+            return tuple(terms)
+        terms = [t - multiple * s for t, s in zip(terms[:-1], (Fraction(0), *stretched[1:-1]), strict=True)]
+
+
+def _cosine(x: Fraction) -> Fraction:
+    """Return cos(x) to some thirty digits."""
+    value = sum(((-1) ** j * x ** (2 * j) / factorial(2 * j) for j in range(16)), Fraction(0))
+    return Fraction(round(value * 10**34), 10**34)
+
+
+def _chebyshev(n: int, slope: Fraction, shift: Fraction) -> list[Fraction]:
+    """Return the coefficients of T_n(slope z + shift)."""
+    before, now = [Fraction(1)], [shift, slope]
+    for _ in range(n - 1):
+        lifted = [shift * x for x in (*now, 0)]
+        lifted = [a + slope * b for a, b in zip(lifted, (0, *now), strict=True)]
+        before, now = now, [2 * a - b for a, b in zip(lifted, (*before, 0, 0), strict=True)]
+    return now
 
 
 def constants(k: int, last: Fraction | int | None = None, precision: Precision = DOUBLE) -> tuple[float, ...]:

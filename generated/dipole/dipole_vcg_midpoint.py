@@ -142,36 +142,60 @@ def _size(row):
     return total
 
 
+def _stumpff_tiny_3(z):
+    """Return c_3(z) for z <= 1/256."""
+    w = z * z
+    return (
+        (0.16666666666666666 + z * -0.008333333333333059)
+        + w * (0.00019841269798705593 + z * -2.7555439466688165e-06)
+    )
+
+
+def _stumpff_tiny_2(z):
+    """Return c_2(z) for z <= 1/256."""
+    w = z * z
+    return (
+        (0.5 + z * -0.04166666666666365)
+        + w * (0.0013888888842068215 + z * -2.4799519568559804e-05)
+    )
+
+
+def _stumpff_tiny_1(z):
+    """Return c_1(z) for z <= 1/256."""
+    w = z * z
+    return (
+        (1.0 + z * -0.16666666666663651)
+        + w * (0.00833333328651266 + z * -0.00019839202108242344)
+    )
+
+
 def _stumpff_small_3(z):
     """Return c_3(z) for z <= 1/16."""
     w = z * z
-    w2 = w * w
     return (
-        (0.16666666666666666 + z * -0.008333333333333333)
-        + w * (0.0001984126984126984 + z * -2.7557319223985893e-06)
-        + w2 * (2.505210838544172e-08 + z * -1.6059043836821613e-10)
+        (0.16666666666666666 + z * -0.008333333333333161)
+        + w * (0.00019841269838611386 + z * -2.7557306378194284e-06)
+        + w * w * 2.502764558451995e-08
     )
 
 
 def _stumpff_small_2(z):
     """Return c_2(z) for z <= 1/16."""
     w = z * z
-    w2 = w * w
     return (
-        (0.5 + z * -0.041666666666666664)
-        + w * (0.001388888888888889 + z * -2.48015873015873e-05)
-        + w2 * (2.755731922398589e-07 + z * -2.08767569878681e-09)
+        (0.5 + z * -0.041666666666664444)
+        + w * (0.0013888888885432897 + z * -2.480157060205821e-05)
+        + w * w * 2.7525517582787593e-07
     )
 
 
 def _stumpff_small_1(z):
     """Return c_1(z) for z <= 1/16."""
     w = z * z
-    w2 = w * w
     return (
-        (1.0 + z * -0.16666666666666666)
-        + w * (0.008333333333333333 + z * -0.0001984126984126984)
-        + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08)
+        (1.0 + z * -0.16666666666664)
+        + w * (0.008333333329190184 + z * -0.00019841249819193104)
+        + w * w * 2.7519182046349993e-06
     )
 
 
@@ -220,6 +244,8 @@ def _stumpff_3_far(z):
 
 def _stumpff_3(z):
     """Return, for z >= 0 and s = sqrt(z): c_3 = (s - sin(s))/s^3."""
+    if z <= 0.00390625:
+        return _stumpff_tiny_3(z)
     if z <= 0.0625:
         return _stumpff_small_3(z)
     return _stumpff_3_far(z)
@@ -237,6 +263,8 @@ def _stumpff_23_far(z):
 
 def _stumpff_23(z):
     """Return, for z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
+    if z <= 0.00390625:
+        return _stumpff_tiny_2(z), _stumpff_tiny_3(z)
     if z <= 0.0625:
         return _stumpff_small_2(z), _stumpff_small_3(z)
     return _stumpff_23_far(z)
@@ -253,6 +281,8 @@ def _stumpff_12_far(z):
 
 def _stumpff_12(z):
     """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
+    if z <= 0.00390625:
+        return _stumpff_tiny_1(z), _stumpff_tiny_2(z)
     if z <= 0.0625:
         return _stumpff_small_1(z), _stumpff_small_2(z)
     return _stumpff_12_far(z)

@@ -62,34 +62,55 @@
 #error "compile without -ffast-math (-ffinite-math-only): it removes the checks for infinities and NaNs"
 #endif
 
+/* c_3(z) for z <= 1/256 */
+static inline double stumpff_tiny_3(double z)
+{
+    const double w = z * z;
+    return (0.16666666666666666 + z * -0.008333333333333059)
+        + w * (0.00019841269798705593 + z * -2.7555439466688165e-06);
+}
+
+/* c_2(z) for z <= 1/256 */
+static inline double stumpff_tiny_2(double z)
+{
+    const double w = z * z;
+    return (0.5 + z * -0.04166666666666365)
+        + w * (0.0013888888842068215 + z * -2.4799519568559804e-05);
+}
+
+/* c_1(z) for z <= 1/256 */
+static inline double stumpff_tiny_1(double z)
+{
+    const double w = z * z;
+    return (1.0 + z * -0.16666666666663651)
+        + w * (0.00833333328651266 + z * -0.00019839202108242344);
+}
+
 /* c_3(z) for z <= 1/16 */
 static inline double stumpff_small_3(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (0.16666666666666666 + z * -0.008333333333333333)
-        + w * (0.0001984126984126984 + z * -2.7557319223985893e-06)
-        + w2 * (2.505210838544172e-08 + z * -1.6059043836821613e-10);
+    return (0.16666666666666666 + z * -0.008333333333333161)
+        + w * (0.00019841269838611386 + z * -2.7557306378194284e-06)
+        + w * w * 2.502764558451995e-08;
 }
 
 /* c_2(z) for z <= 1/16 */
 static inline double stumpff_small_2(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (0.5 + z * -0.041666666666666664)
-        + w * (0.001388888888888889 + z * -2.48015873015873e-05)
-        + w2 * (2.755731922398589e-07 + z * -2.08767569878681e-09);
+    return (0.5 + z * -0.041666666666664444)
+        + w * (0.0013888888885432897 + z * -2.480157060205821e-05)
+        + w * w * 2.7525517582787593e-07;
 }
 
 /* c_1(z) for z <= 1/16 */
 static inline double stumpff_small_1(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (1.0 + z * -0.16666666666666666)
-        + w * (0.008333333333333333 + z * -0.0001984126984126984)
-        + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08);
+    return (1.0 + z * -0.16666666666664)
+        + w * (0.008333333329190184 + z * -0.00019841249819193104)
+        + w * w * 2.7519182046349993e-06;
 }
 
 /* c_3(z) = sum (-z)^j/(2j+3)! up to z = 4 */
@@ -149,7 +170,10 @@ static inline void stumpff_23_far(double z, double *c2, double *c3)
 /* For z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
 static inline void stumpff_23(double z, double *c2, double *c3)
 {
-    if (z <= 0.0625) {
+    if (z <= 0.00390625) {
+        *c2 = stumpff_tiny_2(z);
+        *c3 = stumpff_tiny_3(z);
+    } else if (z <= 0.0625) {
         *c2 = stumpff_small_2(z);
         *c3 = stumpff_small_3(z);
     } else {
@@ -206,7 +230,10 @@ static inline void stumpff_123(double z, double *c1, double *c2, double *c3)
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
 static inline void stumpff_12(double z, double *c1, double *c2)
 {
-    if (z <= 0.0625) {
+    if (z <= 0.00390625) {
+        *c1 = stumpff_tiny_1(z);
+        *c2 = stumpff_tiny_2(z);
+    } else if (z <= 0.0625) {
         *c1 = stumpff_small_1(z);
         *c2 = stumpff_small_2(z);
     } else {
@@ -723,9 +750,13 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double new_mu0 = g00 * change_0 + g01 * change_1 + g02 * change_2 + mu0;
     const double new_mu1 = g10 * change_0 + g11 * change_1 + g12 * change_2 + mu1;
     const double new_mu2 = g20 * change_0 + g21 * change_1 + g22 * change_2 + mu2;
-    if (!(isfinite(new_g00) && isfinite(new_g01) && isfinite(new_g02) && isfinite(new_g10)
-        && isfinite(new_g11) && isfinite(new_g12) && isfinite(new_g20) && isfinite(new_g21)
-        && isfinite(new_g22) && isfinite(new_mu0) && isfinite(new_mu1) && isfinite(new_mu2))) {
+    /* x - x is zero for a number, else NaN: one test for all */
+    if (!(((new_g00 - new_g00) + (new_g01 - new_g01))
+        + ((new_g02 - new_g02) + (new_g10 - new_g10))
+        + ((new_g11 - new_g11) + (new_g12 - new_g12))
+        + ((new_g20 - new_g20) + (new_g21 - new_g21))
+        + ((new_g22 - new_g22) + (new_mu0 - new_mu0))
+        + ((new_mu1 - new_mu1) + (new_mu2 - new_mu2)) == 0.0)) {
         return DIPOLE_VRKMK2_GAUSS2_NOT_FINITE;
     }
     const double solution[6] = {v1_0, v1_1, v1_2, v2_0, v2_1, v2_2};

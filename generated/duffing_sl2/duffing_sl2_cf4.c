@@ -43,25 +43,38 @@
 #error "compile without -ffast-math (-ffinite-math-only): it removes the checks for infinities and NaNs"
 #endif
 
+/* c_1(z) for z <= 1/256 */
+static inline double stumpff_tiny_1(double z)
+{
+    const double w = z * z;
+    return (1.0 + z * -0.16666666666663651)
+        + w * (0.00833333328651266 + z * -0.00019839202108242344);
+}
+
+/* c_0(z) for z <= 1/256 */
+static inline double stumpff_tiny_0(double z)
+{
+    const double w = z * z;
+    return (1.0 + z * -0.4999999999997288)
+        + w * (0.0416666662452806 + z * -0.001388702792916414);
+}
+
 /* c_1(z) for z <= 1/16 */
 static inline double stumpff_small_1(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (1.0 + z * -0.16666666666666666)
-        + w * (0.008333333333333333 + z * -0.0001984126984126984)
-        + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08);
+    return (1.0 + z * -0.16666666666664)
+        + w * (0.008333333329190184 + z * -0.00019841249819193104)
+        + w * w * 2.7519182046349993e-06;
 }
 
 /* c_0(z) for z <= 1/16 */
 static inline double stumpff_small_0(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (1.0 + z * -0.5)
-        + w * (0.041666666666666664 + z * -0.001388888888888889)
-        + w2 * (2.48015873015873e-05 + z * -2.755731922398589e-07)
-        + w * w2 * (2.08767569878681e-09);
+    return (1.0 + z * -0.49999999999999994)
+        + w * (0.04166666666665553 + z * -0.0013888888880685601)
+        + w * w * (2.480156093634923e-05 + z * -2.7518853761923276e-07);
 }
 
 /* c_1(z) = sum (-z)^j/(2j+1)! up to z = 1 */
@@ -102,6 +115,9 @@ static double stumpff_1_far(double z)
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s */
 static inline double stumpff_1(double z)
 {
+    if (z <= 0.00390625) {
+        return stumpff_tiny_1(z);
+    }
     return z <= 0.0625 ? stumpff_small_1(z) : stumpff_1_far(z);
 }
 
@@ -118,6 +134,9 @@ static double stumpff_0_far(double z)
 /* For z >= 0 and s = sqrt(z): c_0 = cos(s) */
 static inline double stumpff_0(double z)
 {
+    if (z <= 0.00390625) {
+        return stumpff_tiny_0(z);
+    }
     return z <= 0.0625 ? stumpff_small_0(z) : stumpff_0_far(z);
 }
 
@@ -154,36 +173,37 @@ static inline int advance(double state[static 2], double h)
     const double x_0 = w1 + w2 + w3;
     const double k0_1 = -1.0 - z0 * z0;
     const double x2_0 = 0.5 * h;
-    const double x2_1 = k0_1 * x2_0;
-    const double w4 = -x2_0 * x2_1;
-    const double w5 = signed_stumpff0(w4);
-    const double w6 = signed_stumpff1(w4);
-    const double Y2_0 = z0 * w5 + x2_0 * w6 * z1;
-    const double f2_1 = -1.0 - Y2_0 * Y2_0;
-    const double w7 = -x2_0 * f2_1 * x2_0;
-    const double p_1 = z0 * signed_stumpff0(w7) + x2_0 * signed_stumpff1(w7) * z1;
-    const double f3_1 = -1.0 - p_1 * p_1;
-    const double w8 = 0.16666666666666666 * h * (f2_1 + f3_1);
-    const double w9 = -0.5 * h;
-    const double x4_0 = h + w9;
-    const double w10 = -x4_0 * (k0_1 * w9 + h * f3_1);
-    const double Y4_0 = Y2_0 * signed_stumpff0(w10)
-        + (x2_1 * w6 * z0 + z1 * w5) * (x4_0 * signed_stumpff1(w10));
-    const double f4_1 = -1.0 - Y4_0 * Y4_0;
-    const double x_1 = w8 + w1 * k0_1 + w3 * f4_1;
-    const double w11 = -x_0 * x_1;
-    const double w12 = signed_stumpff0(w11);
-    const double w13 = signed_stumpff1(w11);
-    const double Y_0 = z0 * w12 + x_0 * w13 * z1;
+    const double w4 = x2_0 * x2_0;
+    const double w5 = -k0_1 * w4;
+    const double w6 = signed_stumpff0(w5);
+    const double w7 = signed_stumpff1(w5);
+    const double w8 = z0 * w6 + x2_0 * w7 * z1;
+    const double w9 = -1.0 - w8 * w8;
+    const double w10 = -w4 * w9;
+    const double p_1 = z0 * signed_stumpff0(w10) + x2_0 * signed_stumpff1(w10) * z1;
+    const double w11 = -1.0 - p_1 * p_1;
+    const double w12 = 0.16666666666666666 * h * (w9 + w11);
+    const double w13 = -0.5 * h;
+    const double x4_0 = h + w13;
+    const double w14 = -x4_0 * (k0_1 * w13 + h * w11);
+    const double w15 = w8 * signed_stumpff0(w14)
+        + x4_0 * signed_stumpff1(w14) * (z1 * w6 + k0_1 * x2_0 * w7 * z0);
+    const double w16 = -1.0 - w15 * w15;
+    const double w17 = w12 + w1 * k0_1 + w3 * w16;
+    const double w18 = -x_0 * w17;
+    const double w19 = signed_stumpff0(w18);
+    const double w20 = signed_stumpff1(w18);
+    const double w21 = z0 * w19 + x_0 * w20 * z1;
     const double x_2_0 = w2 + w3 + w1;
-    const double x_2_1 = w8 + w3 * k0_1 + w1 * f4_1;
-    const double w14 = -x_2_0 * x_2_1;
-    const double w15 = signed_stumpff0(w14);
-    const double Y_1 = x_1 * w13 * z0 + z1 * w12;
-    const double w16 = signed_stumpff1(w14);
-    const double new_z0 = Y_0 * w15 + x_2_0 * w16 * Y_1;
-    const double new_z1 = x_2_1 * w16 * Y_0 + w15 * Y_1;
-    if (!(isfinite(new_z0) && isfinite(new_z1))) {
+    const double w22 = w12 + w3 * k0_1 + w1 * w16;
+    const double w23 = -x_2_0 * w22;
+    const double w24 = signed_stumpff0(w23);
+    const double w25 = w17 * w20 * z0 + z1 * w19;
+    const double w26 = signed_stumpff1(w23);
+    const double new_z0 = w21 * w24 + x_2_0 * w26 * w25;
+    const double new_z1 = w22 * w26 * w21 + w24 * w25;
+    /* x - x is zero for a number, else NaN: one test for all */
+    if (!((new_z0 - new_z0) + (new_z1 - new_z1) == 0.0)) {
         return DUFFING_SL2_CF4_NOT_FINITE;
     }
     state[0] = new_z0;

@@ -47,26 +47,41 @@ class StepFailed(ArithmeticError):
         return f"step {self.step + 1}: {self.reason}"
 
 
+def _stumpff_tiny_1(z):
+    """Return c_1(z) for z <= 1/256."""
+    w = z * z
+    return (
+        (1.0 + z * -0.16666666666663651)
+        + w * (0.00833333328651266 + z * -0.00019839202108242344)
+    )
+
+
+def _stumpff_tiny_0(z):
+    """Return c_0(z) for z <= 1/256."""
+    w = z * z
+    return (
+        (1.0 + z * -0.4999999999997288)
+        + w * (0.0416666662452806 + z * -0.001388702792916414)
+    )
+
+
 def _stumpff_small_1(z):
     """Return c_1(z) for z <= 1/16."""
     w = z * z
-    w2 = w * w
     return (
-        (1.0 + z * -0.16666666666666666)
-        + w * (0.008333333333333333 + z * -0.0001984126984126984)
-        + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08)
+        (1.0 + z * -0.16666666666664)
+        + w * (0.008333333329190184 + z * -0.00019841249819193104)
+        + w * w * 2.7519182046349993e-06
     )
 
 
 def _stumpff_small_0(z):
     """Return c_0(z) for z <= 1/16."""
     w = z * z
-    w2 = w * w
     return (
-        (1.0 + z * -0.5)
-        + w * (0.041666666666666664 + z * -0.001388888888888889)
-        + w2 * (2.48015873015873e-05 + z * -2.755731922398589e-07)
-        + w * w2 * (2.08767569878681e-09)
+        (1.0 + z * -0.49999999999999994)
+        + w * (0.04166666666665553 + z * -0.0013888888880685601)
+        + w * w * (2.480156093634923e-05 + z * -2.7518853761923276e-07)
     )
 
 
@@ -103,6 +118,8 @@ def _stumpff_1_far(z):
 
 def _stumpff_1(z):
     """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s."""
+    if z <= 0.00390625:
+        return _stumpff_tiny_1(z)
     if z <= 0.0625:
         return _stumpff_small_1(z)
     return _stumpff_1_far(z)
@@ -118,6 +135,8 @@ def _stumpff_0_far(z):
 
 def _stumpff_0(z):
     """Return, for z >= 0 and s = sqrt(z): c_0 = cos(s)."""
+    if z <= 0.00390625:
+        return _stumpff_tiny_0(z)
     if z <= 0.0625:
         return _stumpff_small_0(z)
     return _stumpff_0_far(z)
@@ -148,37 +167,37 @@ def _advance(state, h):
     x_0 = w1 + w2 + w3
     k0_1 = -1.0 - z0 * z0
     x2_0 = 0.5 * h
-    x2_1 = k0_1 * x2_0
-    w4 = -x2_0 * x2_1
-    w5 = signed_stumpff0(w4)
-    w6 = signed_stumpff1(w4)
-    Y2_0 = z0 * w5 + x2_0 * w6 * z1
-    f2_1 = -1.0 - Y2_0 * Y2_0
-    w7 = -x2_0 * f2_1 * x2_0
-    p_1 = z0 * signed_stumpff0(w7) + x2_0 * signed_stumpff1(w7) * z1
-    f3_1 = -1.0 - p_1 * p_1
-    w8 = 0.16666666666666666 * h * (f2_1 + f3_1)
-    w9 = -0.5 * h
-    x4_0 = h + w9
-    w10 = -x4_0 * (k0_1 * w9 + h * f3_1)
-    Y4_0 = (
-        Y2_0 * signed_stumpff0(w10)
-        + (x2_1 * w6 * z0 + z1 * w5) * (x4_0 * signed_stumpff1(w10))
+    w4 = x2_0 * x2_0
+    w5 = -k0_1 * w4
+    w6 = signed_stumpff0(w5)
+    w7 = signed_stumpff1(w5)
+    w8 = z0 * w6 + x2_0 * w7 * z1
+    w9 = -1.0 - w8 * w8
+    w10 = -w4 * w9
+    p_1 = z0 * signed_stumpff0(w10) + x2_0 * signed_stumpff1(w10) * z1
+    w11 = -1.0 - p_1 * p_1
+    w12 = 0.16666666666666666 * h * (w9 + w11)
+    w13 = -0.5 * h
+    x4_0 = h + w13
+    w14 = -x4_0 * (k0_1 * w13 + h * w11)
+    w15 = (
+        w8 * signed_stumpff0(w14)
+        + x4_0 * signed_stumpff1(w14) * (z1 * w6 + k0_1 * x2_0 * w7 * z0)
     )
-    f4_1 = -1.0 - Y4_0 * Y4_0
-    x_1 = w8 + w1 * k0_1 + w3 * f4_1
-    w11 = -x_0 * x_1
-    w12 = signed_stumpff0(w11)
-    w13 = signed_stumpff1(w11)
-    Y_0 = z0 * w12 + x_0 * w13 * z1
+    w16 = -1.0 - w15 * w15
+    w17 = w12 + w1 * k0_1 + w3 * w16
+    w18 = -x_0 * w17
+    w19 = signed_stumpff0(w18)
+    w20 = signed_stumpff1(w18)
+    w21 = z0 * w19 + x_0 * w20 * z1
     x_2_0 = w2 + w3 + w1
-    x_2_1 = w8 + w3 * k0_1 + w1 * f4_1
-    w14 = -x_2_0 * x_2_1
-    w15 = signed_stumpff0(w14)
-    Y_1 = x_1 * w13 * z0 + z1 * w12
-    w16 = signed_stumpff1(w14)
-    new_z0 = Y_0 * w15 + x_2_0 * w16 * Y_1
-    new_z1 = x_2_1 * w16 * Y_0 + w15 * Y_1
+    w22 = w12 + w3 * k0_1 + w1 * w16
+    w23 = -x_2_0 * w22
+    w24 = signed_stumpff0(w23)
+    w25 = w17 * w20 * z0 + z1 * w19
+    w26 = signed_stumpff1(w23)
+    new_z0 = w21 * w24 + x_2_0 * w26 * w25
+    new_z1 = w22 * w26 * w21 + w24 * w25
     return new_z0, new_z1
 
 

@@ -48,24 +48,38 @@
 #error "compile without -ffast-math (-ffinite-math-only): it removes the checks for infinities and NaNs"
 #endif
 
+/* c_2(z) for z <= 1/256 */
+static inline double stumpff_tiny_2(double z)
+{
+    const double w = z * z;
+    return (0.5 + z * -0.04166666666666365)
+        + w * (0.0013888888842068215 + z * -2.4799519568559804e-05);
+}
+
+/* c_1(z) for z <= 1/256 */
+static inline double stumpff_tiny_1(double z)
+{
+    const double w = z * z;
+    return (1.0 + z * -0.16666666666663651)
+        + w * (0.00833333328651266 + z * -0.00019839202108242344);
+}
+
 /* c_2(z) for z <= 1/16 */
 static inline double stumpff_small_2(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (0.5 + z * -0.041666666666666664)
-        + w * (0.001388888888888889 + z * -2.48015873015873e-05)
-        + w2 * (2.755731922398589e-07 + z * -2.08767569878681e-09);
+    return (0.5 + z * -0.041666666666664444)
+        + w * (0.0013888888885432897 + z * -2.480157060205821e-05)
+        + w * w * 2.7525517582787593e-07;
 }
 
 /* c_1(z) for z <= 1/16 */
 static inline double stumpff_small_1(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (1.0 + z * -0.16666666666666666)
-        + w * (0.008333333333333333 + z * -0.0001984126984126984)
-        + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08);
+    return (1.0 + z * -0.16666666666664)
+        + w * (0.008333333329190184 + z * -0.00019841249819193104)
+        + w * w * 2.7519182046349993e-06;
 }
 
 /* c_2(z) = sum (-z)^j/(2j+2)! up to z = 1 */
@@ -111,7 +125,10 @@ static void stumpff_12_far(double z, double *c1, double *c2)
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
 static inline void stumpff_12(double z, double *c1, double *c2)
 {
-    if (z <= 0.0625) {
+    if (z <= 0.00390625) {
+        *c1 = stumpff_tiny_1(z);
+        *c2 = stumpff_tiny_2(z);
+    } else if (z <= 0.0625) {
         *c1 = stumpff_small_1(z);
         *c2 = stumpff_small_2(z);
     } else {
@@ -289,8 +306,8 @@ static inline void advance(double state[static 12], double h, double lead_h)
     const double new_g00 = w104 * w135 - w136 * w137;
     const double new_g10 = w136 * w139 - w135 * w138;
     const double new_g20 = w137 * w138 - w104 * w139;
-    const double new_mu0 = w89 - w14 * w88 - 147.15 * w104 * lead_h;
-    const double new_mu1 = w92 - w17 * w98 + 147.15 * w138 * lead_h;
+    const double new_mu0 = w89 - w14 * w88 - 147.15 * lead_h * w104;
+    const double new_mu1 = w92 - w17 * w98 + 147.15 * lead_h * w138;
     const double new_mu2 = mu2;
     state[0] = new_g00;
     state[1] = w138;
@@ -362,7 +379,7 @@ static inline void finish(double state[static 12], double elapsed_h)
     const double mu0 = state[9];
     const double mu1 = state[10];
     const double mu2 = state[11];
-    const double w1 = 2.0676923076923077 * (g01 * mu0 + g11 * mu1 + g21 * mu2) * elapsed_h;
+    const double w1 = (g01 * mu0 + g11 * mu1 + g21 * mu2) * (2.0676923076923077 * elapsed_h);
     const double w2 = w1 * w1;
     double c1_1, c2_1;
     stumpff_12(w2, &c1_1, &c2_1);

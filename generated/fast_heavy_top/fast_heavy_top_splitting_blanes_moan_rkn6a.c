@@ -14,7 +14,7 @@
  * left out:   14 flow (flows)
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit here
- * operations: 473 add, 788 mul, 14 stumpff_12 a step
+ * operations: 473 add, 786 mul, 14 stumpff_12 a step
  *             29 add, 49 mul, 1 stumpff_12 once in a run of steps
  *             9 add, 21 mul, 1 stumpff_12 once in a run of steps
  * stack:      at most 4416 bytes, without what the mathematical library takes
@@ -48,24 +48,38 @@
 #error "compile without -ffast-math (-ffinite-math-only): it removes the checks for infinities and NaNs"
 #endif
 
+/* c_2(z) for z <= 1/256 */
+static inline double stumpff_tiny_2(double z)
+{
+    const double w = z * z;
+    return (0.5 + z * -0.04166666666666365)
+        + w * (0.0013888888842068215 + z * -2.4799519568559804e-05);
+}
+
+/* c_1(z) for z <= 1/256 */
+static inline double stumpff_tiny_1(double z)
+{
+    const double w = z * z;
+    return (1.0 + z * -0.16666666666663651)
+        + w * (0.00833333328651266 + z * -0.00019839202108242344);
+}
+
 /* c_2(z) for z <= 1/16 */
 static inline double stumpff_small_2(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (0.5 + z * -0.041666666666666664)
-        + w * (0.001388888888888889 + z * -2.48015873015873e-05)
-        + w2 * (2.755731922398589e-07 + z * -2.08767569878681e-09);
+    return (0.5 + z * -0.041666666666664444)
+        + w * (0.0013888888885432897 + z * -2.480157060205821e-05)
+        + w * w * 2.7525517582787593e-07;
 }
 
 /* c_1(z) for z <= 1/16 */
 static inline double stumpff_small_1(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (1.0 + z * -0.16666666666666666)
-        + w * (0.008333333333333333 + z * -0.0001984126984126984)
-        + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08);
+    return (1.0 + z * -0.16666666666664)
+        + w * (0.008333333329190184 + z * -0.00019841249819193104)
+        + w * w * 2.7519182046349993e-06;
 }
 
 /* c_2(z) = sum (-z)^j/(2j+2)! up to z = 1 */
@@ -111,7 +125,10 @@ static void stumpff_12_far(double z, double *c1, double *c2)
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
 static inline void stumpff_12(double z, double *c1, double *c2)
 {
-    if (z <= 0.0625) {
+    if (z <= 0.00390625) {
+        *c1 = stumpff_tiny_1(z);
+        *c2 = stumpff_tiny_2(z);
+    } else if (z <= 0.0625) {
         *c1 = stumpff_small_1(z);
         *c2 = stumpff_small_2(z);
     } else {
@@ -194,7 +211,9 @@ static inline void advance(double state[static 12], double h, double lead_h)
     const double w221 = w18 * w44;
     const double w235 = w3 * w19;
     const double w238 = w3 * w22;
-    const double w257 = mu2 * w251;
+    const double w253 = w1 * w251;
+    const double w256 = w5 * w251;
+    const double w259 = mu2 * w251;
     const double w2 = mu0 - g11 * w1;
     const double w6 = mu1 - g01 * w5;
     const double w9 = w8 * w8;
@@ -208,9 +227,9 @@ static inline void advance(double state[static 12], double h, double lead_h)
     const double w12 = g01 * w8 - g21 * w4;
     const double w14 = g21 * w7 - g11 * w8;
     const double w15 = g11 * w4 - g01 * w7;
-    const double w267 = g12 * w4 - g02 * w7;
-    const double w268 = g02 * w8 - g22 * w4;
-    const double w269 = g22 * w7 - g12 * w8;
+    const double w269 = g12 * w4 - g02 * w7;
+    const double w270 = g02 * w8 - g22 * w4;
+    const double w271 = g22 * w7 - g12 * w8;
     const double w10 = w4 * w4 + w7 * w7 + w9;
     const double w16 = w8 * w14 - w4 * w15;
     const double w24 = w7 * w15 - w8 * w12;
@@ -221,17 +240,17 @@ static inline void advance(double state[static 12], double h, double lead_h)
     const double w25 = w18 * (w6 - g01 * w22) - w14 * w23 * c1_1 - w23 * w24 * c2_1;
     const double w30 = g01 + w14 * c1_1 + w24 * c2_1;
     const double w31 = g21 + w15 * c1_1 + (w4 * w12 - w7 * w14) * c2_1;
-    const double w270 = g22 + w267 * c1_1 + (w4 * w268 - w7 * w269) * c2_1;
-    const double w271 = g12 + w268 * c1_1 + (w8 * w269 - w4 * w267) * c2_1;
-    const double w272 = g02 + w269 * c1_1 + (w7 * w267 - w8 * w268) * c2_1;
+    const double w272 = g22 + w269 * c1_1 + (w4 * w270 - w7 * w271) * c2_1;
+    const double w273 = g12 + w270 * c1_1 + (w8 * w271 - w4 * w269) * c2_1;
+    const double w274 = g02 + w271 * c1_1 + (w7 * w269 - w8 * w270) * c2_1;
     const double w32 = w26 * w30 - w21 * w31;
     const double w34 = w25 * w31 - w17 * w26;
     const double w35 = w17 * w21 - w25 * w30;
     const double w39 = w2 - w17 * w19;
     const double w43 = w6 - w22 * w30;
-    const double w273 = w21 * w271 - w25 * w272;
-    const double w274 = w26 * w272 - w21 * w270;
-    const double w275 = w25 * w270 - w26 * w271;
+    const double w275 = w21 * w273 - w25 * w274;
+    const double w276 = w26 * w274 - w21 * w272;
+    const double w277 = w25 * w272 - w26 * w273;
     const double w28 = w21 * w21 + w25 * w25 + w27;
     const double w36 = w26 * w34 - w21 * w35;
     const double w46 = w25 * w35 - w26 * w32;
@@ -242,17 +261,17 @@ static inline void advance(double state[static 12], double h, double lead_h)
     const double w47 = w38 * (w43 - w30 * w44) - w34 * w45 * c1_2 - w45 * w46 * c2_2;
     const double w52 = w30 + w34 * c1_2 + w46 * c2_2;
     const double w53 = w31 + w35 * c1_2 + (w21 * w32 - w25 * w34) * c2_2;
-    const double w276 = w270 + w273 * c1_2 + (w21 * w274 - w25 * w275) * c2_2;
-    const double w277 = w271 + w274 * c1_2 + (w26 * w275 - w21 * w273) * c2_2;
-    const double w278 = w272 + w275 * c1_2 + (w25 * w273 - w26 * w274) * c2_2;
+    const double w278 = w272 + w275 * c1_2 + (w21 * w276 - w25 * w277) * c2_2;
+    const double w279 = w273 + w276 * c1_2 + (w26 * w277 - w21 * w275) * c2_2;
+    const double w280 = w274 + w277 * c1_2 + (w25 * w275 - w26 * w276) * c2_2;
     const double w54 = w48 * w52 - w42 * w53;
     const double w56 = w47 * w53 - w37 * w48;
     const double w57 = w37 * w42 - w47 * w52;
     const double w61 = w39 - w37 * w40;
     const double w65 = w43 - w44 * w52;
-    const double w279 = w42 * w277 - w47 * w278;
-    const double w280 = w48 * w278 - w42 * w276;
-    const double w281 = w47 * w276 - w48 * w277;
+    const double w281 = w42 * w279 - w47 * w280;
+    const double w282 = w48 * w280 - w42 * w278;
+    const double w283 = w47 * w278 - w48 * w279;
     const double w50 = w42 * w42 + w47 * w47 + w49;
     const double w58 = w48 * w56 - w42 * w57;
     const double w68 = w47 * w57 - w48 * w54;
@@ -263,17 +282,17 @@ static inline void advance(double state[static 12], double h, double lead_h)
     const double w69 = w60 * (w65 - w52 * w66) - w56 * w67 * c1_3 - w67 * w68 * c2_3;
     const double w74 = w52 + w56 * c1_3 + w68 * c2_3;
     const double w75 = w53 + w57 * c1_3 + (w42 * w54 - w47 * w56) * c2_3;
-    const double w282 = w276 + w279 * c1_3 + (w42 * w280 - w47 * w281) * c2_3;
-    const double w283 = w277 + w280 * c1_3 + (w48 * w281 - w42 * w279) * c2_3;
-    const double w284 = w278 + w281 * c1_3 + (w47 * w279 - w48 * w280) * c2_3;
+    const double w284 = w278 + w281 * c1_3 + (w42 * w282 - w47 * w283) * c2_3;
+    const double w285 = w279 + w282 * c1_3 + (w48 * w283 - w42 * w281) * c2_3;
+    const double w286 = w280 + w283 * c1_3 + (w47 * w281 - w48 * w282) * c2_3;
     const double w76 = w70 * w74 - w64 * w75;
     const double w78 = w69 * w75 - w59 * w70;
     const double w79 = w59 * w64 - w69 * w74;
     const double w83 = w61 - w59 * w62;
     const double w87 = w65 - w66 * w74;
-    const double w285 = w64 * w283 - w69 * w284;
-    const double w286 = w70 * w284 - w64 * w282;
-    const double w287 = w69 * w282 - w70 * w283;
+    const double w287 = w64 * w285 - w69 * w286;
+    const double w288 = w70 * w286 - w64 * w284;
+    const double w289 = w69 * w284 - w70 * w285;
     const double w72 = w64 * w64 + w69 * w69 + w71;
     const double w80 = w70 * w78 - w64 * w79;
     const double w90 = w69 * w79 - w70 * w76;
@@ -284,17 +303,17 @@ static inline void advance(double state[static 12], double h, double lead_h)
     const double w91 = w82 * (w87 - w74 * w88) - w78 * w89 * c1_4 - w89 * w90 * c2_4;
     const double w96 = w74 + w78 * c1_4 + w90 * c2_4;
     const double w97 = w75 + w79 * c1_4 + (w64 * w76 - w69 * w78) * c2_4;
-    const double w288 = w282 + w285 * c1_4 + (w64 * w286 - w69 * w287) * c2_4;
-    const double w289 = w283 + w286 * c1_4 + (w70 * w287 - w64 * w285) * c2_4;
-    const double w290 = w284 + w287 * c1_4 + (w69 * w285 - w70 * w286) * c2_4;
+    const double w290 = w284 + w287 * c1_4 + (w64 * w288 - w69 * w289) * c2_4;
+    const double w291 = w285 + w288 * c1_4 + (w70 * w289 - w64 * w287) * c2_4;
+    const double w292 = w286 + w289 * c1_4 + (w69 * w287 - w70 * w288) * c2_4;
     const double w98 = w92 * w96 - w86 * w97;
     const double w100 = w91 * w97 - w81 * w92;
     const double w101 = w81 * w86 - w91 * w96;
     const double w105 = w83 - w81 * w84;
     const double w109 = w87 - w88 * w96;
-    const double w291 = w86 * w289 - w91 * w290;
-    const double w292 = w92 * w290 - w86 * w288;
-    const double w293 = w91 * w288 - w92 * w289;
+    const double w293 = w86 * w291 - w91 * w292;
+    const double w294 = w92 * w292 - w86 * w290;
+    const double w295 = w91 * w290 - w92 * w291;
     const double w94 = w86 * w86 + w91 * w91 + w93;
     const double w102 = w92 * w100 - w86 * w101;
     const double w112 = w91 * w101 - w92 * w98;
@@ -305,17 +324,17 @@ static inline void advance(double state[static 12], double h, double lead_h)
     const double w113 = w104 * (w109 - w96 * w110) - w100 * w111 * c1_5 - w111 * w112 * c2_5;
     const double w118 = w96 + w100 * c1_5 + w112 * c2_5;
     const double w119 = w97 + w101 * c1_5 + (w86 * w98 - w91 * w100) * c2_5;
-    const double w294 = w288 + w291 * c1_5 + (w86 * w292 - w91 * w293) * c2_5;
-    const double w295 = w289 + w292 * c1_5 + (w92 * w293 - w86 * w291) * c2_5;
-    const double w296 = w290 + w293 * c1_5 + (w91 * w291 - w92 * w292) * c2_5;
+    const double w296 = w290 + w293 * c1_5 + (w86 * w294 - w91 * w295) * c2_5;
+    const double w297 = w291 + w294 * c1_5 + (w92 * w295 - w86 * w293) * c2_5;
+    const double w298 = w292 + w295 * c1_5 + (w91 * w293 - w92 * w294) * c2_5;
     const double w120 = w114 * w118 - w108 * w119;
     const double w122 = w113 * w119 - w103 * w114;
     const double w123 = w103 * w108 - w113 * w118;
     const double w127 = w105 - w103 * w106;
     const double w131 = w109 - w110 * w118;
-    const double w297 = w108 * w295 - w113 * w296;
-    const double w298 = w114 * w296 - w108 * w294;
-    const double w299 = w113 * w294 - w114 * w295;
+    const double w299 = w108 * w297 - w113 * w298;
+    const double w300 = w114 * w298 - w108 * w296;
+    const double w301 = w113 * w296 - w114 * w297;
     const double w116 = w108 * w108 + w113 * w113 + w115;
     const double w124 = w114 * w122 - w108 * w123;
     const double w134 = w113 * w123 - w114 * w120;
@@ -326,9 +345,9 @@ static inline void advance(double state[static 12], double h, double lead_h)
     const double w135 = w126 * (w131 - w118 * w132) - w122 * w133 * c1_6 - w133 * w134 * c2_6;
     const double w139 = w118 + w122 * c1_6 + w134 * c2_6;
     const double w140 = w119 + w123 * c1_6 + (w108 * w120 - w113 * w122) * c2_6;
-    const double w300 = w294 + w297 * c1_6 + (w108 * w298 - w113 * w299) * c2_6;
-    const double w301 = w295 + w298 * c1_6 + (w114 * w299 - w108 * w297) * c2_6;
-    const double w302 = w296 + w299 * c1_6 + (w113 * w297 - w114 * w298) * c2_6;
+    const double w302 = w296 + w299 * c1_6 + (w108 * w300 - w113 * w301) * c2_6;
+    const double w303 = w297 + w300 * c1_6 + (w114 * w301 - w108 * w299) * c2_6;
+    const double w304 = w298 + w301 * c1_6 + (w113 * w299 - w114 * w300) * c2_6;
     const double w147 = w125 * w128;
     const double w151 = w132 * w139;
     const double w141 = w136 * w139 - w130 * w140;
@@ -336,9 +355,9 @@ static inline void advance(double state[static 12], double h, double lead_h)
     const double w144 = w125 * w130 - w135 * w139;
     const double w148 = w127 - w147;
     const double w152 = w131 - w151;
-    const double w303 = w130 * w301 - w135 * w302;
-    const double w304 = w136 * w302 - w130 * w300;
-    const double w305 = w135 * w300 - w136 * w301;
+    const double w305 = w130 * w303 - w135 * w304;
+    const double w306 = w136 * w304 - w130 * w302;
+    const double w307 = w135 * w302 - w136 * w303;
     const double w137 = w130 * w130 + w135 * w135 + w136 * w136;
     const double w145 = w136 * w143 - w130 * w144;
     const double w154 = w135 * w144 - w136 * w141;
@@ -349,17 +368,17 @@ static inline void advance(double state[static 12], double h, double lead_h)
     const double w155 = w104 * (w152 - w151) - w143 * w153 * c1_7 - w153 * w154 * c2_7;
     const double w158 = w139 + w143 * c1_7 + w154 * c2_7;
     const double w159 = w140 + w144 * c1_7 + (w130 * w141 - w135 * w143) * c2_7;
-    const double w306 = w300 + w303 * c1_7 + (w130 * w304 - w135 * w305) * c2_7;
-    const double w307 = w301 + w304 * c1_7 + (w136 * w305 - w130 * w303) * c2_7;
-    const double w308 = w302 + w305 * c1_7 + (w135 * w303 - w136 * w304) * c2_7;
+    const double w308 = w302 + w305 * c1_7 + (w130 * w306 - w135 * w307) * c2_7;
+    const double w309 = w303 + w306 * c1_7 + (w136 * w307 - w130 * w305) * c2_7;
+    const double w310 = w304 + w307 * c1_7 + (w135 * w305 - w136 * w306) * c2_7;
     const double w160 = w114 * w158 - w150 * w159;
     const double w162 = w155 * w159 - w114 * w146;
     const double w163 = w146 * w150 - w155 * w158;
     const double w166 = w148 - w128 * w146;
     const double w169 = w152 - w132 * w158;
-    const double w309 = w150 * w307 - w155 * w308;
-    const double w310 = w114 * w308 - w150 * w306;
-    const double w311 = w155 * w306 - w114 * w307;
+    const double w311 = w150 * w309 - w155 * w310;
+    const double w312 = w114 * w310 - w150 * w308;
+    const double w313 = w155 * w308 - w114 * w309;
     const double w156 = w150 * w150 + w155 * w155 + w115;
     const double w164 = w114 * w162 - w150 * w163;
     const double w171 = w155 * w163 - w114 * w160;
@@ -370,17 +389,17 @@ static inline void advance(double state[static 12], double h, double lead_h)
     const double w172 = w82 * (w169 - w110 * w158) - w162 * w170 * c1_8 - w170 * w171 * c2_8;
     const double w175 = w158 + w162 * c1_8 + w171 * c2_8;
     const double w176 = w159 + w163 * c1_8 + (w150 * w160 - w155 * w162) * c2_8;
-    const double w312 = w306 + w309 * c1_8 + (w150 * w310 - w155 * w311) * c2_8;
-    const double w313 = w307 + w310 * c1_8 + (w114 * w311 - w150 * w309) * c2_8;
-    const double w314 = w308 + w311 * c1_8 + (w155 * w309 - w114 * w310) * c2_8;
+    const double w314 = w308 + w311 * c1_8 + (w150 * w312 - w155 * w313) * c2_8;
+    const double w315 = w309 + w312 * c1_8 + (w114 * w313 - w150 * w311) * c2_8;
+    const double w316 = w310 + w313 * c1_8 + (w155 * w311 - w114 * w312) * c2_8;
     const double w177 = w92 * w175 - w168 * w176;
     const double w179 = w172 * w176 - w92 * w165;
     const double w180 = w165 * w168 - w172 * w175;
     const double w183 = w166 - w106 * w165;
     const double w186 = w169 - w110 * w175;
-    const double w315 = w168 * w313 - w172 * w314;
-    const double w316 = w92 * w314 - w168 * w312;
-    const double w317 = w172 * w312 - w92 * w313;
+    const double w317 = w168 * w315 - w172 * w316;
+    const double w318 = w92 * w316 - w168 * w314;
+    const double w319 = w172 * w314 - w92 * w315;
     const double w173 = w168 * w168 + w172 * w172 + w93;
     const double w181 = w92 * w179 - w168 * w180;
     const double w188 = w172 * w180 - w92 * w177;
@@ -391,17 +410,17 @@ static inline void advance(double state[static 12], double h, double lead_h)
     const double w189 = w60 * (w186 - w88 * w175) - w179 * w187 * c1_9 - w187 * w188 * c2_9;
     const double w192 = w175 + w179 * c1_9 + w188 * c2_9;
     const double w193 = w176 + w180 * c1_9 + (w168 * w177 - w172 * w179) * c2_9;
-    const double w318 = w312 + w315 * c1_9 + (w168 * w316 - w172 * w317) * c2_9;
-    const double w319 = w313 + w316 * c1_9 + (w92 * w317 - w168 * w315) * c2_9;
-    const double w320 = w314 + w317 * c1_9 + (w172 * w315 - w92 * w316) * c2_9;
+    const double w320 = w314 + w317 * c1_9 + (w168 * w318 - w172 * w319) * c2_9;
+    const double w321 = w315 + w318 * c1_9 + (w92 * w319 - w168 * w317) * c2_9;
+    const double w322 = w316 + w319 * c1_9 + (w172 * w317 - w92 * w318) * c2_9;
     const double w194 = w70 * w192 - w185 * w193;
     const double w196 = w189 * w193 - w70 * w182;
     const double w197 = w182 * w185 - w189 * w192;
     const double w200 = w183 - w84 * w182;
     const double w203 = w186 - w88 * w192;
-    const double w321 = w185 * w319 - w189 * w320;
-    const double w322 = w70 * w320 - w185 * w318;
-    const double w323 = w189 * w318 - w70 * w319;
+    const double w323 = w185 * w321 - w189 * w322;
+    const double w324 = w70 * w322 - w185 * w320;
+    const double w325 = w189 * w320 - w70 * w321;
     const double w190 = w185 * w185 + w189 * w189 + w71;
     const double w198 = w70 * w196 - w185 * w197;
     const double w205 = w189 * w197 - w70 * w194;
@@ -412,17 +431,17 @@ static inline void advance(double state[static 12], double h, double lead_h)
     const double w206 = w38 * (w203 - w66 * w192) - w196 * w204 * c1_10 - w204 * w205 * c2_10;
     const double w209 = w192 + w196 * c1_10 + w205 * c2_10;
     const double w210 = w193 + w197 * c1_10 + (w185 * w194 - w189 * w196) * c2_10;
-    const double w324 = w318 + w321 * c1_10 + (w185 * w322 - w189 * w323) * c2_10;
-    const double w325 = w319 + w322 * c1_10 + (w70 * w323 - w185 * w321) * c2_10;
-    const double w326 = w320 + w323 * c1_10 + (w189 * w321 - w70 * w322) * c2_10;
+    const double w326 = w320 + w323 * c1_10 + (w185 * w324 - w189 * w325) * c2_10;
+    const double w327 = w321 + w324 * c1_10 + (w70 * w325 - w185 * w323) * c2_10;
+    const double w328 = w322 + w325 * c1_10 + (w189 * w323 - w70 * w324) * c2_10;
     const double w211 = w48 * w209 - w202 * w210;
     const double w213 = w206 * w210 - w48 * w199;
     const double w214 = w199 * w202 - w206 * w209;
     const double w217 = w200 - w62 * w199;
     const double w220 = w203 - w66 * w209;
-    const double w327 = w202 * w325 - w206 * w326;
-    const double w328 = w48 * w326 - w202 * w324;
-    const double w329 = w206 * w324 - w48 * w325;
+    const double w329 = w202 * w327 - w206 * w328;
+    const double w330 = w48 * w328 - w202 * w326;
+    const double w331 = w206 * w326 - w48 * w327;
     const double w207 = w202 * w202 + w206 * w206 + w49;
     const double w215 = w48 * w213 - w202 * w214;
     const double w222 = w206 * w214 - w48 * w211;
@@ -433,17 +452,17 @@ static inline void advance(double state[static 12], double h, double lead_h)
     const double w223 = w18 * (w220 - w44 * w209) - w213 * w221 * c1_11 - w221 * w222 * c2_11;
     const double w226 = w209 + w213 * c1_11 + w222 * c2_11;
     const double w227 = w210 + w214 * c1_11 + (w202 * w211 - w206 * w213) * c2_11;
-    const double w330 = w324 + w327 * c1_11 + (w202 * w328 - w206 * w329) * c2_11;
-    const double w331 = w325 + w328 * c1_11 + (w48 * w329 - w202 * w327) * c2_11;
-    const double w332 = w326 + w329 * c1_11 + (w206 * w327 - w48 * w328) * c2_11;
+    const double w332 = w326 + w329 * c1_11 + (w202 * w330 - w206 * w331) * c2_11;
+    const double w333 = w327 + w330 * c1_11 + (w48 * w331 - w202 * w329) * c2_11;
+    const double w334 = w328 + w331 * c1_11 + (w206 * w329 - w48 * w330) * c2_11;
     const double w228 = w26 * w226 - w219 * w227;
     const double w230 = w223 * w227 - w26 * w216;
     const double w231 = w216 * w219 - w223 * w226;
     const double w234 = w217 - w40 * w216;
     const double w237 = w220 - w44 * w226;
-    const double w333 = w219 * w331 - w223 * w332;
-    const double w334 = w26 * w332 - w219 * w330;
-    const double w335 = w223 * w330 - w26 * w331;
+    const double w335 = w219 * w333 - w223 * w334;
+    const double w336 = w26 * w334 - w219 * w332;
+    const double w337 = w223 * w332 - w26 * w333;
     const double w224 = w219 * w219 + w223 * w223 + w27;
     const double w232 = w26 * w230 - w219 * w231;
     const double w239 = w223 * w231 - w26 * w228;
@@ -454,62 +473,60 @@ static inline void advance(double state[static 12], double h, double lead_h)
     const double w240 = w3 * (w237 - w22 * w226) - w230 * w238 * c1_12 - w238 * w239 * c2_12;
     const double w243 = w226 + w230 * c1_12 + w239 * c2_12;
     const double w244 = w227 + w231 * c1_12 + (w219 * w228 - w223 * w230) * c2_12;
-    const double w336 = w330 + w333 * c1_12 + (w219 * w334 - w223 * w335) * c2_12;
-    const double w337 = w331 + w334 * c1_12 + (w26 * w335 - w219 * w333) * c2_12;
-    const double w338 = w332 + w335 * c1_12 + (w223 * w333 - w26 * w334) * c2_12;
+    const double w338 = w332 + w335 * c1_12 + (w219 * w336 - w223 * w337) * c2_12;
+    const double w339 = w333 + w336 * c1_12 + (w26 * w337 - w219 * w335) * c2_12;
+    const double w340 = w334 + w337 * c1_12 + (w223 * w335 - w26 * w336) * c2_12;
     const double w245 = w8 * w243 - w236 * w244;
     const double w247 = w240 * w244 - w8 * w233;
     const double w248 = w233 * w236 - w240 * w243;
     const double w252 = w234 - w19 * w233;
-    const double w254 = w237 - w22 * w243;
-    const double w339 = w236 * w337 - w240 * w338;
-    const double w340 = w8 * w338 - w236 * w336;
-    const double w341 = w240 * w336 - w8 * w337;
+    const double w255 = w237 - w22 * w243;
+    const double w341 = w236 * w339 - w240 * w340;
+    const double w342 = w8 * w340 - w236 * w338;
+    const double w343 = w240 * w338 - w8 * w339;
     const double w241 = w236 * w236 + w240 * w240 + w9;
     const double w249 = w8 * w247 - w236 * w248;
-    const double w255 = w240 * w248 - w8 * w245;
+    const double w257 = w240 * w248 - w8 * w245;
     double c1_13, c2_13;
     stumpff_12(w241, &c1_13, &c2_13);
     const double w250 = w233 + w245 * c1_13 + w249 * c2_13;
-    const double w253 = w251 * (w252 - w1 * w233) - w245 * w251 * w1 * c1_13
-        - w249 * w251 * w1 * c2_13;
-    const double w256 = w251 * (w254 - w5 * w243) - w247 * w251 * w5 * c1_13
-        - w251 * w255 * w5 * c2_13;
-    const double w260 = w243 + w247 * c1_13 + w255 * c2_13;
-    const double w261 = w244 + w248 * c1_13 + (w236 * w245 - w240 * w247) * c2_13;
-    const double w342 = w336 + w339 * c1_13 + (w236 * w340 - w240 * w341) * c2_13;
-    const double w343 = w337 + w340 * c1_13 + (w8 * w341 - w236 * w339) * c2_13;
-    const double w344 = w338 + w341 * c1_13 + (w240 * w339 - w8 * w340) * c2_13;
-    const double w262 = w257 * w260 - w253 * w261;
-    const double w264 = w256 * w261 - w250 * w257;
-    const double w265 = w250 * w253 - w256 * w260;
-    const double w345 = w253 * w343 - w256 * w344;
-    const double w346 = w257 * w344 - w253 * w342;
-    const double w347 = w256 * w342 - w257 * w343;
-    const double w258 = w253 * w253 + w256 * w256 + w257 * w257;
+    const double w254 = w251 * (w252 - w1 * w233) - w245 * w253 * c1_13 - w249 * w253 * c2_13;
+    const double w258 = w251 * (w255 - w5 * w243) - w247 * w256 * c1_13 - w256 * w257 * c2_13;
+    const double w262 = w243 + w247 * c1_13 + w257 * c2_13;
+    const double w263 = w244 + w248 * c1_13 + (w236 * w245 - w240 * w247) * c2_13;
+    const double w344 = w338 + w341 * c1_13 + (w236 * w342 - w240 * w343) * c2_13;
+    const double w345 = w339 + w342 * c1_13 + (w8 * w343 - w236 * w341) * c2_13;
+    const double w346 = w340 + w343 * c1_13 + (w240 * w341 - w8 * w342) * c2_13;
+    const double w264 = w259 * w262 - w254 * w263;
+    const double w266 = w258 * w263 - w250 * w259;
+    const double w267 = w250 * w254 - w258 * w262;
+    const double w347 = w254 * w345 - w258 * w346;
+    const double w348 = w259 * w346 - w254 * w344;
+    const double w349 = w258 * w344 - w259 * w345;
+    const double w260 = w254 * w254 + w258 * w258 + w259 * w259;
     double c1_14, c2_14;
-    stumpff_12(w258, &c1_14, &c2_14);
-    const double w266 = w250 + w262 * c1_14 + (w257 * w264 - w253 * w265) * c2_14;
-    const double w348 = w342 + w345 * c1_14 + (w253 * w346 - w256 * w347) * c2_14;
-    const double w349 = w261 + w265 * c1_14 + (w253 * w262 - w256 * w264) * c2_14;
-    const double w350 = w343 + w346 * c1_14 + (w257 * w347 - w253 * w345) * c2_14;
-    const double w351 = w260 + w264 * c1_14 + (w256 * w265 - w257 * w262) * c2_14;
-    const double w352 = w344 + w347 * c1_14 + (w256 * w345 - w257 * w346) * c2_14;
-    const double new_g00 = w266 * w348 - w349 * w350;
-    const double new_g10 = w349 * w352 - w348 * w351;
-    const double new_g20 = w350 * w351 - w266 * w352;
+    stumpff_12(w260, &c1_14, &c2_14);
+    const double w268 = w250 + w264 * c1_14 + (w259 * w266 - w254 * w267) * c2_14;
+    const double w350 = w344 + w347 * c1_14 + (w254 * w348 - w258 * w349) * c2_14;
+    const double w351 = w263 + w267 * c1_14 + (w254 * w264 - w258 * w266) * c2_14;
+    const double w352 = w345 + w348 * c1_14 + (w259 * w349 - w254 * w347) * c2_14;
+    const double w353 = w262 + w266 * c1_14 + (w258 * w267 - w259 * w264) * c2_14;
+    const double w354 = w346 + w349 * c1_14 + (w258 * w347 - w259 * w348) * c2_14;
+    const double new_g00 = w268 * w350 - w351 * w352;
+    const double new_g10 = w351 * w354 - w350 * w353;
+    const double new_g20 = w352 * w353 - w268 * w354;
     const double new_mu0 = w252 - w1 * w250;
-    const double new_mu1 = w254 - w5 * w260;
+    const double new_mu1 = w255 - w5 * w262;
     const double new_mu2 = mu2;
     state[0] = new_g00;
-    state[1] = w351;
-    state[2] = w352;
+    state[1] = w353;
+    state[2] = w354;
     state[3] = new_g10;
-    state[4] = w266;
-    state[5] = w350;
+    state[4] = w268;
+    state[5] = w352;
     state[6] = new_g20;
-    state[7] = w349;
-    state[8] = w348;
+    state[7] = w351;
+    state[8] = w350;
     state[9] = new_mu0;
     state[10] = new_mu1;
     state[11] = new_mu2;
@@ -581,7 +598,7 @@ static inline void finish(double state[static 12], double elapsed_h)
     const double mu0 = state[9];
     const double mu1 = state[10];
     const double mu2 = state[11];
-    const double w1 = 2.0676923076923077 * (g01 * mu0 + g11 * mu1 + g21 * mu2) * elapsed_h;
+    const double w1 = (g01 * mu0 + g11 * mu1 + g21 * mu2) * (2.0676923076923077 * elapsed_h);
     const double w2 = w1 * w1;
     double c1_1, c2_1;
     stumpff_12(w2, &c1_1, &c2_1);

@@ -12,8 +12,8 @@
  *             parameters, folded: alpha = 0
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit here
- * operations: 89 add, 145 mul, 5 stumpff_12 a step
- * stack:      at most 1280 bytes, without what the mathematical library takes
+ * operations: 89 add, 149 mul, 5 stumpff_12 a step
+ * stack:      at most 1344 bytes, without what the mathematical library takes
  * made by:    orderconds emit free_rigid_body --method cf4 --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -44,24 +44,38 @@
 #error "compile without -ffast-math (-ffinite-math-only): it removes the checks for infinities and NaNs"
 #endif
 
+/* c_2(z) for z <= 1/256 */
+static inline double stumpff_tiny_2(double z)
+{
+    const double w = z * z;
+    return (0.5 + z * -0.04166666666666365)
+        + w * (0.0013888888842068215 + z * -2.4799519568559804e-05);
+}
+
+/* c_1(z) for z <= 1/256 */
+static inline double stumpff_tiny_1(double z)
+{
+    const double w = z * z;
+    return (1.0 + z * -0.16666666666663651)
+        + w * (0.00833333328651266 + z * -0.00019839202108242344);
+}
+
 /* c_2(z) for z <= 1/16 */
 static inline double stumpff_small_2(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (0.5 + z * -0.041666666666666664)
-        + w * (0.001388888888888889 + z * -2.48015873015873e-05)
-        + w2 * (2.755731922398589e-07 + z * -2.08767569878681e-09);
+    return (0.5 + z * -0.041666666666664444)
+        + w * (0.0013888888885432897 + z * -2.480157060205821e-05)
+        + w * w * 2.7525517582787593e-07;
 }
 
 /* c_1(z) for z <= 1/16 */
 static inline double stumpff_small_1(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (1.0 + z * -0.16666666666666666)
-        + w * (0.008333333333333333 + z * -0.0001984126984126984)
-        + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08);
+    return (1.0 + z * -0.16666666666664)
+        + w * (0.008333333329190184 + z * -0.00019841249819193104)
+        + w * w * 2.7519182046349993e-06;
 }
 
 /* c_2(z) = sum (-z)^j/(2j+2)! up to z = 1 */
@@ -107,7 +121,10 @@ static void stumpff_12_far(double z, double *c1, double *c2)
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
 static inline void stumpff_12(double z, double *c1, double *c2)
 {
-    if (z <= 0.0625) {
+    if (z <= 0.00390625) {
+        *c1 = stumpff_tiny_1(z);
+        *c2 = stumpff_tiny_2(z);
+    } else if (z <= 0.0625) {
         *c1 = stumpff_small_1(z);
         *c2 = stumpff_small_2(z);
     } else {
@@ -123,82 +140,85 @@ static inline int advance(double state[static 3], double h)
     const double m0 = state[0];
     const double m1 = state[1];
     const double m2 = state[2];
-    const double k0_0 = -0.5 * m0;
-    const double w1 = 0.25 * h;
-    const double w2 = 0.5 * h;
-    const double x2_0 = k0_0 * w2;
-    const double w3 = m1 * w2;
-    const double k0_2 = -1.5 * m2;
-    const double x2_2 = w2 * k0_2;
-    const double w4 = x2_0 * x2_0 + w3 * w3 + x2_2 * x2_2;
+    const double w1 = -0.125 * h;
+    const double w2 = -0.25 * h;
+    const double w3 = m0 * w2;
+    const double w4 = 0.5 * h;
+    const double w5 = m1 * w4;
+    const double w6 = -0.75 * h;
+    const double w7 = m2 * w6;
+    const double w8 = w3 * w3 + w5 * w5 + w7 * w7;
     double c1_1, c2_1;
-    stumpff_12(w4, &c1_1, &c2_1);
-    const double w6 = m2 * w3 + m1 * x2_2;
-    const double w8 = m1 * x2_0 + m0 * w3;
-    const double w9 = m0 * x2_2 - m2 * x2_0;
-    const double Y2_0 = m0 - w6 * c1_1 - (w3 * w8 + x2_2 * w9) * c2_1;
-    const double f2_0 = -0.5 * Y2_0;
-    const double x3_0 = w2 * f2_0;
-    const double w10 = (x2_2 * w6 + x2_0 * w8) * c2_1;
-    const double w11 = m1 + w9 * c1_1;
-    const double f2_1 = w10 - w11;
-    const double x3_1 = w2 * f2_1;
-    const double Y2_2 = m2 + w8 * c1_1 + (x2_0 * w9 - w3 * w6) * c2_1;
-    const double f2_2 = -1.5 * Y2_2;
-    const double x3_2 = w2 * f2_2;
-    const double w12 = x3_0 * x3_0 + x3_1 * x3_1 + x3_2 * x3_2;
+    stumpff_12(w8, &c1_1, &c2_1);
+    const double w10 = m2 * w5 + m1 * w7;
+    const double w12 = m1 * w3 + m0 * w5;
+    const double w13 = m0 * w7 - m2 * w3;
+    const double w14 = m0 - w10 * c1_1 - (w5 * w12 + w7 * w13) * c2_1;
+    const double w15 = w2 * w14;
+    const double w16 = (w7 * w10 + w3 * w12) * c2_1;
+    const double w17 = m1 + w13 * c1_1;
+    const double w18 = w16 - w17;
+    const double w19 = w4 * w18;
+    const double w20 = m2 + w12 * c1_1 + (w3 * w13 - w5 * w10) * c2_1;
+    const double w21 = w6 * w20;
+    const double w22 = w15 * w15 + w19 * w19 + w21 * w21;
     double c1_2, c2_2;
-    stumpff_12(w12, &c1_2, &c2_2);
-    const double w14 = m2 * x3_1 - m1 * x3_2;
-    const double w16 = m1 * x3_0 - m0 * x3_1;
-    const double w17 = m0 * x3_2 - m2 * x3_0;
-    const double f3_0 = -0.5 * (m0 + w14 * c1_2 + (x3_1 * w16 - x3_2 * w17) * c2_2);
-    const double w18 = 0.16666666666666666 * h;
-    const double w19 = (f2_0 + f3_0) * w18;
-    const double w20 = -0.5 * h;
-    const double x4_0 = k0_0 * w20 + h * f3_0;
-    const double Y3_1 = m1 + w17 * c1_2 + (x3_2 * w14 - x3_0 * w16) * c2_2;
-    const double w21 = m1 * w20 + h * Y3_1;
-    const double f3_2 = -1.5 * (m2 + w16 * c1_2 + (x3_0 * w17 - x3_1 * w14) * c2_2);
-    const double x4_2 = k0_2 * w20 + h * f3_2;
-    const double w22 = x4_0 * x4_0 + w21 * w21 + x4_2 * x4_2;
+    stumpff_12(w22, &c1_2, &c2_2);
+    const double w24 = m2 * w19 - m1 * w21;
+    const double w26 = m1 * w15 - m0 * w19;
+    const double w27 = m0 * w21 - m2 * w15;
+    const double w28 = m0 + w24 * c1_2 + (w19 * w26 - w21 * w27) * c2_2;
+    const double w29 = 0.16666666666666666 * h;
+    const double w30 = (-0.5 * w14 - 0.5 * w28) * w29;
+    const double w31 = 0.25 * h;
+    const double w32 = -0.5 * h;
+    const double w33 = m0 * w31 + w28 * w32;
+    const double w34 = m1 + w27 * c1_2 + (w21 * w24 - w15 * w26) * c2_2;
+    const double w35 = m1 * w32 + h * w34;
+    const double w36 = m2 + w26 * c1_2 + (w15 * w27 - w19 * w24) * c2_2;
+    const double w37 = 0.75 * h * m2 - 1.5 * h * w36;
+    const double w38 = w33 * w33 + w35 * w35 + w37 * w37;
     double c1_3, c2_3;
-    stumpff_12(w22, &c1_3, &c2_3);
-    const double Y2_1 = w11 - w10;
-    const double w24 = Y2_2 * w21 + x4_2 * Y2_1;
-    const double w26 = Y2_0 * w21 + x4_0 * Y2_1;
-    const double w27 = Y2_0 * x4_2 - Y2_2 * x4_0;
-    const double f4_0 = -0.5 * (Y2_0 - w24 * c1_3 - (w21 * w26 + x4_2 * w27) * c2_3);
-    const double w28 = -0.08333333333333333 * h;
-    const double x_0 = k0_0 * w1 + w19 + f4_0 * w28;
-    const double w29 = w18 * (f2_1 - Y3_1);
-    const double f4_1 = (x4_2 * w24 + x4_0 * w26) * c2_3 - (Y2_1 + w27 * c1_3);
-    const double x_1 = w29 - m1 * w1 + w28 * f4_1;
-    const double w30 = w18 * (f2_2 + f3_2);
-    const double f4_2 = -1.5 * (Y2_2 + w26 * c1_3 + (x4_0 * w27 - w21 * w24) * c2_3);
-    const double x_2 = w30 + w1 * k0_2 + w28 * f4_2;
-    const double w31 = x_0 * x_0 + x_1 * x_1 + x_2 * x_2;
+    stumpff_12(w38, &c1_3, &c2_3);
+    const double w40 = w17 - w16;
+    const double w41 = w20 * w35 + w37 * w40;
+    const double w43 = w14 * w35 + w33 * w40;
+    const double w44 = w14 * w37 - w20 * w33;
+    const double w45 = w14 - w41 * c1_3 - (w35 * w43 + w37 * w44) * c2_3;
+    const double w46 = 0.041666666666666664 * h;
+    const double w47 = m0 * w1 + w30 + w45 * w46;
+    const double w48 = w29 * (w18 - w34);
+    const double w49 = (w37 * w41 + w33 * w43) * c2_3 - (w40 + w44 * c1_3);
+    const double w50 = -0.08333333333333333 * h;
+    const double w51 = w48 - m1 * w31 + w49 * w50;
+    const double w52 = -0.375 * h;
+    const double w53 = w29 * (-1.5 * w20 - 1.5 * w36);
+    const double w54 = w20 + w43 * c1_3 + (w33 * w44 - w35 * w41) * c2_3;
+    const double w55 = 0.125 * h;
+    const double w56 = m2 * w52 + w53 + w54 * w55;
+    const double w57 = w47 * w47 + w51 * w51 + w56 * w56;
     double c1_4, c2_4;
-    stumpff_12(w31, &c1_4, &c2_4);
-    const double w33 = m2 * x_1 - m1 * x_2;
-    const double w35 = m1 * x_0 - m0 * x_1;
-    const double w36 = m0 * x_2 - m2 * x_0;
-    const double Y_0 = m0 + w33 * c1_4 + (x_1 * w35 - x_2 * w36) * c2_4;
-    const double x_2_0 = w19 + k0_0 * w28 + w1 * f4_0;
-    const double x_2_1 = w29 - m1 * w28 + w1 * f4_1;
-    const double x_2_2 = w30 + k0_2 * w28 + w1 * f4_2;
-    const double w37 = x_2_0 * x_2_0 + x_2_1 * x_2_1 + x_2_2 * x_2_2;
+    stumpff_12(w57, &c1_4, &c2_4);
+    const double w59 = m2 * w51 - m1 * w56;
+    const double w61 = m1 * w47 - m0 * w51;
+    const double w62 = m0 * w56 - m2 * w47;
+    const double w63 = m0 + w59 * c1_4 + (w51 * w61 - w56 * w62) * c2_4;
+    const double w64 = w30 + m0 * w46 + w1 * w45;
+    const double w65 = w48 - m1 * w50 + w31 * w49;
+    const double w66 = w53 + m2 * w55 + w52 * w54;
+    const double w67 = w64 * w64 + w65 * w65 + w66 * w66;
     double c1_5, c2_5;
-    stumpff_12(w37, &c1_5, &c2_5);
-    const double Y_2 = m2 + w35 * c1_4 + (x_0 * w36 - x_1 * w33) * c2_4;
-    const double Y_1 = m1 + w36 * c1_4 + (x_2 * w33 - x_0 * w35) * c2_4;
-    const double w39 = x_2_1 * Y_2 - x_2_2 * Y_1;
-    const double w41 = x_2_0 * Y_1 - Y_0 * x_2_1;
-    const double w42 = Y_0 * x_2_2 - x_2_0 * Y_2;
-    const double new_m0 = Y_0 + w39 * c1_5 + (x_2_1 * w41 - x_2_2 * w42) * c2_5;
-    const double new_m1 = Y_1 + w42 * c1_5 + (x_2_2 * w39 - x_2_0 * w41) * c2_5;
-    const double new_m2 = Y_2 + w41 * c1_5 + (x_2_0 * w42 - x_2_1 * w39) * c2_5;
-    if (!(isfinite(new_m0) && isfinite(new_m1) && isfinite(new_m2))) {
+    stumpff_12(w67, &c1_5, &c2_5);
+    const double w69 = m2 + w61 * c1_4 + (w47 * w62 - w51 * w59) * c2_4;
+    const double w70 = m1 + w62 * c1_4 + (w56 * w59 - w47 * w61) * c2_4;
+    const double w71 = w65 * w69 - w66 * w70;
+    const double w73 = w64 * w70 - w63 * w65;
+    const double w74 = w63 * w66 - w64 * w69;
+    const double new_m0 = w63 + w71 * c1_5 + (w65 * w73 - w66 * w74) * c2_5;
+    const double new_m1 = w70 + w74 * c1_5 + (w66 * w71 - w64 * w73) * c2_5;
+    const double new_m2 = w69 + w73 * c1_5 + (w64 * w74 - w65 * w71) * c2_5;
+    /* x - x is zero for a number, else NaN: one test for all */
+    if (!(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
         return FREE_RIGID_BODY_CF4_NOT_FINITE;
     }
     state[0] = new_m0;

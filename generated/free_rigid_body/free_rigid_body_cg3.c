@@ -12,8 +12,8 @@
  *             parameters, folded: alpha = 0
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit here
- * operations: 84 add, 156 mul, 6 stumpff_12 a step
- * stack:      at most 1344 bytes, without what the mathematical library takes
+ * operations: 84 add, 161 mul, 6 stumpff_12 a step
+ * stack:      at most 1280 bytes, without what the mathematical library takes
  * made by:    orderconds emit free_rigid_body --method cg:cg3 --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -44,24 +44,38 @@
 #error "compile without -ffast-math (-ffinite-math-only): it removes the checks for infinities and NaNs"
 #endif
 
+/* c_2(z) for z <= 1/256 */
+static inline double stumpff_tiny_2(double z)
+{
+    const double w = z * z;
+    return (0.5 + z * -0.04166666666666365)
+        + w * (0.0013888888842068215 + z * -2.4799519568559804e-05);
+}
+
+/* c_1(z) for z <= 1/256 */
+static inline double stumpff_tiny_1(double z)
+{
+    const double w = z * z;
+    return (1.0 + z * -0.16666666666663651)
+        + w * (0.00833333328651266 + z * -0.00019839202108242344);
+}
+
 /* c_2(z) for z <= 1/16 */
 static inline double stumpff_small_2(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (0.5 + z * -0.041666666666666664)
-        + w * (0.001388888888888889 + z * -2.48015873015873e-05)
-        + w2 * (2.755731922398589e-07 + z * -2.08767569878681e-09);
+    return (0.5 + z * -0.041666666666664444)
+        + w * (0.0013888888885432897 + z * -2.480157060205821e-05)
+        + w * w * 2.7525517582787593e-07;
 }
 
 /* c_1(z) for z <= 1/16 */
 static inline double stumpff_small_1(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (1.0 + z * -0.16666666666666666)
-        + w * (0.008333333333333333 + z * -0.0001984126984126984)
-        + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08);
+    return (1.0 + z * -0.16666666666664)
+        + w * (0.008333333329190184 + z * -0.00019841249819193104)
+        + w * w * 2.7519182046349993e-06;
 }
 
 /* c_2(z) = sum (-z)^j/(2j+2)! up to z = 1 */
@@ -107,7 +121,10 @@ static void stumpff_12_far(double z, double *c1, double *c2)
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
 static inline void stumpff_12(double z, double *c1, double *c2)
 {
-    if (z <= 0.0625) {
+    if (z <= 0.00390625) {
+        *c1 = stumpff_tiny_1(z);
+        *c2 = stumpff_tiny_2(z);
+    } else if (z <= 0.0625) {
         *c1 = stumpff_small_1(z);
         *c2 = stumpff_small_2(z);
     } else {
@@ -123,86 +140,80 @@ static inline int advance(double state[static 3], double h)
     const double m0 = state[0];
     const double m1 = state[1];
     const double m2 = state[2];
-    const double k0_0 = -0.5 * m0;
-    const double w1 = 0.2549019607843137 * h;
-    const double x_0 = k0_0 * w1;
-    const double w2 = m1 * w1;
-    const double k0_2 = -1.5 * m2;
-    const double x_2 = w1 * k0_2;
-    const double w3 = x_0 * x_0 + w2 * w2 + x_2 * x_2;
+    const double w1 = -0.12745098039215685 * h * m0;
+    const double w2 = 0.2549019607843137 * h * m1;
+    const double w3 = -0.38235294117647056 * h * m2;
+    const double w4 = w1 * w1 + w2 * w2 + w3 * w3;
     double c1_1, c2_1;
-    stumpff_12(w3, &c1_1, &c2_1);
-    const double w5 = m2 * w2 + m1 * x_2;
-    const double w7 = m1 * x_0 + m0 * w2;
-    const double w8 = m0 * x_2 - m2 * x_0;
-    const double Y_0 = m0 - w5 * c1_1 - (w2 * w7 + x_2 * w8) * c2_1;
-    const double w9 = 0.75 * h;
-    const double x2_0 = k0_0 * w9;
-    const double w10 = m1 * w9;
-    const double x2_2 = k0_2 * w9;
-    const double w11 = x2_0 * x2_0 + w10 * w10 + x2_2 * x2_2;
+    stumpff_12(w4, &c1_1, &c2_1);
+    const double w6 = m2 * w2 + m1 * w3;
+    const double w8 = m1 * w1 + m0 * w2;
+    const double w9 = m0 * w3 - m2 * w1;
+    const double w10 = m0 - w6 * c1_1 - (w2 * w8 + w3 * w9) * c2_1;
+    const double w11 = -0.375 * h * m0;
+    const double w12 = 0.75 * h * m1;
+    const double w13 = -1.125 * h * m2;
+    const double w14 = w11 * w11 + w12 * w12 + w13 * w13;
     double c1_2, c2_2;
-    stumpff_12(w11, &c1_2, &c2_2);
-    const double w13 = m2 * w10 + m1 * x2_2;
-    const double w15 = m1 * x2_0 + m0 * w10;
-    const double w16 = m0 * x2_2 - m2 * x2_0;
-    const double f2_0 = -0.5 * (m0 - w13 * c1_2 - (w10 * w15 + x2_2 * w16) * c2_2);
-    const double w17 = -0.6666666666666666 * h;
-    const double x_2_0 = f2_0 * w17;
-    const double f2_1 = (x2_2 * w13 + x2_0 * w15) * c2_2 - (m1 + w16 * c1_2);
-    const double x_2_1 = w17 * f2_1;
-    const double f2_2 = -1.5 * (m2 + w15 * c1_2 + (x2_0 * w16 - w10 * w13) * c2_2);
-    const double x_2_2 = w17 * f2_2;
-    const double w18 = x_2_0 * x_2_0 + x_2_1 * x_2_1 + x_2_2 * x_2_2;
+    stumpff_12(w14, &c1_2, &c2_2);
+    const double w16 = m2 * w12 + m1 * w13;
+    const double w18 = m1 * w11 + m0 * w12;
+    const double w19 = m0 * w13 - m2 * w11;
+    const double w20 = m0 - w16 * c1_2 - (w12 * w18 + w13 * w19) * c2_2;
+    const double w21 = 0.3333333333333333 * h * w20;
+    const double w22 = (w13 * w16 + w11 * w18) * c2_2 - (m1 + w19 * c1_2);
+    const double w23 = -0.6666666666666666 * h * w22;
+    const double w24 = m2 + w18 * c1_2 + (w11 * w19 - w12 * w16) * c2_2;
+    const double w25 = h * w24;
+    const double w26 = w21 * w21 + w23 * w23 + w25 * w25;
     double c1_3, c2_3;
-    stumpff_12(w18, &c1_3, &c2_3);
-    const double Y_2 = m2 + w7 * c1_1 + (x_0 * w8 - w2 * w5) * c2_1;
-    const double Y_1 = m1 + w8 * c1_1 - (x_2 * w5 + x_0 * w7) * c2_1;
-    const double w20 = x_2_1 * Y_2 - x_2_2 * Y_1;
-    const double w22 = x_2_0 * Y_1 - Y_0 * x_2_1;
-    const double w23 = Y_0 * x_2_2 - x_2_0 * Y_2;
-    const double Y_2_0 = Y_0 + w20 * c1_3 + (x_2_1 * w22 - x_2_2 * w23) * c2_3;
-    const double w24 = 0.5509259259259259 * h;
-    const double x3_0 = k0_0 * w24;
-    const double w25 = m1 * w24;
-    const double x3_2 = k0_2 * w24;
-    const double w26 = x3_0 * x3_0 + w25 * w25 + x3_2 * x3_2;
+    stumpff_12(w26, &c1_3, &c2_3);
+    const double w28 = m2 + w8 * c1_1 + (w1 * w9 - w2 * w6) * c2_1;
+    const double w29 = m1 + w9 * c1_1 - (w3 * w6 + w1 * w8) * c2_1;
+    const double w30 = w23 * w28 - w25 * w29;
+    const double w32 = w21 * w29 - w10 * w23;
+    const double w33 = w10 * w25 - w21 * w28;
+    const double w34 = w10 + w30 * c1_3 + (w23 * w32 - w25 * w33) * c2_3;
+    const double w35 = -0.27546296296296297 * h * m0;
+    const double w36 = 0.5509259259259259 * h * m1;
+    const double w37 = -0.8263888888888888 * h * m2;
+    const double w38 = w35 * w35 + w36 * w36 + w37 * w37;
     double c1_4, c2_4;
-    stumpff_12(w26, &c1_4, &c2_4);
-    const double w28 = m2 * w25 + m1 * x3_2;
-    const double w30 = m1 * x3_0 + m0 * w25;
-    const double w31 = m0 * x3_2 - m2 * x3_0;
-    const double Y3_0 = m0 - w28 * c1_4 - (w25 * w30 + x3_2 * w31) * c2_4;
-    const double w32 = 0.1574074074074074 * h;
-    const double x3_2_0 = f2_0 * w32;
-    const double x3_2_1 = f2_1 * w32;
-    const double x3_2_2 = f2_2 * w32;
-    const double w33 = x3_2_0 * x3_2_0 + x3_2_1 * x3_2_1 + x3_2_2 * x3_2_2;
+    stumpff_12(w38, &c1_4, &c2_4);
+    const double w40 = m2 * w36 + m1 * w37;
+    const double w42 = m1 * w35 + m0 * w36;
+    const double w43 = m0 * w37 - m2 * w35;
+    const double w44 = m0 - w40 * c1_4 - (w36 * w42 + w37 * w43) * c2_4;
+    const double w45 = -0.0787037037037037 * h * w20;
+    const double w46 = 0.1574074074074074 * h * w22;
+    const double w47 = -0.2361111111111111 * h * w24;
+    const double w48 = w45 * w45 + w46 * w46 + w47 * w47;
     double c1_5, c2_5;
-    stumpff_12(w33, &c1_5, &c2_5);
-    const double Y3_2 = m2 + w30 * c1_4 + (x3_0 * w31 - w25 * w28) * c2_4;
-    const double Y3_1 = m1 + w31 * c1_4 - (x3_2 * w28 + x3_0 * w30) * c2_4;
-    const double w35 = x3_2_1 * Y3_2 - x3_2_2 * Y3_1;
-    const double w37 = x3_2_0 * Y3_1 - Y3_0 * x3_2_1;
-    const double w38 = Y3_0 * x3_2_2 - x3_2_0 * Y3_2;
-    const double w39 = 1.411764705882353 * h;
-    const double x_3_0 = -0.5 * (Y3_0 + w35 * c1_5 + (x3_2_1 * w37 - x3_2_2 * w38) * c2_5)
-        * w39;
-    const double w40 = w39 * (Y3_1 + w38 * c1_5 + (x3_2_2 * w35 - x3_2_0 * w37) * c2_5);
-    const double x_3_2 = -1.5 * (Y3_2 + w37 * c1_5 + (x3_2_0 * w38 - x3_2_1 * w35) * c2_5)
-        * w39;
-    const double w41 = x_3_0 * x_3_0 + w40 * w40 + x_3_2 * x_3_2;
+    stumpff_12(w48, &c1_5, &c2_5);
+    const double w50 = m2 + w42 * c1_4 + (w35 * w43 - w36 * w40) * c2_4;
+    const double w51 = m1 + w43 * c1_4 - (w37 * w40 + w35 * w42) * c2_4;
+    const double w52 = w46 * w50 - w47 * w51;
+    const double w54 = w45 * w51 - w44 * w46;
+    const double w55 = w44 * w47 - w45 * w50;
+    const double w56 = -0.7058823529411765 * h
+        * (w44 + w52 * c1_5 + (w46 * w54 - w47 * w55) * c2_5);
+    const double w57 = 1.411764705882353 * h
+        * (w51 + w55 * c1_5 + (w47 * w52 - w45 * w54) * c2_5);
+    const double w58 = -2.1176470588235294 * h
+        * (w50 + w54 * c1_5 + (w45 * w55 - w46 * w52) * c2_5);
+    const double w59 = w56 * w56 + w57 * w57 + w58 * w58;
     double c1_6, c2_6;
-    stumpff_12(w41, &c1_6, &c2_6);
-    const double Y_2_2 = Y_2 + w22 * c1_3 + (x_2_0 * w23 - x_2_1 * w20) * c2_3;
-    const double Y_2_1 = Y_1 + w23 * c1_3 + (x_2_2 * w20 - x_2_0 * w22) * c2_3;
-    const double w43 = w40 * Y_2_2 + x_3_2 * Y_2_1;
-    const double w45 = Y_2_0 * w40 + x_3_0 * Y_2_1;
-    const double w46 = Y_2_0 * x_3_2 - x_3_0 * Y_2_2;
-    const double new_m0 = Y_2_0 - w43 * c1_6 - (w40 * w45 + x_3_2 * w46) * c2_6;
-    const double new_m1 = Y_2_1 + w46 * c1_6 - (x_3_2 * w43 + x_3_0 * w45) * c2_6;
-    const double new_m2 = Y_2_2 + w45 * c1_6 + (x_3_0 * w46 - w40 * w43) * c2_6;
-    if (!(isfinite(new_m0) && isfinite(new_m1) && isfinite(new_m2))) {
+    stumpff_12(w59, &c1_6, &c2_6);
+    const double w61 = w28 + w32 * c1_3 + (w21 * w33 - w23 * w30) * c2_3;
+    const double w62 = w29 + w33 * c1_3 + (w25 * w30 - w21 * w32) * c2_3;
+    const double w63 = w57 * w61 + w58 * w62;
+    const double w65 = w34 * w57 + w56 * w62;
+    const double w66 = w34 * w58 - w56 * w61;
+    const double new_m0 = w34 - w63 * c1_6 - (w57 * w65 + w58 * w66) * c2_6;
+    const double new_m1 = w62 + w66 * c1_6 - (w58 * w63 + w56 * w65) * c2_6;
+    const double new_m2 = w61 + w65 * c1_6 + (w56 * w66 - w57 * w63) * c2_6;
+    /* x - x is zero for a number, else NaN: one test for all */
+    if (!(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
         return FREE_RIGID_BODY_CG3_NOT_FINITE;
     }
     state[0] = new_m0;

@@ -47,24 +47,38 @@
 #error "compile without -ffast-math (-ffinite-math-only): it removes the checks for infinities and NaNs"
 #endif
 
+/* c_2(z) for z <= 1/256 */
+static inline double stumpff_tiny_2(double z)
+{
+    const double w = z * z;
+    return (0.5 + z * -0.04166666666666365)
+        + w * (0.0013888888842068215 + z * -2.4799519568559804e-05);
+}
+
+/* c_1(z) for z <= 1/256 */
+static inline double stumpff_tiny_1(double z)
+{
+    const double w = z * z;
+    return (1.0 + z * -0.16666666666663651)
+        + w * (0.00833333328651266 + z * -0.00019839202108242344);
+}
+
 /* c_2(z) for z <= 1/16 */
 static inline double stumpff_small_2(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (0.5 + z * -0.041666666666666664)
-        + w * (0.001388888888888889 + z * -2.48015873015873e-05)
-        + w2 * (2.755731922398589e-07 + z * -2.08767569878681e-09);
+    return (0.5 + z * -0.041666666666664444)
+        + w * (0.0013888888885432897 + z * -2.480157060205821e-05)
+        + w * w * 2.7525517582787593e-07;
 }
 
 /* c_1(z) for z <= 1/16 */
 static inline double stumpff_small_1(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (1.0 + z * -0.16666666666666666)
-        + w * (0.008333333333333333 + z * -0.0001984126984126984)
-        + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08);
+    return (1.0 + z * -0.16666666666664)
+        + w * (0.008333333329190184 + z * -0.00019841249819193104)
+        + w * w * 2.7519182046349993e-06;
 }
 
 /* c_2(z) = sum (-z)^j/(2j+2)! up to z = 1 */
@@ -110,7 +124,10 @@ static void stumpff_12_far(double z, double *c1, double *c2)
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
 static inline void stumpff_12(double z, double *c1, double *c2)
 {
-    if (z <= 0.0625) {
+    if (z <= 0.00390625) {
+        *c1 = stumpff_tiny_1(z);
+        *c2 = stumpff_tiny_2(z);
+    } else if (z <= 0.0625) {
         *c1 = stumpff_small_1(z);
         *c2 = stumpff_small_2(z);
     } else {
@@ -197,7 +214,8 @@ static inline int advance(double state[static 3], double h)
     const double new_m0 = m0 + w34 * c1_4 + (u_1 * w36 - u_2 * w37) * c2_4;
     const double new_m1 = m1 + w37 * c1_4 + (u_2 * w34 - u_0 * w36) * c2_4;
     const double new_m2 = m2 + w36 * c1_4 + (u_0 * w37 - u_1 * w34) * c2_4;
-    if (!(isfinite(new_m0) && isfinite(new_m1) && isfinite(new_m2))) {
+    /* x - x is zero for a number, else NaN: one test for all */
+    if (!(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
         return FREE_RIGID_BODY_RKMK2_RK4_NOT_FINITE;
     }
     state[0] = new_m0;

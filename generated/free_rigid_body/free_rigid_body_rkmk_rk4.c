@@ -15,7 +15,7 @@
  *             parameters, folded: alpha = 0
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit here
- * operations: 77 add, 133 mul, 4 stumpff_12 a step
+ * operations: 77 add, 141 mul, 4 stumpff_12 a step
  * stack:      at most 1216 bytes, without what the mathematical library takes
  * made by:    orderconds emit free_rigid_body --method rkmk:rk4 --target c -o .
  * version:    orderconds 0.1.0
@@ -47,24 +47,38 @@
 #error "compile without -ffast-math (-ffinite-math-only): it removes the checks for infinities and NaNs"
 #endif
 
+/* c_2(z) for z <= 1/256 */
+static inline double stumpff_tiny_2(double z)
+{
+    const double w = z * z;
+    return (0.5 + z * -0.04166666666666365)
+        + w * (0.0013888888842068215 + z * -2.4799519568559804e-05);
+}
+
+/* c_1(z) for z <= 1/256 */
+static inline double stumpff_tiny_1(double z)
+{
+    const double w = z * z;
+    return (1.0 + z * -0.16666666666663651)
+        + w * (0.00833333328651266 + z * -0.00019839202108242344);
+}
+
 /* c_2(z) for z <= 1/16 */
 static inline double stumpff_small_2(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (0.5 + z * -0.041666666666666664)
-        + w * (0.001388888888888889 + z * -2.48015873015873e-05)
-        + w2 * (2.755731922398589e-07 + z * -2.08767569878681e-09);
+    return (0.5 + z * -0.041666666666664444)
+        + w * (0.0013888888885432897 + z * -2.480157060205821e-05)
+        + w * w * 2.7525517582787593e-07;
 }
 
 /* c_1(z) for z <= 1/16 */
 static inline double stumpff_small_1(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (1.0 + z * -0.16666666666666666)
-        + w * (0.008333333333333333 + z * -0.0001984126984126984)
-        + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08);
+    return (1.0 + z * -0.16666666666664)
+        + w * (0.008333333329190184 + z * -0.00019841249819193104)
+        + w * w * 2.7519182046349993e-06;
 }
 
 /* c_2(z) = sum (-z)^j/(2j+2)! up to z = 1 */
@@ -110,7 +124,10 @@ static void stumpff_12_far(double z, double *c1, double *c2)
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
 static inline void stumpff_12(double z, double *c1, double *c2)
 {
-    if (z <= 0.0625) {
+    if (z <= 0.00390625) {
+        *c1 = stumpff_tiny_1(z);
+        *c2 = stumpff_tiny_2(z);
+    } else if (z <= 0.0625) {
         *c1 = stumpff_small_1(z);
         *c2 = stumpff_small_2(z);
     } else {
@@ -126,71 +143,74 @@ static inline int advance(double state[static 3], double h)
     const double m0 = state[0];
     const double m1 = state[1];
     const double m2 = state[2];
-    const double k0_0 = -0.5 * m0;
-    const double w1 = 0.5 * h;
-    const double u2_0 = k0_0 * w1;
-    const double w2 = m1 * w1;
-    const double k0_2 = -1.5 * m2;
-    const double u2_2 = w1 * k0_2;
-    const double w3 = u2_0 * u2_0 + w2 * w2 + u2_2 * u2_2;
+    const double w1 = -0.5 * h;
+    const double w2 = -0.25 * h;
+    const double w3 = m0 * w2;
+    const double w4 = 0.5 * h;
+    const double w5 = m1 * w4;
+    const double w6 = -0.75 * h;
+    const double w7 = m2 * w6;
+    const double w8 = w3 * w3 + w5 * w5 + w7 * w7;
     double c1_1, c2_1;
-    stumpff_12(w3, &c1_1, &c2_1);
-    const double w5 = m2 * w2 + m1 * u2_2;
-    const double w7 = m1 * u2_0 + m0 * w2;
-    const double w8 = m0 * u2_2 - m2 * u2_0;
-    const double f2_0 = -0.5 * (m0 - w5 * c1_1 - (w2 * w7 + u2_2 * w8) * c2_1);
-    const double w9 = h * m1;
-    const double f2_2 = -1.5 * (m2 + w7 * c1_1 + (u2_0 * w8 - w2 * w5) * c2_1);
-    const double w10 = -0.125 * h;
-    const double z1_2 = f2_2 * w10;
-    const double x1_2 = h * k0_2;
-    const double f2_1 = (u2_2 * w5 + u2_0 * w7) * c2_1 - (m1 + w8 * c1_1);
-    const double z1_1 = w10 * f2_1;
-    const double u3_0 = w1 * f2_0 - (w9 * z1_2 + x1_2 * z1_1);
-    const double z1_0 = f2_0 * w10;
-    const double x1_0 = h * k0_0;
-    const double u3_1 = x1_2 * z1_0 - z1_2 * x1_0 + w1 * f2_1;
-    const double u3_2 = w9 * z1_0 + z1_1 * x1_0 + w1 * f2_2;
-    const double w11 = u3_0 * u3_0 + u3_1 * u3_1 + u3_2 * u3_2;
+    stumpff_12(w8, &c1_1, &c2_1);
+    const double w10 = m2 * w5 + m1 * w7;
+    const double w12 = m1 * w3 + m0 * w5;
+    const double w13 = m0 * w7 - m2 * w3;
+    const double w14 = m0 - w10 * c1_1 - (w5 * w12 + w7 * w13) * c2_1;
+    const double w15 = h * m1;
+    const double w16 = m2 + w12 * c1_1 + (w3 * w13 - w5 * w10) * c2_1;
+    const double w17 = 0.1875 * h * w16;
+    const double w18 = -1.5 * h;
+    const double w19 = m2 * w18;
+    const double w20 = (w7 * w10 + w3 * w12) * c2_1 - (m1 + w13 * c1_1);
+    const double w21 = -0.125 * h * w20;
+    const double w22 = w2 * w14 - (w15 * w17 + w19 * w21);
+    const double w23 = 0.0625 * h * w14;
+    const double w24 = m0 * w1;
+    const double w25 = w19 * w23 - w17 * w24 + w4 * w20;
+    const double w26 = w15 * w23 + w21 * w24 + w6 * w16;
+    const double w27 = w22 * w22 + w25 * w25 + w26 * w26;
     double c1_2, c2_2;
-    stumpff_12(w11, &c1_2, &c2_2);
-    const double w13 = m2 * u3_1 - m1 * u3_2;
-    const double w15 = m1 * u3_0 - m0 * u3_1;
-    const double w16 = m0 * u3_2 - m2 * u3_0;
-    const double f3_0 = -0.5 * (m0 + w13 * c1_2 + (u3_1 * w15 - u3_2 * w16) * c2_2);
-    const double u4_0 = h * f3_0;
-    const double Y3_1 = m1 + w16 * c1_2 + (u3_2 * w13 - u3_0 * w15) * c2_2;
-    const double w17 = h * Y3_1;
-    const double f3_2 = -1.5 * (m2 + w15 * c1_2 + (u3_0 * w16 - u3_1 * w13) * c2_2);
-    const double u4_2 = h * f3_2;
-    const double w18 = u4_0 * u4_0 + w17 * w17 + u4_2 * u4_2;
+    stumpff_12(w27, &c1_2, &c2_2);
+    const double w29 = m2 * w25 - m1 * w26;
+    const double w31 = m1 * w22 - m0 * w25;
+    const double w32 = m0 * w26 - m2 * w22;
+    const double w33 = m0 + w29 * c1_2 + (w25 * w31 - w26 * w32) * c2_2;
+    const double w34 = w1 * w33;
+    const double w35 = m1 + w32 * c1_2 + (w26 * w29 - w22 * w31) * c2_2;
+    const double w36 = h * w35;
+    const double w37 = m2 + w31 * c1_2 + (w22 * w32 - w25 * w29) * c2_2;
+    const double w38 = w18 * w37;
+    const double w39 = w34 * w34 + w36 * w36 + w38 * w38;
     double c1_3, c2_3;
-    stumpff_12(w18, &c1_3, &c2_3);
-    const double w20 = m2 * w17 + m1 * u4_2;
-    const double w22 = m1 * u4_0 + m0 * w17;
-    const double w23 = m0 * u4_2 - m2 * u4_0;
-    const double f4_0 = -0.5 * (m0 - w20 * c1_3 - (w17 * w22 + u4_2 * w23) * c2_3);
-    const double w24 = 0.16666666666666666 * h;
-    const double w25 = 0.3333333333333333 * h;
-    const double f4_2 = -1.5 * (m2 + w22 * c1_3 + (u4_0 * w23 - w17 * w20) * c2_3);
-    const double w26 = -0.08333333333333333 * h;
-    const double z2_2 = f4_2 * w26;
-    const double f4_1 = (u4_2 * w20 + u4_0 * w22) * c2_3 - (m1 + w23 * c1_3);
-    const double z2_1 = w26 * f4_1;
-    const double u_0 = (k0_0 + f4_0) * w24 + (f2_0 + f3_0) * w25 - (w9 * z2_2 + x1_2 * z2_1);
-    const double z2_0 = f4_0 * w26;
-    const double u_1 = x1_2 * z2_0 - x1_0 * z2_2 + (w24 * (f4_1 - m1) + w25 * (f2_1 - Y3_1));
-    const double u_2 = x1_0 * z2_1 + w9 * z2_0 + (w24 * (k0_2 + f4_2) + w25 * (f2_2 + f3_2));
-    const double w27 = u_0 * u_0 + u_1 * u_1 + u_2 * u_2;
+    stumpff_12(w39, &c1_3, &c2_3);
+    const double w41 = m2 * w36 + m1 * w38;
+    const double w43 = m1 * w34 + m0 * w36;
+    const double w44 = m0 * w38 - m2 * w34;
+    const double w45 = m0 - w41 * c1_3 - (w36 * w43 + w38 * w44) * c2_3;
+    const double w46 = 0.16666666666666666 * h;
+    const double w47 = 0.3333333333333333 * h;
+    const double w48 = m2 + w43 * c1_3 + (w34 * w44 - w36 * w41) * c2_3;
+    const double w49 = 0.125 * h * w48;
+    const double w50 = (w38 * w41 + w34 * w43) * c2_3 - (m1 + w44 * c1_3);
+    const double w51 = -0.08333333333333333 * h * w50;
+    const double w52 = (-0.5 * m0 - 0.5 * w45) * w46 + (-0.5 * w14 - 0.5 * w33) * w47
+        - (w15 * w49 + w19 * w51);
+    const double w53 = 0.041666666666666664 * h * w45;
+    const double w54 = w19 * w53 - w24 * w49 + (w46 * (w50 - m1) + w47 * (w20 - w35));
+    const double w55 = w24 * w51 + w15 * w53
+        + (w46 * (-1.5 * m2 - 1.5 * w48) + w47 * (-1.5 * w16 - 1.5 * w37));
+    const double w56 = w52 * w52 + w54 * w54 + w55 * w55;
     double c1_4, c2_4;
-    stumpff_12(w27, &c1_4, &c2_4);
-    const double w29 = m2 * u_1 - m1 * u_2;
-    const double w31 = m1 * u_0 - m0 * u_1;
-    const double w32 = m0 * u_2 - m2 * u_0;
-    const double new_m0 = m0 + w29 * c1_4 + (u_1 * w31 - u_2 * w32) * c2_4;
-    const double new_m1 = m1 + w32 * c1_4 + (u_2 * w29 - u_0 * w31) * c2_4;
-    const double new_m2 = m2 + w31 * c1_4 + (u_0 * w32 - u_1 * w29) * c2_4;
-    if (!(isfinite(new_m0) && isfinite(new_m1) && isfinite(new_m2))) {
+    stumpff_12(w56, &c1_4, &c2_4);
+    const double w58 = m2 * w54 - m1 * w55;
+    const double w60 = m1 * w52 - m0 * w54;
+    const double w61 = m0 * w55 - m2 * w52;
+    const double new_m0 = m0 + w58 * c1_4 + (w54 * w60 - w55 * w61) * c2_4;
+    const double new_m1 = m1 + w61 * c1_4 + (w55 * w58 - w52 * w60) * c2_4;
+    const double new_m2 = m2 + w60 * c1_4 + (w52 * w61 - w54 * w58) * c2_4;
+    /* x - x is zero for a number, else NaN: one test for all */
+    if (!(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
         return FREE_RIGID_BODY_RKMK_RK4_NOT_FINITE;
     }
     state[0] = new_m0;

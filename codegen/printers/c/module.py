@@ -9,7 +9,7 @@ from codegen.ir.number import Number
 from codegen.printers.arrange import Arrangement, arrange
 from codegen.printers.c.jacobian import varying
 from codegen.printers.c.statements import RESERVED, Statements, literal
-from codegen.printers.c.text import comment, fill
+from codegen.printers.c.text import comment, fill, paired
 from codegen.printers.expression import spell
 from codegen.printers.interface import Interface
 from codegen.printers.layout import inverts, layout, register, times
@@ -92,12 +92,12 @@ def definition(
     loads = [f"const {real} {names.spelled[s]} = state[{i}];" for i, s in enumerate(symbols) if s in read]
     # What is not read, as it follows from the rest of the state, must be a number all the same.
     numbers = [*new, *(f"state[{i}]" for i, s in enumerate(symbols) if s not in read)]
-    finite = (f"isfinite({numbers[0]})", *(f"&& isfinite({n})" for n in numbers[1:]))
+    differences = paired([f"({n} - {n})" for n in numbers])
     return {
         "errors": statements.errors(),
         "body": [*samples(kernel, read, names, statements), *loads, *body, *ends],
         "new": new,
-        "finite": fill("if (!(", finite, ")) {", joint=""),
+        "finite": fill("if (!(", (*differences, f"== {literal(interface.format, 0.0)}"), ")) {", joint=""),
     }
 
 

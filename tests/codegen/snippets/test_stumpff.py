@@ -14,10 +14,25 @@ from codegen.emit import emit
 from codegen.load import StepFailed, load
 from codegen.printers.precision import DOUBLE, SINGLE, Precision
 from codegen.snippets.graph import needed
-from codegen.snippets.stumpff import SETS, SMALL, SWITCH, coefficients, limit
+from codegen.snippets.stumpff import SETS, SMALL, SWITCH, TINY, coefficients, economised, limit
 
 POINTS = [
-    *(0.0, 5e-324, 1e-310, 1e-300, 1e-16, 1e-8, 1e-3, 0.0625, math.nextafter(0.0625, 1), 0.1, 0.5),
+    *(
+        0.0,
+        5e-324,
+        1e-310,
+        1e-300,
+        1e-16,
+        1e-8,
+        1e-3,
+        2.0**-8,
+        math.nextafter(2.0**-8, 1),
+        0.01,
+        0.0625,
+        math.nextafter(0.0625, 1),
+        0.1,
+        0.5,
+    ),
     *(math.nextafter(1.0, 0), 1.0, math.nextafter(1.0, 2), 2.0, 2.5),
     *(math.nextafter(4.0, 0), 4.0, math.nextafter(4.0, 5), 7.0),
     *(math.pi**2, math.nextafter(math.pi**2, 99), 20.2, 4 * math.pi**2, 100.0, 12345.678, 1e6, 1e15),
@@ -116,7 +131,7 @@ def test_c_and_python_spell_the_same_roundings(compiled, interpreted):
 
 @pytest.mark.parametrize("k", range(4))
 def test_no_branch_jumps_at_its_switch(compiled, k):
-    for z in (float(SMALL), float(SWITCH[k])):
+    for z in (float(TINY), float(SMALL), float(SWITCH[k])):
         below, above = compiled((k,), z)[0], compiled((k,), math.nextafter(z, 9))[0]
         assert abs(below - above) <= 2 * math.ulp(below)
 
