@@ -1,7 +1,7 @@
 /*
  * The start of an implicit step: the polynomial through the last solutions, continued by a step.
  *
- * Solutions are kept twice in a ring, so that the last ones stand together. The degree is looked at in every fourth
+ * Solutions are kept twice in a ring, so that the last ones stand together. The degree is looked at in every eighth
  * step: it grows while backward differences fall. UNKNOWNS is defined by who includes this.
  */
 #ifndef HANDWRITTEN_PAST_H
@@ -15,7 +15,7 @@
 
 struct past {
     double values[2 * DEPTH][UNKNOWNS];
-    double weights[DEPTH + 1][DEPTH + 1]; /* of the backward differences */
+    double weights[DEPTH + 1][DEPTH + 2]; /* of the backward differences */
     size_t known, degree, place;
 };
 
@@ -30,16 +30,27 @@ static inline void forget(struct past *past)
     }
 }
 
-/* the size of the difference of order k */
-static inline double difference(const struct past *past, size_t k)
+/* the difference of order k without its first terms, which were of later solutions */
+static inline void difference(const struct past *past, size_t k, size_t first, double sum[static UNKNOWNS])
 {
-    double sum[UNKNOWNS] = {0.0}, size = 0.0;
-    for (size_t j = 0; j <= k; j++) {
+    const double *weights = past->weights[k];
+    #pragma GCC unroll 12
+    for (size_t i = 0; i < UNKNOWNS; i++) {
+        sum[i] = 0.0;
+    }
+    for (size_t j = first; j <= k; j += 2) {
+        const double *x = past->values[past->place + j - first], *y = x + UNKNOWNS;
         #pragma GCC unroll 12
         for (size_t i = 0; i < UNKNOWNS; i++) {
-            sum[i] += past->weights[k][j] * past->values[past->place + j][i];
+            sum[i] += weights[j] * x[i] + weights[j + 1] * y[i];
         }
     }
+}
+
+static double size_of(const struct past *past, size_t k)
+{
+    double sum[UNKNOWNS], size = 0.0;
+    difference(past, k, 0, sum);
     for (size_t i = 0; i < UNKNOWNS; i++) {
         size += fabs(sum[i]);
     }
@@ -54,25 +65,20 @@ static inline void extrapolate(struct past *past, double w[static UNKNOWNS])
     memcpy(past->values[place + DEPTH], w, sizeof past->values[0]);
     past->known += past->known < DEPTH;
     size_t k = past->degree;
-    if (place % 4 == 0 || past->known < DEPTH) {
-        const double size = difference(past, k);
-        if (k + 1 < past->known && difference(past, k + 1) < size) {
+    if (place % 8 == 0 || past->known < DEPTH) {
+        const double size = size_of(past, k);
+        if (k + 1 < past->known && size_of(past, k + 1) < size) {
             k++;
-        } else if (k > 0 && size > difference(past, k - 1)) {
+        } else if (k > 0 && size > size_of(past, k - 1)) {
             k--;
         }
         past->degree = k;
     }
-    /* x_n - x_(n+1) is minus the difference of order k + 1 without its first term */
-    const double *weights = past->weights[k + 1] + 1;
-    double sum[UNKNOWNS] = {0.0};
-    for (size_t j = 0; j <= k; j++) {
-        #pragma GCC unroll 12
-        for (size_t i = 0; i < UNKNOWNS; i++) {
-            sum[i] -= weights[j] * past->values[place + j][i];
-        }
+    /* the difference that follows would vanish */
+    difference(past, k + 1, 1, w);
+    for (size_t i = 0; i < UNKNOWNS; i++) {
+        w[i] = -w[i];
     }
-    memcpy(w, sum, sizeof sum);
 }
 
 #endif

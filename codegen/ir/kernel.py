@@ -141,7 +141,7 @@ class Start:
 
     The unknowns then begin at the polynomial through the last solutions, continued by a step: with u1,
     u2, ... (latest first) at u1, 2 u1 - u2, 3 u1 - 3 u2 + u3 and so on. At most ``depth`` solutions are
-    kept, by their differences; the degree grows while these fall. Where that was off by more than
+    kept; the degree grows while their differences fall. Where that was off by more than
     ``ROUGH`` of what the unknowns have moved in the step, by the first change of its loops, only u1 is
     kept for the next one. The unknowns are those of all loops of the kernel, in order.
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from codegen.printers.c.statements import Statements
 
 
-LEAST_RATE = 2.0**-10
+LEAST_RATE = 2.0**-13
 """No rate is trusted to be smaller: what is corrected after the last sweep has errors of that kind too."""
 
 
@@ -132,11 +132,13 @@ def _matrix(s: Statements, statement: Iteration) -> Iterator[str]:
         yield from [] if newton.leading else [f"memory->made_{number} = 1;"]
         return
     inverse, order = _cell(statement, 0).removesuffix("[0]"), s.names.fresh(f"order_{number}")
+    row = s.names.fresh(f"row_{number}")
+    yield f"{s.real} {row}[{n}];"
     yield f"size_t {order}[{n}];"
     if newton.leading:
-        yield f"if (!invert({n}, {inverse}, {order})) {{"
+        yield f"if (!invert({n}, {inverse}, {row}, {order})) {{"
     else:
-        yield f"memory->made_{number} = invert({n}, {inverse}, {order});"
+        yield f"memory->made_{number} = invert({n}, {inverse}, {row}, {order});"
         yield f"if (!memory->made_{number}) {{"
     yield f"    count_sweeps(statistics, {number - 1}, {'0' if newton.leading else 'sweep'}, 1);"
     yield f"    return {s.prefix.upper()}NOT_CONVERGED;"

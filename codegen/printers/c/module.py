@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import comb
 
 from codegen.ir.kernel import CHORD, ELAPSED, LEAD, LONGEST, NEWTON, Kernel, PutOff, Start
 from codegen.ir.number import Number
@@ -238,6 +239,10 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
         "one": literal(interface.format, 1.0),
         "fabs": f"fabs{interface.format.suffix}",
         "depth": start.depth if start else 0,
+        "differences": [
+            ", ".join(str((-1) ** j * comb(order, j)) for j in range(order + 1))
+            for order in range(start.depth + 1 if start else 0)
+        ],
         "rough": literal(interface.format, Start.ROUGH),
         "blocks": [comment(label) for label in interface.blocks],
         "step_header": signature(f"int {interface.prefix}step", f"{real} state[{interface.size}]", step, ";"),
@@ -326,8 +331,8 @@ def inverses_of(kernel: Kernel) -> list[tuple[int, int]]:
 def remembered(kernel: Kernel) -> int:
     """Return how many numbers a run remembers, and what inverting a matrix takes besides."""
     matrices = [len(loop.unknowns) for loop in kernel.loops if loop.newton is not None]
-    memory, start = [n * n + 2 * n + 1 for n in matrices], kernel.start
-    return sum(memory) + ((start.depth + 5) * len(start.unknowns) + 8 + len(kernel.loops) if start else 0)
+    memory, start = [n * n + 3 * n + 1 for n in matrices], kernel.start
+    return sum(memory) + ((2 * start.depth + 6) * len(start.unknowns) + 9 + len(kernel.loops) if start else 0)
 
 
 def signature(start: str, state: str, arguments: list[str], end: str) -> list[str]:
