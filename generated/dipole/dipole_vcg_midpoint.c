@@ -6,8 +6,8 @@
  * order:      2, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
  * solved by:  the equations of xi1, n1: Newton's method, 3 unknowns (2.0 sweeps of 263 operations
- *             and 0.05 matrices of 46 a step; fixed point: 3.4 sweeps of 276 operations; Newton's
- *             method with the matrix to first order in h: 2.0 sweeps of 291 operations and 1.00
+ *             and 0.05 matrices of 46 a step; fixed point: 3.1 sweeps of 276 operations; Newton's
+ *             method with the matrix to first order in h: 1.9 sweeps of 291 operations and 1.00
  *             matrices of 68)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
@@ -33,7 +33,7 @@
  *             11 add, 31 mul, 1 div a matrix of the equations of xi1, n1
  *             66 add, 114 mul, 2 div, 2 sqrt, 1 stumpff_12, 1 stumpff_23, 1 stumpff_3 a sweep of
  *             the equations of xi1, n1
- * stack:      at most 2944 bytes, without what the mathematical library takes
+ * stack:      at most 3328 bytes, without what the mathematical library takes
  * made by:    orderconds emit dipole --method vcg:midpoint --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -257,20 +257,60 @@ static void count_matrix(dipole_vcg_midpoint_statistics *statistics)
 struct memory {
     size_t known;
     double first; /* by how much the guess was off */
-    size_t degree;
+    size_t degree, place;
     double guess[3];
-    double differences[3][16];
+    double values[32][3]; /* each twice: the last stand together */
     double rate_1;
     int made_1;
     double inverse_1[9];
 };
 
-/* The size of a backward difference. */
-static inline double size_of(const struct memory *memory, size_t k)
+/* Backward differences by their order: the factors of the solutions, the latest first. */
+static const double differences[17][18] = {
+    {1},
+    {1, -1},
+    {1, -2, 1},
+    {1, -3, 3, -1},
+    {1, -4, 6, -4, 1},
+    {1, -5, 10, -10, 5, -1},
+    {1, -6, 15, -20, 15, -6, 1},
+    {1, -7, 21, -35, 35, -21, 7, -1},
+    {1, -8, 28, -56, 70, -56, 28, -8, 1},
+    {1, -9, 36, -84, 126, -126, 84, -36, 9, -1},
+    {1, -10, 45, -120, 210, -252, 210, -120, 45, -10, 1},
+    {1, -11, 55, -165, 330, -462, 462, -330, 165, -55, 11, -1},
+    {1, -12, 66, -220, 495, -792, 924, -792, 495, -220, 66, -12, 1},
+    {1, -13, 78, -286, 715, -1287, 1716, -1716, 1287, -715, 286, -78, 13, -1},
+    {1, -14, 91, -364, 1001, -2002, 3003, -3432, 3003, -2002, 1001, -364, 91, -14, 1},
+    {1, -15, 105, -455, 1365, -3003, 5005, -6435, 6435, -5005, 3003, -1365, 455, -105, 15, -1},
+    {1, -16, 120, -560, 1820, -4368, 8008, -11440, 12870, -11440, 8008, -4368, 1820, -560, 120, -16, 1},
+};
+
+/* A backward difference of an order without its first terms, which were of later solutions. */
+static void difference(const struct memory *memory, size_t order, size_t first, double sum[static 3])
 {
-    double size = 0.0;
+    double sum_0 = 0.0;
+    double sum_1 = 0.0;
+    double sum_2 = 0.0;
+    for (size_t j = first; j <= order; j += 2) {
+        const double f = differences[order][j], g = differences[order][j + 1];
+        const double *x = memory->values[memory->place + j - first], *y = x + 3;
+        sum_0 += f * x[0] + g * y[0];
+        sum_1 += f * x[1] + g * y[1];
+        sum_2 += f * x[2] + g * y[2];
+    }
+    sum[0] = sum_0;
+    sum[1] = sum_1;
+    sum[2] = sum_2;
+}
+
+/* The size of a backward difference. */
+static double size_of(const struct memory *memory, size_t order)
+{
+    double sum[3], size = 0.0;
+    difference(memory, order, 0, sum);
     for (size_t i = 0; i < 3; i++) {
-        size += fabs(memory->differences[i][k]);
+        size += fabs(sum[i]);
     }
     return size;
 }
@@ -281,36 +321,34 @@ static inline void remember(struct memory *memory, const double solution[static 
     if (memory->known > 2) { /* the guess was no mere copy */
         double moved = 0.0;
         for (size_t i = 0; i < 3; i++) {
-            moved += fabs(solution[i] - memory->differences[i][0]);
+            moved += fabs(solution[i] - memory->values[memory->place][i]);
         }
         if (memory->first > 0.5 * moved) {
             memory->known = memory->degree = 0;
         }
     }
     memory->first = 0.0;
-    const size_t last = memory->known < 16 ? memory->known : 15, k = memory->degree;
+    const size_t place = memory->place > 0 ? memory->place - 1 : 15;
+    memory->place = place;
     for (size_t i = 0; i < 3; i++) {
-        double *const differences = memory->differences[i];
-        double d = solution[i], sum = 0.0;
-        for (size_t j = 0; j <= k; j++) {
-            const double before = differences[j];
-            differences[j] = d;
-            sum += d;
-            d -= before;
-        }
-        for (size_t j = k + 1; j <= last; j++) {
-            const double before = differences[j];
-            differences[j] = d;
-            d -= before;
-        }
-        memory->guess[i] = sum;
+        memory->values[place][i] = memory->values[place + 16][i] = solution[i];
     }
-    memory->known = last + 1;
-    /* the degree of the next guess grows while the differences fall */
-    if (k + 1 < memory->known && size_of(memory, k + 1) < size_of(memory, k)) {
-        memory->degree = k + 1;
-    } else if (k > 0 && size_of(memory, k) > size_of(memory, k - 1)) {
-        memory->degree = k - 1;
+    memory->known += memory->known < 16;
+    /* the degree grows while the differences fall: of many solutions it is looked at in every eighth step */
+    size_t degree = memory->degree;
+    if (memory->known < 16 || place % 8 == 0) {
+        const double size = size_of(memory, degree);
+        if (degree + 1 < memory->known && size_of(memory, degree + 1) < size) {
+            degree++;
+        } else if (degree > 0 && size > size_of(memory, degree - 1)) {
+            degree--;
+        }
+        memory->degree = degree;
+    }
+    /* so that the next difference vanishes */
+    difference(memory, degree + 1, 1, memory->guess);
+    for (size_t i = 0; i < 3; i++) {
+        memory->guess[i] = -memory->guess[i];
     }
 }
 
@@ -456,7 +494,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             memory->first += change;
         }
         const int contracts = rate_1 < 0.5;
-        if (contracts ? change * (rate_1 + 0.0009765625) <= 2.220446049250313e-16 * scale
+        if (contracts ? change * (rate_1 + 0.0001220703125) <= 2.220446049250313e-16 * scale
                       : previous_1 > 0.0 && change <= 5.684341886080802e-14 * scale) {
             memory->rate_1 = rate_1;
             count_sweeps(statistics, 0, sweep, 0);
@@ -573,7 +611,7 @@ static int continued(double state[static 12], double h, struct memory *memory,
         }
         if (status == DIPOLE_VCG_MIDPOINT_OK) {
             for (size_t i = 0; i < 3; i++) {
-                guess[i] = memory->differences[i][0];
+                guess[i] = memory->values[memory->place][i];
             }
             solved = part;
             factor *= factor;

@@ -5,8 +5,8 @@
  * source:     Table 3.2a of Bogfjellmo and Marthinsen
  * order:      2, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Free rigid body with attitude, S^3 (thesis section 2.6), group S^3
- * solved by:  the equations of xi: Newton's method, 3 unknowns (5.9 sweeps of 463 operations and
- *             0.75 matrices of 1509 a step; fixed point: does not settle with steps 8 times as
+ * solved by:  the equations of xi: Newton's method, 3 unknowns (5.7 sweeps of 463 operations and
+ *             0.85 matrices of 1509 a step; fixed point: does not settle with steps 8 times as
  *             long; Newton's method with the matrix to first order in h: takes 21 sweeps with
  *             steps 8 times as long)
  * state:      [0..3] y: element of S^3, real part first
@@ -19,7 +19,7 @@
  *             21 add, 42 mul a start, in steps that follow no other
  *             617 add, 828 mul, 1 div, 2 quotient, 2 stumpff_23 a matrix of the equations of xi
  *             148 add, 240 mul, 3 quotient, 2 stumpff_01 a sweep of the equations of xi
- * stack:      at most 5824 bytes, without what the mathematical library takes
+ * stack:      at most 6272 bytes, without what the mathematical library takes
  * made by:    orderconds emit free_rigid_body_s3 --method discrete_gradient:midpoint --target c -o
  *             .
  * version:    orderconds 0.1.0
@@ -51,45 +51,72 @@
 #error "compile without -ffast-math (-ffinite-math-only): it removes the checks for infinities and NaNs"
 #endif
 
+/* c_3(z) for z <= 1/256 */
+static inline double stumpff_tiny_3(double z)
+{
+    const double w = z * z;
+    return (0.16666666666666666 + z * -0.008333333333333059)
+        + w * (0.00019841269798705593 + z * -2.7555439466688165e-06);
+}
+
+/* c_2(z) for z <= 1/256 */
+static inline double stumpff_tiny_2(double z)
+{
+    const double w = z * z;
+    return (0.5 + z * -0.04166666666666365)
+        + w * (0.0013888888842068215 + z * -2.4799519568559804e-05);
+}
+
+/* c_1(z) for z <= 1/256 */
+static inline double stumpff_tiny_1(double z)
+{
+    const double w = z * z;
+    return (1.0 + z * -0.16666666666663651)
+        + w * (0.00833333328651266 + z * -0.00019839202108242344);
+}
+
+/* c_0(z) for z <= 1/256 */
+static inline double stumpff_tiny_0(double z)
+{
+    const double w = z * z;
+    return (1.0 + z * -0.4999999999997288)
+        + w * (0.0416666662452806 + z * -0.001388702792916414);
+}
+
 /* c_3(z) for z <= 1/16 */
 static inline double stumpff_small_3(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (0.16666666666666666 + z * -0.008333333333333333)
-        + w * (0.0001984126984126984 + z * -2.7557319223985893e-06)
-        + w2 * (2.505210838544172e-08 + z * -1.6059043836821613e-10);
+    return (0.16666666666666666 + z * -0.008333333333333161)
+        + w * (0.00019841269838611386 + z * -2.7557306378194284e-06)
+        + w * w * 2.502764558451995e-08;
 }
 
 /* c_2(z) for z <= 1/16 */
 static inline double stumpff_small_2(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (0.5 + z * -0.041666666666666664)
-        + w * (0.001388888888888889 + z * -2.48015873015873e-05)
-        + w2 * (2.755731922398589e-07 + z * -2.08767569878681e-09);
+    return (0.5 + z * -0.041666666666664444)
+        + w * (0.0013888888885432897 + z * -2.480157060205821e-05)
+        + w * w * 2.7525517582787593e-07;
 }
 
 /* c_1(z) for z <= 1/16 */
 static inline double stumpff_small_1(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (1.0 + z * -0.16666666666666666)
-        + w * (0.008333333333333333 + z * -0.0001984126984126984)
-        + w2 * (2.7557319223985893e-06 + z * -2.505210838544172e-08);
+    return (1.0 + z * -0.16666666666664)
+        + w * (0.008333333329190184 + z * -0.00019841249819193104)
+        + w * w * 2.7519182046349993e-06;
 }
 
 /* c_0(z) for z <= 1/16 */
 static inline double stumpff_small_0(double z)
 {
     const double w = z * z;
-    const double w2 = w * w;
-    return (1.0 + z * -0.5)
-        + w * (0.041666666666666664 + z * -0.001388888888888889)
-        + w2 * (2.48015873015873e-05 + z * -2.755731922398589e-07)
-        + w * w2 * (2.08767569878681e-09);
+    return (1.0 + z * -0.49999999999999994)
+        + w * (0.04166666666665553 + z * -0.0013888888880685601)
+        + w * w * (2.480156093634923e-05 + z * -2.7518853761923276e-07);
 }
 
 /* c_3(z) = sum (-z)^j/(2j+3)! up to z = 4 */
@@ -162,7 +189,10 @@ static inline void stumpff_23_far(double z, double *c2, double *c3)
 /* For z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
 static inline void stumpff_23(double z, double *c2, double *c3)
 {
-    if (z <= 0.0625) {
+    if (z <= 0.00390625) {
+        *c2 = stumpff_tiny_2(z);
+        *c3 = stumpff_tiny_3(z);
+    } else if (z <= 0.0625) {
         *c2 = stumpff_small_2(z);
         *c3 = stumpff_small_3(z);
     } else {
@@ -187,7 +217,10 @@ static inline void stumpff_01_far(double z, double *c0, double *c1)
 /* For z >= 0 and s = sqrt(z): c_0 = cos(s), c_1 = sin(s)/s */
 static inline void stumpff_01(double z, double *c0, double *c1)
 {
-    if (z <= 0.0625) {
+    if (z <= 0.00390625) {
+        *c0 = stumpff_tiny_0(z);
+        *c1 = stumpff_tiny_1(z);
+    } else if (z <= 0.0625) {
         *c0 = stumpff_small_0(z);
         *c1 = stumpff_small_1(z);
     } else {
@@ -231,20 +264,60 @@ static void count_matrix(free_rigid_body_s3_discrete_gradient_midpoint_statistic
 struct memory {
     size_t known;
     double first; /* by how much the guess was off */
-    size_t degree;
+    size_t degree, place;
     double guess[3];
-    double differences[3][16];
+    double values[32][3]; /* each twice: the last stand together */
     double rate_1;
     int made_1;
     double inverse_1[9];
 };
 
-/* The size of a backward difference. */
-static inline double size_of(const struct memory *memory, size_t k)
+/* Backward differences by their order: the factors of the solutions, the latest first. */
+static const double differences[17][18] = {
+    {1},
+    {1, -1},
+    {1, -2, 1},
+    {1, -3, 3, -1},
+    {1, -4, 6, -4, 1},
+    {1, -5, 10, -10, 5, -1},
+    {1, -6, 15, -20, 15, -6, 1},
+    {1, -7, 21, -35, 35, -21, 7, -1},
+    {1, -8, 28, -56, 70, -56, 28, -8, 1},
+    {1, -9, 36, -84, 126, -126, 84, -36, 9, -1},
+    {1, -10, 45, -120, 210, -252, 210, -120, 45, -10, 1},
+    {1, -11, 55, -165, 330, -462, 462, -330, 165, -55, 11, -1},
+    {1, -12, 66, -220, 495, -792, 924, -792, 495, -220, 66, -12, 1},
+    {1, -13, 78, -286, 715, -1287, 1716, -1716, 1287, -715, 286, -78, 13, -1},
+    {1, -14, 91, -364, 1001, -2002, 3003, -3432, 3003, -2002, 1001, -364, 91, -14, 1},
+    {1, -15, 105, -455, 1365, -3003, 5005, -6435, 6435, -5005, 3003, -1365, 455, -105, 15, -1},
+    {1, -16, 120, -560, 1820, -4368, 8008, -11440, 12870, -11440, 8008, -4368, 1820, -560, 120, -16, 1},
+};
+
+/* A backward difference of an order without its first terms, which were of later solutions. */
+static void difference(const struct memory *memory, size_t order, size_t first, double sum[static 3])
 {
-    double size = 0.0;
+    double sum_0 = 0.0;
+    double sum_1 = 0.0;
+    double sum_2 = 0.0;
+    for (size_t j = first; j <= order; j += 2) {
+        const double f = differences[order][j], g = differences[order][j + 1];
+        const double *x = memory->values[memory->place + j - first], *y = x + 3;
+        sum_0 += f * x[0] + g * y[0];
+        sum_1 += f * x[1] + g * y[1];
+        sum_2 += f * x[2] + g * y[2];
+    }
+    sum[0] = sum_0;
+    sum[1] = sum_1;
+    sum[2] = sum_2;
+}
+
+/* The size of a backward difference. */
+static double size_of(const struct memory *memory, size_t order)
+{
+    double sum[3], size = 0.0;
+    difference(memory, order, 0, sum);
     for (size_t i = 0; i < 3; i++) {
-        size += fabs(memory->differences[i][k]);
+        size += fabs(sum[i]);
     }
     return size;
 }
@@ -255,36 +328,34 @@ static inline void remember(struct memory *memory, const double solution[static 
     if (memory->known > 2) { /* the guess was no mere copy */
         double moved = 0.0;
         for (size_t i = 0; i < 3; i++) {
-            moved += fabs(solution[i] - memory->differences[i][0]);
+            moved += fabs(solution[i] - memory->values[memory->place][i]);
         }
         if (memory->first > 0.5 * moved) {
             memory->known = memory->degree = 0;
         }
     }
     memory->first = 0.0;
-    const size_t last = memory->known < 16 ? memory->known : 15, k = memory->degree;
+    const size_t place = memory->place > 0 ? memory->place - 1 : 15;
+    memory->place = place;
     for (size_t i = 0; i < 3; i++) {
-        double *const differences = memory->differences[i];
-        double d = solution[i], sum = 0.0;
-        for (size_t j = 0; j <= k; j++) {
-            const double before = differences[j];
-            differences[j] = d;
-            sum += d;
-            d -= before;
-        }
-        for (size_t j = k + 1; j <= last; j++) {
-            const double before = differences[j];
-            differences[j] = d;
-            d -= before;
-        }
-        memory->guess[i] = sum;
+        memory->values[place][i] = memory->values[place + 16][i] = solution[i];
     }
-    memory->known = last + 1;
-    /* the degree of the next guess grows while the differences fall */
-    if (k + 1 < memory->known && size_of(memory, k + 1) < size_of(memory, k)) {
-        memory->degree = k + 1;
-    } else if (k > 0 && size_of(memory, k) > size_of(memory, k - 1)) {
-        memory->degree = k - 1;
+    memory->known += memory->known < 16;
+    /* the degree grows while the differences fall: of many solutions it is looked at in every eighth step */
+    size_t degree = memory->degree;
+    if (memory->known < 16 || place % 8 == 0) {
+        const double size = size_of(memory, degree);
+        if (degree + 1 < memory->known && size_of(memory, degree + 1) < size) {
+            degree++;
+        } else if (degree > 0 && size > size_of(memory, degree - 1)) {
+            degree--;
+        }
+        memory->degree = degree;
+    }
+    /* so that the next difference vanishes */
+    difference(memory, degree + 1, 1, memory->guess);
+    for (size_t i = 0; i < 3; i++) {
+        memory->guess[i] = -memory->guess[i];
     }
 }
 
@@ -915,7 +986,8 @@ static inline int advance(double state[static 4], double h, struct memory *memor
     const double Y_1_ = q3 * w460 - q2 * w461 + (q0 * w459 + q1 * c0_3);
     const double Y_2_ = q1 * w461 - q3 * w459 + (q0 * w460 + q2 * c0_3);
     const double Y_3_ = q2 * w459 - q1 * w460 + (q0 * w461 + q3 * c0_3);
-    if (!(isfinite(Y_0_) && isfinite(Y_1_) && isfinite(Y_2_) && isfinite(Y_3_))) {
+    /* x - x is zero for a number, else NaN: one test for all */
+    if (!(((Y_0_ - Y_0_) + (Y_1_ - Y_1_)) + ((Y_2_ - Y_2_) + (Y_3_ - Y_3_)) == 0.0)) {
         return FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE;
     }
     const double solution[3] = {xi_0, xi_1, xi_2};
@@ -958,7 +1030,7 @@ static int continued(double state[static 4], double h, struct memory *memory,
         }
         if (status == FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK) {
             for (size_t i = 0; i < 3; i++) {
-                guess[i] = memory->differences[i][0];
+                guess[i] = memory->values[memory->place][i];
             }
             solved = part;
             factor *= factor;

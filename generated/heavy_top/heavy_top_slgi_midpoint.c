@@ -5,7 +5,7 @@
  * source:     Table 3.2a of Bogfjellmo and Marthinsen
  * order:      2, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Heavy top as printed, T*SO(3) (thesis section 2.5), group SO(3)
- * solved by:  the equations of xi1, n1: Newton's method, 6 unknowns (4.5 sweeps of 234 operations
+ * solved by:  the equations of xi1, n1: Newton's method, 6 unknowns (4.8 sweeps of 234 operations
  *             and 1.00 matrices of 846 a step; fixed point: does not settle with steps 8 times as
  *             long; Newton's method with the matrix to first order in h: takes 29 sweeps with
  *             steps 8 times as long)
@@ -17,7 +17,7 @@
  *             105 add, 219 mul, 3 slope2, 2 slope3, 1 stumpff_3 a matrix of the equations of xi1,
  *             n1
  *             75 add, 114 mul, 1 stumpff_12, 2 stumpff_23 a sweep of the equations of xi1, n1
- * stack:      at most 4160 bytes, without what the mathematical library takes
+ * stack:      at most 5056 bytes, without what the mathematical library takes
  * made by:    orderconds emit heavy_top --method slgi:midpoint --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -273,8 +273,9 @@ static inline double slope2(double z)
     return total;
 }
 
-/* Replace an n x n matrix, by rows, by its inverse (Gauss-Jordan, rows exchanged); return 0 where it has none. */
-static int invert(size_t n, double *a, size_t *order)
+/* Replace an n x n matrix, by rows, by its inverse (Gauss-Jordan, rows exchanged); return 0 where it has
+ * none. There is room for n in row and order. */
+static int invert(size_t n, double *restrict a, double *restrict row, size_t *order)
 {
     for (size_t k = 0; k < n; k++) {
         size_t pivot = k;
@@ -295,14 +296,14 @@ static int invert(size_t n, double *a, size_t *order)
         const double factor = 1.0 / a[k * n + k];
         a[k * n + k] = 1.0;
         for (size_t j = 0; j < n; j++) {
-            a[k * n + j] *= factor;
+            row[j] = a[k * n + j] *= factor;
         }
         for (size_t i = 0; i < n; i++) {
             if (i != k) {
                 const double multiple = a[i * n + k];
                 a[i * n + k] = 0.0;
                 for (size_t j = 0; j < n; j++) {
-                    a[i * n + j] -= multiple * a[k * n + j];
+                    a[i * n + j] -= multiple * row[j];
                 }
             }
         }
@@ -347,20 +348,69 @@ static void count_matrix(heavy_top_slgi_midpoint_statistics *statistics)
 struct memory {
     size_t known;
     double first; /* by how much the guess was off */
-    size_t degree;
+    size_t degree, place;
     double guess[6];
-    double differences[6][16];
+    double values[32][6]; /* each twice: the last stand together */
     double rate_1;
     int made_1;
     double inverse_1[36];
 };
 
-/* The size of a backward difference. */
-static inline double size_of(const struct memory *memory, size_t k)
+/* Backward differences by their order: the factors of the solutions, the latest first. */
+static const double differences[17][18] = {
+    {1},
+    {1, -1},
+    {1, -2, 1},
+    {1, -3, 3, -1},
+    {1, -4, 6, -4, 1},
+    {1, -5, 10, -10, 5, -1},
+    {1, -6, 15, -20, 15, -6, 1},
+    {1, -7, 21, -35, 35, -21, 7, -1},
+    {1, -8, 28, -56, 70, -56, 28, -8, 1},
+    {1, -9, 36, -84, 126, -126, 84, -36, 9, -1},
+    {1, -10, 45, -120, 210, -252, 210, -120, 45, -10, 1},
+    {1, -11, 55, -165, 330, -462, 462, -330, 165, -55, 11, -1},
+    {1, -12, 66, -220, 495, -792, 924, -792, 495, -220, 66, -12, 1},
+    {1, -13, 78, -286, 715, -1287, 1716, -1716, 1287, -715, 286, -78, 13, -1},
+    {1, -14, 91, -364, 1001, -2002, 3003, -3432, 3003, -2002, 1001, -364, 91, -14, 1},
+    {1, -15, 105, -455, 1365, -3003, 5005, -6435, 6435, -5005, 3003, -1365, 455, -105, 15, -1},
+    {1, -16, 120, -560, 1820, -4368, 8008, -11440, 12870, -11440, 8008, -4368, 1820, -560, 120, -16, 1},
+};
+
+/* A backward difference of an order without its first terms, which were of later solutions. */
+static void difference(const struct memory *memory, size_t order, size_t first, double sum[static 6])
 {
-    double size = 0.0;
+    double sum_0 = 0.0;
+    double sum_1 = 0.0;
+    double sum_2 = 0.0;
+    double sum_3 = 0.0;
+    double sum_4 = 0.0;
+    double sum_5 = 0.0;
+    for (size_t j = first; j <= order; j += 2) {
+        const double f = differences[order][j], g = differences[order][j + 1];
+        const double *x = memory->values[memory->place + j - first], *y = x + 6;
+        sum_0 += f * x[0] + g * y[0];
+        sum_1 += f * x[1] + g * y[1];
+        sum_2 += f * x[2] + g * y[2];
+        sum_3 += f * x[3] + g * y[3];
+        sum_4 += f * x[4] + g * y[4];
+        sum_5 += f * x[5] + g * y[5];
+    }
+    sum[0] = sum_0;
+    sum[1] = sum_1;
+    sum[2] = sum_2;
+    sum[3] = sum_3;
+    sum[4] = sum_4;
+    sum[5] = sum_5;
+}
+
+/* The size of a backward difference. */
+static double size_of(const struct memory *memory, size_t order)
+{
+    double sum[6], size = 0.0;
+    difference(memory, order, 0, sum);
     for (size_t i = 0; i < 6; i++) {
-        size += fabs(memory->differences[i][k]);
+        size += fabs(sum[i]);
     }
     return size;
 }
@@ -371,36 +421,34 @@ static inline void remember(struct memory *memory, const double solution[static 
     if (memory->known > 2) { /* the guess was no mere copy */
         double moved = 0.0;
         for (size_t i = 0; i < 6; i++) {
-            moved += fabs(solution[i] - memory->differences[i][0]);
+            moved += fabs(solution[i] - memory->values[memory->place][i]);
         }
         if (memory->first > 0.5 * moved) {
             memory->known = memory->degree = 0;
         }
     }
     memory->first = 0.0;
-    const size_t last = memory->known < 16 ? memory->known : 15, k = memory->degree;
+    const size_t place = memory->place > 0 ? memory->place - 1 : 15;
+    memory->place = place;
     for (size_t i = 0; i < 6; i++) {
-        double *const differences = memory->differences[i];
-        double d = solution[i], sum = 0.0;
-        for (size_t j = 0; j <= k; j++) {
-            const double before = differences[j];
-            differences[j] = d;
-            sum += d;
-            d -= before;
-        }
-        for (size_t j = k + 1; j <= last; j++) {
-            const double before = differences[j];
-            differences[j] = d;
-            d -= before;
-        }
-        memory->guess[i] = sum;
+        memory->values[place][i] = memory->values[place + 16][i] = solution[i];
     }
-    memory->known = last + 1;
-    /* the degree of the next guess grows while the differences fall */
-    if (k + 1 < memory->known && size_of(memory, k + 1) < size_of(memory, k)) {
-        memory->degree = k + 1;
-    } else if (k > 0 && size_of(memory, k) > size_of(memory, k - 1)) {
-        memory->degree = k - 1;
+    memory->known += memory->known < 16;
+    /* the degree grows while the differences fall: of many solutions it is looked at in every eighth step */
+    size_t degree = memory->degree;
+    if (memory->known < 16 || place % 8 == 0) {
+        const double size = size_of(memory, degree);
+        if (degree + 1 < memory->known && size_of(memory, degree + 1) < size) {
+            degree++;
+        } else if (degree > 0 && size > size_of(memory, degree - 1)) {
+            degree--;
+        }
+        memory->degree = degree;
+    }
+    /* so that the next difference vanishes */
+    difference(memory, degree + 1, 1, memory->guess);
+    for (size_t i = 0; i < 6; i++) {
+        memory->guess[i] = -memory->guess[i];
     }
 }
 
@@ -623,8 +671,9 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             memory->inverse_1[33] = 0.0;
             memory->inverse_1[34] = 0.0;
             memory->inverse_1[35] = 1.0;
+            double row_1[6];
             size_t order_1[6];
-            memory->made_1 = invert(6, memory->inverse_1, order_1);
+            memory->made_1 = invert(6, memory->inverse_1, row_1, order_1);
             if (!memory->made_1) {
                 count_sweeps(statistics, 0, sweep, 1);
                 return HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED;
@@ -780,7 +829,7 @@ static int continued(double state[static 12], double h, struct memory *memory,
         }
         if (status == HEAVY_TOP_SLGI_MIDPOINT_OK) {
             for (size_t i = 0; i < 6; i++) {
-                guess[i] = memory->differences[i][0];
+                guess[i] = memory->values[memory->place][i];
             }
             solved = part;
             factor *= factor;
