@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 from codegen.ir.expr import Expr, walk
 from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Kernel, Let, Loop, Start
+from codegen.printers.narrow import narrowed
 
 METHODS = {
     FIXED_POINT: "fixed point",
@@ -164,7 +165,21 @@ def _iteration(
     if loop.newton is not None:
         entries = tuple(x for row in loop.newton.matrix for x in row)
         made, matrix = (scope if loop.newton.leading else inner).nested(loop.newton.body, entries)
-    return Iteration(loop, number, starts, tuple(body), images, kept, made, matrix)
+    after = _read([*images, *matrix, *(_value(s) for s in made)]) | frozenset(kept)
+    order = narrowed([_made(s) for s in body], [_read([_value(s)]) for s in body], after)
+    return Iteration(loop, number, starts, tuple(body[k] for k in order), images, kept, made, matrix)
+
+
+def _made(statement: Simple) -> tuple[str, ...]:
+    return statement.names if isinstance(statement, Joint) else (statement.name,)
+
+
+def _value(statement: Simple) -> Expr:
+    return statement.argument if isinstance(statement, Joint) else statement.value
+
+
+def _read(expressions: Iterable[Expr]) -> frozenset[str]:
+    return frozenset(n.payload for n in walk(expressions) if n.op == "sym")
 
 
 def _taken(kernel: Kernel) -> dict[str, int]:

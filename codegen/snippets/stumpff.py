@@ -87,11 +87,11 @@ def _cosine(x: Fraction) -> Fraction:
 
 def _chebyshev(n: int, slope: Fraction, shift: Fraction) -> list[Fraction]:
     """Return the coefficients of T_n(slope z + shift)."""
+    none = Fraction(0)
     before, now = [Fraction(1)], [shift, slope]
     for _ in range(n - 1):
-        lifted = [shift * x for x in (*now, 0)]
-        lifted = [a + slope * b for a, b in zip(lifted, (0, *now), strict=True)]
-        before, now = now, [2 * a - b for a, b in zip(lifted, (*before, 0, 0), strict=True)]
+        lifted = [shift * a + slope * b for a, b in zip([*now, none], [none, *now], strict=True)]
+        before, now = now, [2 * a - b for a, b in zip(lifted, [*before, none, none], strict=True)]
     return now
 
 

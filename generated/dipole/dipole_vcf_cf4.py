@@ -46,7 +46,7 @@ Use:
     print(dipole_vcf_cf4.run(state, 0.005, 100))
 """
 
-from math import cos, fabs, isfinite, sin, sqrt
+from math import comb, cos, fabs, isfinite, sin, sqrt
 
 OK = 0
 NOT_CONVERGED = 1
@@ -103,7 +103,7 @@ def _failed(status, label, block, sweep, statistics):
 class _Memory:
     """What one step of a run leaves for the next.
 
-    past: the last solution of its equations and its backward differences, the first first;
+    past: the last solutions of its equations, the latest first; count: of all;
     guess: the polynomial through the last solutions, continued by a step; inverses: of Newton's
     matrices, by block.
     """
@@ -121,23 +121,30 @@ class _Memory:
             if self.first > 0.5 * moved:
                 self.past, self.degree = [], 0
         self.first = 0.0
-        rows = [found]
-        for row in self.past[:15]:
-            rows.append([x - y for x, y in zip(rows[-1], row)])
-        self.past = rows
+        self.past = [found, *self.past[:15]]
         self.count += 1
-        if len(rows) < 16 or self.count % 16 % 8 == 0:
-            self.choose(self.degree, [_size(row) for row in rows])
-        self.guess = found
-        for row in rows[1 : self.degree + 1]:
-            self.guess = [x + y for x, y in zip(self.guess, row)]
+        if len(self.past) < 16 or self.count % 16 % 8 == 0:
+            self.choose()
+        self.guess = [-x for x in self.difference(self.degree + 1, 1)]
 
-    def choose(self, k, sizes):
-        """Let the degree grow while the differences fall; of many, they are seldom looked at."""
-        if k + 1 < len(sizes) and sizes[k + 1] < sizes[k]:
+    def choose(self):
+        """Let the degree grow while differences fall; of many, they are seldom looked at."""
+        k, size = self.degree, _size(self.difference(self.degree, 0))
+        if k + 1 < len(self.past) and _size(self.difference(k + 1, 0)) < size:
             self.degree = k + 1
-        elif k > 0 and sizes[k] > sizes[k - 1]:
+        elif k > 0 and size > _size(self.difference(k - 1, 0)):
             self.degree = k - 1
+
+    def difference(self, order, first):
+        """Return a backward difference without its first terms, which were of later solutions."""
+        rows = range(first, order + 1)
+        factors = [float((-1) ** j * comb(order, j)) for j in rows]
+        terms = [[f * x for x in row] for f, row in zip(factors, self.past)]
+        pairs = [[x + y for x, y in zip(*pair)] for pair in zip(terms[::2], terms[1::2])]
+        total, *rest = pairs + (terms[-1:] if len(terms) % 2 else [])
+        for pair in rest:
+            total = [x + y for x, y in zip(total, pair)]
+        return total
 
 
 def _size(row):
@@ -385,6 +392,7 @@ def _advance(state, h, memory, statistics):
     for sweep in range(1, 101):
         xE2_1_1 = xi1_1 * w2
         xE2_1_0 = xi1_0 * w2
+        w42 = g20 * xE2_1_1 - g21 * xE2_1_0
         xE2_1_2 = xi1_2 * w2
         w3 = xE2_1_0 * xE2_1_0 + xE2_1_1 * xE2_1_1 + xE2_1_2 * xE2_1_2
         c1_1, c2_1 = _stumpff_12(w3)
@@ -392,76 +400,34 @@ def _advance(state, h, memory, statistics):
         w7 = xE2_1_0 * c2_1
         w8 = xE2_1_2 * w7
         gE2_1_2 = w5 + w8
-        yE2_1_1 = xi1_1 * w1
-        w9 = h * xi3_1
-        xE4_2_1 = yE2_1_1 + w9
-        yE2_1_0 = xi1_0 * w1
-        w10 = h * xi3_0
-        xE4_2_0 = yE2_1_0 + w10
-        yE2_1_2 = xi1_2 * w1
-        w11 = h * xi3_2
-        xE4_2_2 = yE2_1_2 + w11
-        w12 = xE4_2_0 * xE4_2_0 + xE4_2_1 * xE4_2_1 + xE4_2_2 * xE4_2_2
-        c1_2, c2_2 = _stumpff_12(w12)
-        w14 = xE4_2_1 * c2_2
-        w15 = xE4_2_1 * w14
-        w16 = xE4_2_2 * c2_2 * xE4_2_2
-        gE4_2_0 = 1.0 - (w15 + w16)
+        gE2_1_6 = w8 - w5
+        w24 = xE2_1_0 * w7
+        w31 = xE2_1_1 * w7
         w17 = xE2_1_1 * c2_1
         w18 = xE2_1_2 * w17
-        w19 = xE2_1_0 * c1_1
-        gE2_1_5 = w18 - w19
-        w20 = xE4_2_0 * c2_2
-        w21 = xE4_2_1 * w20
-        w23 = xE4_2_2 * c1_2
-        gE4_2_1 = w21 - w23
-        w24 = xE2_1_0 * w7
         w25 = xE2_1_1 * w17
         gE2_1_8 = 1.0 - (w24 + w25)
-        w26 = xE4_2_1 * c1_2
-        w27 = xE4_2_2 * w20
-        gE4_2_2 = w26 + w27
-        E4_2_2 = gE2_1_2 * gE4_2_0 + gE2_1_5 * gE4_2_1 + gE2_1_8 * gE4_2_2
-        gE4_2_3 = w21 + w23
-        w28 = xE4_2_0 * w20
-        gE4_2_4 = 1.0 - (w16 + w28)
-        w29 = xE4_2_2 * w14
-        w30 = xE4_2_0 * c1_2
-        gE4_2_5 = w29 - w30
-        E4_2_5 = gE2_1_2 * gE4_2_3 + gE2_1_5 * gE4_2_4 + gE2_1_8 * gE4_2_5
-        gE4_2_6 = w27 - w26
-        gE4_2_7 = w29 + w30
-        gE4_2_8 = 1.0 - (w15 + w28)
-        E4_2_8 = gE2_1_2 * gE4_2_6 + gE2_1_5 * gE4_2_7 + gE2_1_8 * gE4_2_8
-        a_5_2 = xi4_0 * E4_2_2 + xi4_1 * E4_2_5 + xi4_2 * E4_2_8
-        p_4_2 = 0.01 * a_5_2
-        w31 = xE2_1_1 * w7
+        w19 = xE2_1_0 * c1_1
+        gE2_1_5 = w18 - w19
+        gE2_1_7 = w18 + w19
+        p_2_2 = 0.01 * (xi2_0 * gE2_1_2 + xi2_1 * gE2_1_5 + xi2_2 * gE2_1_8)
         w32 = xE2_1_2 * c1_1
         gE2_1_1 = w31 - w32
+        gE2_1_3 = w31 + w32
         w33 = xE2_1_2 * c2_1 * xE2_1_2
         gE2_1_4 = 1.0 - (w24 + w33)
-        gE2_1_7 = w18 + w19
-        E4_2_1 = gE4_2_0 * gE2_1_1 + gE4_2_1 * gE2_1_4 + gE4_2_2 * gE2_1_7
-        E4_2_4 = gE4_2_3 * gE2_1_1 + gE4_2_4 * gE2_1_4 + gE4_2_5 * gE2_1_7
-        E4_2_7 = gE4_2_6 * gE2_1_1 + gE4_2_7 * gE2_1_4 + gE4_2_8 * gE2_1_7
-        a_5_1 = xi4_0 * E4_2_1 + xi4_1 * E4_2_4 + xi4_2 * E4_2_7
-        Q4_7 = g20 * E4_2_1 + g21 * E4_2_4 + g22 * E4_2_7
-        Q4_8 = g20 * E4_2_2 + g21 * E4_2_5 + g22 * E4_2_8
-        w34 = 1.5 - 2.0 * Q4_8
-        w35 = 1.0 / sqrt(1.01 + 1.5 * (w34 - 0.2 * Q4_7))
-        w36 = w35 * w35 * (0.5 * w35)
-        w37 = 1.0 / sqrt(1.01 + 1.5 * (w34 + 0.2 * Q4_7))
-        w38 = w37 * w37 * (0.5 * w37)
-        w39 = -1.0 - 2.0 * (1.5 * w36 - 1.5 * w38)
-        w40 = -0.3 * w36 - 0.3 * w38
-        Nr4_0 = Q4_7 * w39 - Q4_8 * w40 + 99.0 * a_5_1 * p_4_2
-        p_2_2 = 0.01 * (xi2_0 * gE2_1_2 + xi2_1 * gE2_1_5 + xi2_2 * gE2_1_8)
+        gE2_1_0 = 1.0 - (w25 + w33)
+        a_0 = xi2_0 * gE2_1_0 + xi2_1 * gE2_1_3 + xi2_2 * gE2_1_6
+        p_2_0 = 1.01 * a_0
         a_1 = xi2_0 * gE2_1_1 + xi2_1 * gE2_1_4 + xi2_2 * gE2_1_7
+        a_4_0 = gE2_1_0 * p_2_0 + gE2_1_1 * a_1 + gE2_1_2 * p_2_2
+        a_4_1 = gE2_1_3 * p_2_0 + gE2_1_4 * a_1 + gE2_1_5 * p_2_2
+        a_4_2 = gE2_1_6 * p_2_0 + gE2_1_7 * a_1 + gE2_1_8 * p_2_2
         w41 = g22 * xE2_1_0 - g20 * xE2_1_2
-        w42 = g20 * xE2_1_1 - g21 * xE2_1_0
         w43 = g21 * xE2_1_2 - g22 * xE2_1_1
         Q2_7 = g21 + w41 * c1_1 + (xE2_1_0 * w42 - xE2_1_2 * w43) * c2_1
         Q2_8 = g22 + w42 * c1_1 + (xE2_1_1 * w43 - xE2_1_0 * w41) * c2_1
+        Q2_6 = g20 + w43 * c1_1 + (xE2_1_2 * w41 - xE2_1_1 * w42) * c2_1
         w44 = 1.5 - 2.0 * Q2_8
         w45 = 1.0 / sqrt(1.01 + 1.5 * (w44 - 0.2 * Q2_7))
         w46 = w45 * w45 * (0.5 * w45)
@@ -469,46 +435,101 @@ def _advance(state, h, memory, statistics):
         w48 = w47 * w47 * (0.5 * w47)
         w49 = -1.0 - 2.0 * (1.5 * w46 - 1.5 * w48)
         w50 = -0.3 * w46 - 0.3 * w48
-        sum_Nr4_0 = Nr4_0 + 2.0 * (Q2_7 * w49 - Q2_8 * w50 + 99.0 * a_1 * p_2_2)
-        s_nu2_0 = w1 * sum_Nr4_0
+        yE2_1_1 = xi1_1 * w1
+        w9 = h * xi3_1
+        yE4_2_1 = xE2_1_1 - w9
+        xE4_2_1 = yE2_1_1 + w9
+        yE2_1_0 = xi1_0 * w1
+        w10 = h * xi3_0
+        yE4_2_0 = xE2_1_0 - w10
+        xE4_2_0 = yE2_1_0 + w10
+        yE2_1_2 = xi1_2 * w1
         w51 = yE2_1_0 * yE2_1_0 + yE2_1_1 * yE2_1_1 + yE2_1_2 * yE2_1_2
         c2_3, c3_1 = _stumpff_23(w51)
-        gE2_1_0 = 1.0 - (w25 + w33)
-        gE2_1_3 = w31 + w32
-        gE2_1_6 = w8 - w5
-        E4_2_0 = gE4_2_0 * gE2_1_0 + gE4_2_1 * gE2_1_3 + gE4_2_2 * gE2_1_6
-        E4_2_3 = gE4_2_3 * gE2_1_0 + gE4_2_4 * gE2_1_3 + gE4_2_5 * gE2_1_6
-        E4_2_6 = gE4_2_6 * gE2_1_0 + gE4_2_7 * gE2_1_3 + gE4_2_8 * gE2_1_6
-        a_5_0 = xi4_0 * E4_2_0 + xi4_1 * E4_2_3 + xi4_2 * E4_2_6
-        Q4_6 = g20 * E4_2_0 + g21 * E4_2_3 + g22 * E4_2_6
-        Nr4_2 = 0.01 * a_5_0 * a_5_1 + w40 * Q4_6
-        a_0 = xi2_0 * gE2_1_0 + xi2_1 * gE2_1_3 + xi2_2 * gE2_1_6
-        Q2_6 = g20 + w43 * c1_1 + (xE2_1_2 * w41 - xE2_1_1 * w42) * c2_1
-        sum_Nr4_2 = Nr4_2 + 2.0 * (0.01 * a_0 * a_1 + w50 * Q2_6)
-        s_nu2_2 = w1 * sum_Nr4_2
-        Nr4_1 = -100.0 * a_5_0 * p_4_2 - w39 * Q4_6
-        sum_Nr4_1 = Nr4_1 + 2.0 * (-100.0 * a_0 * p_2_2 - w49 * Q2_6)
-        s_nu2_1 = w1 * sum_Nr4_1
-        w53 = yE2_1_1 * s_nu2_2 - yE2_1_2 * s_nu2_1
-        w55 = yE2_1_0 * s_nu2_1 - yE2_1_1 * s_nu2_0
-        w56 = yE2_1_2 * s_nu2_0 - yE2_1_0 * s_nu2_2
-        p1_11_2_0 = s_nu2_0 - w53 * c2_3 + (yE2_1_1 * w55 - yE2_1_2 * w56) * c3_1
-        m1_13_0 = gE2_1_1 * Nr4_1 + Nr4_0 * gE2_1_0 + gE2_1_2 * Nr4_2
-        yE4_2_0 = xE2_1_0 - w10
-        yE4_2_1 = xE2_1_1 - w9
+        w11 = h * xi3_2
         yE4_2_2 = xE2_1_2 - w11
-        w57 = yE4_2_0 * yE4_2_0 + yE4_2_1 * yE4_2_1 + yE4_2_2 * yE4_2_2
-        c2_4, c3_2 = _stumpff_23(w57)
+        xE4_2_2 = yE2_1_2 + w11
+        w12 = xE4_2_0 * xE4_2_0 + xE4_2_1 * xE4_2_1 + xE4_2_2 * xE4_2_2
+        c1_2, c2_2 = _stumpff_12(w12)
+        w14 = xE4_2_1 * c2_2
+        w15 = xE4_2_1 * w14
+        w29 = xE4_2_2 * w14
+        w16 = xE4_2_2 * c2_2 * xE4_2_2
+        gE4_2_0 = 1.0 - (w15 + w16)
+        w20 = xE4_2_0 * c2_2
+        w21 = xE4_2_1 * w20
+        w26 = xE4_2_1 * c1_2
+        w27 = xE4_2_2 * w20
+        w28 = xE4_2_0 * w20
+        gE4_2_4 = 1.0 - (w16 + w28)
+        gE4_2_8 = 1.0 - (w15 + w28)
+        w23 = xE4_2_2 * c1_2
+        w30 = xE4_2_0 * c1_2
+        gE4_2_5 = w29 - w30
+        gE4_2_7 = w29 + w30
+        gE4_2_1 = w21 - w23
+        gE4_2_3 = w21 + w23
+        E4_2_5 = gE2_1_2 * gE4_2_3 + gE2_1_5 * gE4_2_4 + gE2_1_8 * gE4_2_5
+        E4_2_4 = gE4_2_3 * gE2_1_1 + gE4_2_4 * gE2_1_4 + gE4_2_5 * gE2_1_7
+        E4_2_3 = gE4_2_3 * gE2_1_0 + gE4_2_4 * gE2_1_3 + gE4_2_5 * gE2_1_6
+        gE4_2_2 = w26 + w27
+        gE4_2_6 = w27 - w26
+        E4_2_8 = gE2_1_2 * gE4_2_6 + gE2_1_5 * gE4_2_7 + gE2_1_8 * gE4_2_8
+        E4_2_7 = gE4_2_6 * gE2_1_1 + gE4_2_7 * gE2_1_4 + gE4_2_8 * gE2_1_7
+        E4_2_6 = gE4_2_6 * gE2_1_0 + gE4_2_7 * gE2_1_3 + gE4_2_8 * gE2_1_6
+        E4_2_2 = gE2_1_2 * gE4_2_0 + gE2_1_5 * gE4_2_1 + gE2_1_8 * gE4_2_2
+        a_5_2 = xi4_0 * E4_2_2 + xi4_1 * E4_2_5 + xi4_2 * E4_2_8
+        p_4_2 = 0.01 * a_5_2
+        Q4_8 = g20 * E4_2_2 + g21 * E4_2_5 + g22 * E4_2_8
+        w34 = 1.5 - 2.0 * Q4_8
+        E4_2_1 = gE4_2_0 * gE2_1_1 + gE4_2_1 * gE2_1_4 + gE4_2_2 * gE2_1_7
+        E4_2_0 = gE4_2_0 * gE2_1_0 + gE4_2_1 * gE2_1_3 + gE4_2_2 * gE2_1_6
+        a_5_0 = xi4_0 * E4_2_0 + xi4_1 * E4_2_3 + xi4_2 * E4_2_6
+        p_4_0 = 1.01 * a_5_0
+        Q4_6 = g20 * E4_2_0 + g21 * E4_2_3 + g22 * E4_2_6
+        a_5_1 = xi4_0 * E4_2_1 + xi4_1 * E4_2_4 + xi4_2 * E4_2_7
+        a_9_0 = E4_2_0 * p_4_0 + E4_2_1 * a_5_1 + E4_2_2 * p_4_2
+        a_9_1 = E4_2_3 * p_4_0 + E4_2_4 * a_5_1 + E4_2_5 * p_4_2
+        a_9_2 = E4_2_6 * p_4_0 + E4_2_7 * a_5_1 + E4_2_8 * p_4_2
+        Q4_7 = g20 * E4_2_1 + g21 * E4_2_4 + g22 * E4_2_7
+        w35 = 1.0 / sqrt(1.01 + 1.5 * (w34 - 0.2 * Q4_7))
+        w36 = w35 * w35 * (0.5 * w35)
+        w37 = 1.0 / sqrt(1.01 + 1.5 * (w34 + 0.2 * Q4_7))
+        w38 = w37 * w37 * (0.5 * w37)
+        w39 = -1.0 - 2.0 * (1.5 * w36 - 1.5 * w38)
+        w40 = -0.3 * w36 - 0.3 * w38
+        Nr4_0 = Q4_7 * w39 - Q4_8 * w40 + 99.0 * a_5_1 * p_4_2
+        sum_Nr4_0 = Nr4_0 + 2.0 * (Q2_7 * w49 - Q2_8 * w50 + 99.0 * a_1 * p_2_2)
+        Nr4_2 = 0.01 * a_5_0 * a_5_1 + w40 * Q4_6
+        Nr4_1 = -100.0 * a_5_0 * p_4_2 - w39 * Q4_6
+        m1_13_0 = gE2_1_1 * Nr4_1 + Nr4_0 * gE2_1_0 + gE2_1_2 * Nr4_2
         m1_13_2 = gE2_1_7 * Nr4_1 + Nr4_0 * gE2_1_6 + gE2_1_8 * Nr4_2
         m1_13_1 = gE2_1_4 * Nr4_1 + Nr4_0 * gE2_1_3 + gE2_1_5 * Nr4_2
+        sum_Nr4_1 = Nr4_1 + 2.0 * (-100.0 * a_0 * p_2_2 - w49 * Q2_6)
+        sum_Nr4_2 = Nr4_2 + 2.0 * (0.01 * a_0 * a_1 + w50 * Q2_6)
+        s_nu2_2 = w1 * sum_Nr4_2
+        s_nu2_1 = w1 * sum_Nr4_1
+        w53 = yE2_1_1 * s_nu2_2 - yE2_1_2 * s_nu2_1
         w59 = yE4_2_1 * m1_13_2 - yE4_2_2 * m1_13_1
         w61 = yE4_2_0 * m1_13_1 - m1_13_0 * yE4_2_1
         w62 = m1_13_0 * yE4_2_2 - yE4_2_0 * m1_13_2
+        s_nu2_0 = w1 * sum_Nr4_0
+        w55 = yE2_1_0 * s_nu2_1 - yE2_1_1 * s_nu2_0
+        w56 = yE2_1_2 * s_nu2_0 - yE2_1_0 * s_nu2_2
+        p1_11_2_0 = s_nu2_0 - w53 * c2_3 + (yE2_1_1 * w55 - yE2_1_2 * w56) * c3_1
+        p1_11_2_1 = s_nu2_1 - w56 * c2_3 + (yE2_1_2 * w53 - yE2_1_0 * w55) * c3_1
+        p1_11_2_2 = s_nu2_2 - w55 * c2_3 + (yE2_1_0 * w56 - yE2_1_1 * w53) * c3_1
+        w57 = yE4_2_0 * yE4_2_0 + yE4_2_1 * yE4_2_1 + yE4_2_2 * yE4_2_2
+        c2_4, c3_2 = _stumpff_23(w57)
         p1_13_0 = m1_13_0 - w59 * c2_4 + (yE4_2_1 * w61 - yE4_2_2 * w62) * c3_2
+        p1_13_1 = m1_13_1 - w62 * c2_4 + (yE4_2_2 * w59 - yE4_2_0 * w61) * c3_2
+        p1_13_2 = m1_13_2 - w61 * c2_4 + (yE4_2_0 * w62 - yE4_2_1 * w59) * c3_2
         p_2 = 0.01 * xi1_2
         Nr1_0 = w94 + 99.0 * xi1_1 * p_2
+        Nr1_1 = -100.0 * xi1_0 * p_2 - w132
         xE3_1_1 = xi2_1 * w2
         xE3_1_0 = xi2_0 * w2
+        w110 = g20 * xE3_1_1 - g21 * xE3_1_0
         xE3_1_2 = xi2_2 * w2
         w95 = xE3_1_0 * xE3_1_0 + xE3_1_1 * xE3_1_1 + xE3_1_2 * xE3_1_2
         c1_3, c2_5 = _stumpff_12(w95)
@@ -516,26 +537,34 @@ def _advance(state, h, memory, statistics):
         w99 = xE3_1_0 * c2_5
         w100 = xE3_1_2 * w99
         gE3_1_2 = w97 + w100
+        gE3_1_6 = w100 - w97
+        w104 = xE3_1_0 * w99
+        w106 = xE3_1_1 * w99
         w101 = xE3_1_1 * c2_5
         w102 = xE3_1_2 * w101
-        w103 = xE3_1_0 * c1_3
-        gE3_1_5 = w102 - w103
-        w104 = xE3_1_0 * w99
         w105 = xE3_1_1 * w101
         gE3_1_8 = 1.0 - (w104 + w105)
+        w103 = xE3_1_0 * c1_3
+        gE3_1_5 = w102 - w103
+        gE3_1_7 = w102 + w103
         p_3_2 = 0.01 * (xi3_0 * gE3_1_2 + xi3_1 * gE3_1_5 + xi3_2 * gE3_1_8)
-        w106 = xE3_1_1 * w99
         w107 = xE3_1_2 * c1_3
         gE3_1_1 = w106 - w107
+        gE3_1_3 = w106 + w107
         w108 = xE3_1_2 * c2_5 * xE3_1_2
         gE3_1_4 = 1.0 - (w104 + w108)
-        gE3_1_7 = w102 + w103
+        gE3_1_0 = 1.0 - (w105 + w108)
+        a_3_0 = xi3_0 * gE3_1_0 + xi3_1 * gE3_1_3 + xi3_2 * gE3_1_6
+        p_3_0 = 1.01 * a_3_0
         a_3_1 = xi3_0 * gE3_1_1 + xi3_1 * gE3_1_4 + xi3_2 * gE3_1_7
+        a_7_0 = gE3_1_0 * p_3_0 + gE3_1_1 * a_3_1 + gE3_1_2 * p_3_2
+        a_7_1 = gE3_1_3 * p_3_0 + gE3_1_4 * a_3_1 + gE3_1_5 * p_3_2
+        a_7_2 = gE3_1_6 * p_3_0 + gE3_1_7 * a_3_1 + gE3_1_8 * p_3_2
         w109 = g22 * xE3_1_0 - g20 * xE3_1_2
-        w110 = g20 * xE3_1_1 - g21 * xE3_1_0
         w111 = g21 * xE3_1_2 - g22 * xE3_1_1
         Q3_7 = g21 + w109 * c1_3 + (xE3_1_0 * w110 - xE3_1_2 * w111) * c2_5
         Q3_8 = g22 + w110 * c1_3 + (xE3_1_1 * w111 - xE3_1_0 * w109) * c2_5
+        Q3_6 = g20 + w111 * c1_3 + (xE3_1_2 * w109 - xE3_1_1 * w110) * c2_5
         w112 = 1.5 - 2.0 * Q3_8
         w113 = 1.0 / sqrt(1.01 + 1.5 * (w112 - 0.2 * Q3_7))
         w114 = w113 * w113 * (0.5 * w113)
@@ -545,136 +574,114 @@ def _advance(state, h, memory, statistics):
         w118 = -0.3 * w114 - 0.3 * w116
         Nr3_0 = Q3_7 * w117 - Q3_8 * w118 + 99.0 * a_3_1 * p_3_2
         s_p1_0 = m_0 + w63 * (sum_Nr4_0 + Nr1_0) + Nr3_0 * w119
-        w121 = xi2_0 + xi3_0
-        w123 = w121 * w122
-        ye1_0 = xi1_0 * w120 + w123 + xi4_0 * w124
-        w125 = xi2_1 + xi3_1
-        w126 = w122 * w125
-        ye1_1 = xi1_1 * w120 + w126 + xi4_1 * w124
-        w127 = xi2_2 + xi3_2
-        w128 = w122 * w127
-        ye1_2 = xi1_2 * w120 + w128 + xi4_2 * w124
-        w129 = ye1_0 * ye1_0 + ye1_1 * ye1_1 + ye1_2 * ye1_2
-        c2_6, c3_3 = _stumpff_23(w129)
-        Nr1_2 = 0.01 * xi1_0 * xi1_1 + w131
-        gE3_1_0 = 1.0 - (w105 + w108)
-        gE3_1_3 = w106 + w107
-        gE3_1_6 = w100 - w97
-        a_3_0 = xi3_0 * gE3_1_0 + xi3_1 * gE3_1_3 + xi3_2 * gE3_1_6
-        Q3_6 = g20 + w111 * c1_3 + (xE3_1_2 * w109 - xE3_1_1 * w110) * c2_5
         Nr3_2 = 0.01 * a_3_0 * a_3_1 + w118 * Q3_6
-        s_p1_2 = m_2 + w63 * (sum_Nr4_2 + Nr1_2) + w119 * Nr3_2
-        Nr1_1 = -100.0 * xi1_0 * p_2 - w132
         Nr3_1 = -100.0 * a_3_0 * p_3_2 - w117 * Q3_6
         s_p1_1 = m_1 + w63 * (sum_Nr4_1 + Nr1_1) + w119 * Nr3_1
-        w133 = ye1_1 * s_p1_2 - ye1_2 * s_p1_1
-        w135 = ye1_0 * s_p1_1 - s_p1_0 * ye1_1
-        w136 = s_p1_0 * ye1_2 - ye1_0 * s_p1_2
-        p1_11_0 = s_p1_0 - w133 * c2_6 + (ye1_1 * w135 - ye1_2 * w136) * c3_3
-        w138 = w63 * w125
-        xe1_1 = xi1_1 * w137 + w138 + xi4_1 * w139
+        s_p1_1_seen = s_p1_1
+        s_p1_0_seen = s_p1_0
+        w121 = xi2_0 + xi3_0
+        w123 = w121 * w122
         w140 = w63 * w121
         xe1_0 = xi1_0 * w137 + w140 + xi4_0 * w139
+        ye1_0 = xi1_0 * w120 + w123 + xi4_0 * w124
+        ye2_0 = w123 + xi1_0 * w124 + xi4_0 * w120
+        w125 = xi2_1 + xi3_1
+        w126 = w122 * w125
+        w138 = w63 * w125
+        xe1_1 = xi1_1 * w137 + w138 + xi4_1 * w139
+        ye1_1 = xi1_1 * w120 + w126 + xi4_1 * w124
+        ye2_1 = w126 + xi1_1 * w124 + xi4_1 * w120
+        w135 = ye1_0 * s_p1_1 - s_p1_0 * ye1_1
+        w127 = xi2_2 + xi3_2
+        w128 = w122 * w127
         w141 = w63 * w127
         xe1_2 = xi1_2 * w137 + w141 + xi4_2 * w139
         w142 = xe1_0 * xe1_0 + xe1_1 * xe1_1 + xe1_2 * xe1_2
         c1_4, c2_7 = _stumpff_12(w142)
         w144 = xe1_1 * c2_7
         w145 = xe1_1 * w144
+        w156 = xe1_2 * w144
         w146 = xe1_2 * c2_7 * xe1_2
         ge1_0 = 1.0 - (w145 + w146)
         w147 = xe1_0 * c2_7
         w148 = xe1_1 * w147
-        w150 = xe1_2 * c1_4
-        ge1_1 = w148 - w150
         w151 = xe1_1 * c1_4
         w152 = xe1_2 * w147
+        w157 = xe1_0 * w147
+        ge1_8 = 1.0 - (w145 + w157)
+        ge1_4 = 1.0 - (w146 + w157)
+        w150 = xe1_2 * c1_4
+        w155 = xe1_0 * c1_4
+        ge1_7 = w155 + w156
+        ge1_5 = w156 - w155
+        ge1_1 = w148 - w150
+        ge1_3 = w148 + w150
         ge1_2 = w151 + w152
-        m1_6_2_0 = s_p1_0 * ge1_0 + s_p1_1 * ge1_1 + s_p1_2 * ge1_2
-        ye2_0 = w123 + xi1_0 * w124 + xi4_0 * w120
-        ye2_1 = w126 + xi1_1 * w124 + xi4_1 * w120
+        ge1_6 = w152 - w151
+        ye1_2 = xi1_2 * w120 + w128 + xi4_2 * w124
         ye2_2 = w128 + xi1_2 * w124 + xi4_2 * w120
         w153 = ye2_0 * ye2_0 + ye2_1 * ye2_1 + ye2_2 * ye2_2
         c2_8, c3_4 = _stumpff_23(w153)
-        ge1_6 = w152 - w151
-        w155 = xe1_0 * c1_4
-        w156 = xe1_2 * w144
-        ge1_7 = w155 + w156
-        w157 = xe1_0 * w147
-        ge1_8 = 1.0 - (w145 + w157)
+        w129 = ye1_0 * ye1_0 + ye1_1 * ye1_1 + ye1_2 * ye1_2
+        c2_6, c3_3 = _stumpff_23(w129)
+        Nr1_2 = 0.01 * xi1_0 * xi1_1 + w131
+        s_p1_2 = m_2 + w63 * (sum_Nr4_2 + Nr1_2) + w119 * Nr3_2
+        m1_6_2_0 = s_p1_0 * ge1_0 + s_p1_1 * ge1_1 + s_p1_2 * ge1_2
         m1_6_2_2 = s_p1_0 * ge1_6 + s_p1_1 * ge1_7 + s_p1_2 * ge1_8
-        ge1_3 = w148 + w150
-        ge1_4 = 1.0 - (w146 + w157)
-        ge1_5 = w156 - w155
         m1_6_2_1 = s_p1_0 * ge1_3 + s_p1_1 * ge1_4 + s_p1_2 * ge1_5
         w158 = ye2_1 * m1_6_2_2 - ye2_2 * m1_6_2_1
         w160 = ye2_0 * m1_6_2_1 - m1_6_2_0 * ye2_1
         w161 = m1_6_2_0 * ye2_2 - ye2_0 * m1_6_2_2
         p1_6_2_0 = m1_6_2_0 - w158 * c2_8 + (ye2_1 * w160 - ye2_2 * w161) * c3_4
-        M1_0 = p1_11_2_0 + w2 * p1_13_0 + 1.5 * p1_11_0 - 0.5 * p1_6_2_0
-        residual_0 = M1_0 - 1.01 * xi1_0
-        p1_11_2_1 = s_nu2_1 - w56 * c2_3 + (yE2_1_2 * w53 - yE2_1_0 * w55) * c3_1
-        p1_13_1 = m1_13_1 - w62 * c2_4 + (yE4_2_2 * w59 - yE4_2_0 * w61) * c3_2
-        p1_11_1 = s_p1_1 - w136 * c2_6 + (ye1_2 * w133 - ye1_0 * w135) * c3_3
         p1_6_2_1 = m1_6_2_1 - w161 * c2_8 + (ye2_2 * w158 - ye2_0 * w160) * c3_4
-        M1_1 = p1_11_2_1 + w2 * p1_13_1 + 1.5 * p1_11_1 - 0.5 * p1_6_2_1
-        residual_1 = M1_1 - xi1_1
-        p1_11_2_2 = s_nu2_2 - w55 * c2_3 + (yE2_1_0 * w56 - yE2_1_1 * w53) * c3_1
-        p1_13_2 = m1_13_2 - w61 * c2_4 + (yE4_2_0 * w62 - yE4_2_1 * w59) * c3_2
-        p1_11_2 = s_p1_2 - w135 * c2_6 + (ye1_0 * w136 - ye1_1 * w133) * c3_3
         p1_6_2_2 = m1_6_2_2 - w160 * c2_8 + (ye2_0 * w161 - ye2_1 * w158) * c3_4
+        w133 = ye1_1 * s_p1_2 - ye1_2 * s_p1_1
+        w136 = s_p1_0 * ye1_2 - ye1_0 * s_p1_2
+        p1_11_0 = s_p1_0 - w133 * c2_6 + (ye1_1 * w135 - ye1_2 * w136) * c3_3
+        p1_11_1 = s_p1_1 - w136 * c2_6 + (ye1_2 * w133 - ye1_0 * w135) * c3_3
+        p1_11_2 = s_p1_2 - w135 * c2_6 + (ye1_0 * w136 - ye1_1 * w133) * c3_3
         M1_2 = p1_11_2_2 + w2 * p1_13_2 + 1.5 * p1_11_2 - 0.5 * p1_6_2_2
         residual_2 = M1_2 - p_2
+        M1_1 = p1_11_2_1 + w2 * p1_13_1 + 1.5 * p1_11_1 - 0.5 * p1_6_2_1
+        residual_1 = M1_1 - xi1_1
+        M1_0 = p1_11_2_0 + w2 * p1_13_0 + 1.5 * p1_11_0 - 0.5 * p1_6_2_0
+        residual_0 = M1_0 - 1.01 * xi1_0
+        s_p1_2_seen = s_p1_2
+        w170 = 0.5 * (p1_11_2 + p1_6_2_2)
+        M4_2 = 1.5 * p1_6_2_2 - 0.5 * p1_11_2
+        residual_4_2 = M4_2 - a_9_2
+        M3_2 = w170 + w1 * p1_13_2
+        residual_3_2 = M3_2 - a_7_2
+        w169 = 0.5 * (p1_11_1 + p1_6_2_1)
+        M4_1 = 1.5 * p1_6_2_1 - 0.5 * p1_11_1
+        residual_4_1 = M4_1 - a_9_1
+        M3_1 = w169 + w1 * p1_13_1
+        residual_3_1 = M3_1 - a_7_1
         w162 = 0.5 * (p1_11_0 + p1_6_2_0)
+        M4_0 = 1.5 * p1_6_2_0 - 0.5 * p1_11_0
+        residual_4_0 = M4_0 - a_9_0
+        M3_0 = w162 + w1 * p1_13_0
+        residual_3_0 = M3_0 - a_7_0
         yE3_1_0 = xi2_0 * w1
         yE3_1_1 = xi2_1 * w1
+        w167 = Nr3_1 * yE3_1_0 - Nr3_0 * yE3_1_1
         yE3_1_2 = xi2_2 * w1
         w163 = yE3_1_0 * yE3_1_0 + yE3_1_1 * yE3_1_1 + yE3_1_2 * yE3_1_2
         c2_9, c3_5 = _stumpff_23(w163)
         w165 = Nr3_2 * yE3_1_1 - Nr3_1 * yE3_1_2
-        w167 = Nr3_1 * yE3_1_0 - Nr3_0 * yE3_1_1
         w168 = Nr3_0 * yE3_1_2 - Nr3_2 * yE3_1_0
         M2_0 = (
             w162 + w1 * (Nr3_0 - w165 * c2_9 + (yE3_1_1 * w167 - yE3_1_2 * w168) * c3_5)
         )
-        p_2_0 = 1.01 * a_0
-        a_4_0 = gE2_1_0 * p_2_0 + gE2_1_1 * a_1 + gE2_1_2 * p_2_2
-        residual_2_0 = M2_0 - a_4_0
-        w169 = 0.5 * (p1_11_1 + p1_6_2_1)
         M2_1 = (
             w169 + w1 * (Nr3_1 - w168 * c2_9 + (yE3_1_2 * w165 - yE3_1_0 * w167) * c3_5)
         )
-        a_4_1 = gE2_1_3 * p_2_0 + gE2_1_4 * a_1 + gE2_1_5 * p_2_2
-        residual_2_1 = M2_1 - a_4_1
-        w170 = 0.5 * (p1_11_2 + p1_6_2_2)
         M2_2 = (
             w170 + w1 * (Nr3_2 - w167 * c2_9 + (yE3_1_0 * w168 - yE3_1_1 * w165) * c3_5)
         )
-        a_4_2 = gE2_1_6 * p_2_0 + gE2_1_7 * a_1 + gE2_1_8 * p_2_2
         residual_2_2 = M2_2 - a_4_2
-        M3_0 = w162 + w1 * p1_13_0
-        p_3_0 = 1.01 * a_3_0
-        a_7_0 = gE3_1_0 * p_3_0 + gE3_1_1 * a_3_1 + gE3_1_2 * p_3_2
-        residual_3_0 = M3_0 - a_7_0
-        M3_1 = w169 + w1 * p1_13_1
-        a_7_1 = gE3_1_3 * p_3_0 + gE3_1_4 * a_3_1 + gE3_1_5 * p_3_2
-        residual_3_1 = M3_1 - a_7_1
-        M3_2 = w170 + w1 * p1_13_2
-        a_7_2 = gE3_1_6 * p_3_0 + gE3_1_7 * a_3_1 + gE3_1_8 * p_3_2
-        residual_3_2 = M3_2 - a_7_2
-        M4_0 = 1.5 * p1_6_2_0 - 0.5 * p1_11_0
-        p_4_0 = 1.01 * a_5_0
-        a_9_0 = E4_2_0 * p_4_0 + E4_2_1 * a_5_1 + E4_2_2 * p_4_2
-        residual_4_0 = M4_0 - a_9_0
-        M4_1 = 1.5 * p1_6_2_1 - 0.5 * p1_11_1
-        a_9_1 = E4_2_3 * p_4_0 + E4_2_4 * a_5_1 + E4_2_5 * p_4_2
-        residual_4_1 = M4_1 - a_9_1
-        M4_2 = 1.5 * p1_6_2_2 - 0.5 * p1_11_2
-        a_9_2 = E4_2_6 * p_4_0 + E4_2_7 * a_5_1 + E4_2_8 * p_4_2
-        residual_4_2 = M4_2 - a_9_2
-        s_p1_0_seen = s_p1_0
-        s_p1_1_seen = s_p1_1
-        s_p1_2_seen = s_p1_2
+        residual_2_1 = M2_1 - a_4_1
+        residual_2_0 = M2_0 - a_4_0
         total = (
             residual_0
             + residual_1
@@ -1443,7 +1450,7 @@ def _continued(state, h, memory, statistics):
             factor = factor**0.5 if found is not None else factor
         else:
             found, solved = memory.past[0], part
-            memory.past, memory.guess = [found], found
+            memory.past, memory.guess, memory.degree = [found], found, 0
             if part >= 1.0:
                 if statistics is not None:
                     statistics.failed = 0

@@ -5,9 +5,9 @@
  * source:     Table 3.2a of Bogfjellmo and Marthinsen
  * order:      2, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
- * solved by:  the equations of xi1, n1: Newton's method, 3 unknowns (2.0 sweeps of 263 operations
+ * solved by:  the equations of xi1, n1: Newton's method, 3 unknowns (2.1 sweeps of 263 operations
  *             and 0.05 matrices of 46 a step; fixed point: 3.1 sweeps of 276 operations; Newton's
- *             method with the matrix to first order in h: 1.9 sweeps of 291 operations and 1.00
+ *             method with the matrix to first order in h: 2.0 sweeps of 291 operations and 1.00
  *             matrices of 68)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
@@ -394,15 +394,16 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double p_2 = 0.01 * xi1_2;
         const double xE1_1_0 = xi1_0 * w1;
         const double xE1_1_1 = xi1_1 * w1;
+        const double w6 = g20 * xE1_1_1 - g21 * xE1_1_0;
         const double xE1_1_2 = xi1_2 * w1;
         const double w2 = xE1_1_0 * xE1_1_0 + xE1_1_1 * xE1_1_1 + xE1_1_2 * xE1_1_2;
         double c1_1, c2_1;
         stumpff_12(w2, &c1_1, &c2_1);
         const double w4 = g22 * xE1_1_0 - g20 * xE1_1_2;
-        const double w6 = g20 * xE1_1_1 - g21 * xE1_1_0;
         const double w7 = g21 * xE1_1_2 - g22 * xE1_1_1;
         const double Q1_7 = g21 + w4 * c1_1 + (xE1_1_0 * w6 - xE1_1_2 * w7) * c2_1;
         const double Q1_8 = g22 + w6 * c1_1 + (xE1_1_1 * w7 - xE1_1_0 * w4) * c2_1;
+        const double Q1_6 = g20 + w7 * c1_1 + (xE1_1_2 * w4 - xE1_1_1 * w6) * c2_1;
         const double w8 = 1.5 - 2.0 * Q1_8;
         const double w9 = 1.0 / sqrt(1.01 + 1.5 * (w8 - 0.2 * Q1_7));
         const double w10 = w9 * w9 * (0.5 * w9);
@@ -411,45 +412,44 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double w13 = -1.0 - 2.0 * (1.5 * w10 - 1.5 * w12);
         const double w14 = -0.3 * w10 - 0.3 * w12;
         const double Nr1_0 = Q1_7 * w13 - Q1_8 * w14 + 99.0 * xi1_1 * p_2;
+        const double Nr1_2 = 0.01 * xi1_0 * xi1_1 + w14 * Q1_6;
+        const double Nr1_1 = -100.0 * xi1_0 * p_2 - w13 * Q1_6;
+        const double s_mu_1 = m_1 + h * Nr1_1;
+        s_mu_1_seen = s_mu_1;
+        const double s_mu_2 = m_2 + h * Nr1_2;
+        s_mu_2_seen = s_mu_2;
         const double s_mu_0 = m_0 + h * Nr1_0;
+        s_mu_0_seen = s_mu_0;
         const double xe1_0 = h * xi1_0;
         const double xe1_1 = h * xi1_1;
+        const double w18 = s_mu_0 * xe1_1 - xe1_0 * s_mu_1;
         const double xe1_2 = h * xi1_2;
         const double w15 = xe1_0 * xe1_0 + xe1_1 * xe1_1 + xe1_2 * xe1_2;
         const double c3_1 = stumpff_3(0.25 * w15);
         const double w16 = 0.25 * c3_1;
-        const double Q1_6 = g20 + w7 * c1_1 + (xE1_1_2 * w4 - xE1_1_1 * w6) * c2_1;
-        const double Nr1_2 = 0.01 * xi1_0 * xi1_1 + w14 * Q1_6;
-        const double s_mu_2 = m_2 + h * Nr1_2;
         const double w17 = xe1_0 * s_mu_2 - s_mu_0 * xe1_2;
-        const double Nr1_1 = -100.0 * xi1_0 * p_2 - w13 * Q1_6;
-        const double s_mu_1 = m_1 + h * Nr1_1;
-        const double w18 = s_mu_0 * xe1_1 - xe1_0 * s_mu_1;
         const double s_mu_2_0 = s_mu_0 + w16 * (xe1_2 * w17 - xe1_1 * w18);
+        const double w26 = xe1_2 * s_mu_1 - xe1_1 * s_mu_2;
+        const double s_mu_2_1 = s_mu_1 + w16 * (xe1_0 * w18 - xe1_2 * w26);
+        const double s_mu_2_2 = s_mu_2 + w16 * (xe1_1 * w26 - xe1_0 * w17);
         const double y1_2_0 = xi1_0 * w19;
         const double y1_2_1 = xi1_1 * w19;
+        const double w24 = Nr1_1 * y1_2_0 - Nr1_0 * y1_2_1;
         const double y1_2_2 = xi1_2 * w19;
         const double w20 = y1_2_0 * y1_2_0 + y1_2_1 * y1_2_1 + y1_2_2 * y1_2_2;
         double c2_2, c3_2;
         stumpff_23(w20, &c2_2, &c3_2);
         const double w22 = Nr1_2 * y1_2_1 - Nr1_1 * y1_2_2;
-        const double w24 = Nr1_1 * y1_2_0 - Nr1_0 * y1_2_1;
         const double w25 = Nr1_0 * y1_2_2 - Nr1_2 * y1_2_0;
         const double M1_2_0 = s_mu_2_0
             + w19 * (Nr1_0 + w22 * c2_2 + (y1_2_1 * w24 - y1_2_2 * w25) * c3_2);
-        const double residual_0 = M1_2_0 - 1.01 * xi1_0;
-        const double w26 = xe1_2 * s_mu_1 - xe1_1 * s_mu_2;
-        const double s_mu_2_1 = s_mu_1 + w16 * (xe1_0 * w18 - xe1_2 * w26);
-        const double M1_2_1 = s_mu_2_1
-            + w19 * (Nr1_1 + w25 * c2_2 + (y1_2_2 * w22 - y1_2_0 * w24) * c3_2);
-        const double residual_1 = M1_2_1 - xi1_1;
-        const double s_mu_2_2 = s_mu_2 + w16 * (xe1_1 * w26 - xe1_0 * w17);
         const double M1_2_2 = s_mu_2_2
             + w19 * (Nr1_2 + w24 * c2_2 + (y1_2_0 * w25 - y1_2_1 * w22) * c3_2);
+        const double M1_2_1 = s_mu_2_1
+            + w19 * (Nr1_1 + w25 * c2_2 + (y1_2_2 * w22 - y1_2_0 * w24) * c3_2);
         const double residual_2 = M1_2_2 - p_2;
-        s_mu_0_seen = s_mu_0;
-        s_mu_1_seen = s_mu_1;
-        s_mu_2_seen = s_mu_2;
+        const double residual_1 = M1_2_1 - xi1_1;
+        const double residual_0 = M1_2_0 - 1.01 * xi1_0;
         if (make_1) {
             const double w27 = 0.005 * h;
             const double w28 = xi1_0 * w27;

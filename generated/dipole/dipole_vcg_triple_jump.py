@@ -7,7 +7,7 @@ order:      4, certificate: exact (every order condition up to it is zero in exa
             arithmetic)
 scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
 substeps:   3, all made by one function, of 1.35121, -1.70241, 1.35121 times h
-solved by:  the equations of xi1, n1: Newton's method, 3 unknowns (1.9 sweeps of 263
+solved by:  the equations of xi1, n1: Newton's method, 3 unknowns (2.0 sweeps of 263
             operations and 0.05 matrices of 46 a substep; fixed point: 3.2 sweeps of
             276 operations; Newton's method with the matrix to first order in h: 1.9
             sweeps of 291 operations and 1.00 matrices of 68)
@@ -48,7 +48,7 @@ Use:
     print(dipole_vcg_triple_jump.run(state, 0.005, 100))
 """
 
-from math import cos, isfinite, sin, sqrt
+from math import comb, cos, isfinite, sin, sqrt
 
 OK = 0
 NOT_CONVERGED = 1
@@ -105,7 +105,7 @@ def _failed(status, label, block, sweep, statistics):
 class _Memory:
     """What one step of a run leaves for the next.
 
-    past: the last solution of its equations and its backward differences, the first first;
+    past: the last solutions of its equations, the latest first; count: of all;
     guess: the polynomial through the last solutions, continued by a step; inverses: of Newton's
     matrices, by block.
     """
@@ -123,23 +123,30 @@ class _Memory:
             if self.first > 0.5 * moved:
                 self.past, self.degree = [], 0
         self.first = 0.0
-        rows = [found]
-        for row in self.past[:15]:
-            rows.append([x - y for x, y in zip(rows[-1], row)])
-        self.past = rows
+        self.past = [found, *self.past[:15]]
         self.count += 1
-        if len(rows) < 16 or self.count % 16 % 8 == 0:
-            self.choose(self.degree, [_size(row) for row in rows])
-        self.guess = found
-        for row in rows[1 : self.degree + 1]:
-            self.guess = [x + y for x, y in zip(self.guess, row)]
+        if len(self.past) < 16 or self.count % 16 % 8 == 0:
+            self.choose()
+        self.guess = [-x for x in self.difference(self.degree + 1, 1)]
 
-    def choose(self, k, sizes):
-        """Let the degree grow while the differences fall; of many, they are seldom looked at."""
-        if k + 1 < len(sizes) and sizes[k + 1] < sizes[k]:
+    def choose(self):
+        """Let the degree grow while differences fall; of many, they are seldom looked at."""
+        k, size = self.degree, _size(self.difference(self.degree, 0))
+        if k + 1 < len(self.past) and _size(self.difference(k + 1, 0)) < size:
             self.degree = k + 1
-        elif k > 0 and sizes[k] > sizes[k - 1]:
+        elif k > 0 and size > _size(self.difference(k - 1, 0)):
             self.degree = k - 1
+
+    def difference(self, order, first):
+        """Return a backward difference without its first terms, which were of later solutions."""
+        rows = range(first, order + 1)
+        factors = [float((-1) ** j * comb(order, j)) for j in rows]
+        terms = [[f * x for x in row] for f, row in zip(factors, self.past)]
+        pairs = [[x + y for x, y in zip(*pair)] for pair in zip(terms[::2], terms[1::2])]
+        total, *rest = pairs + (terms[-1:] if len(terms) % 2 else [])
+        for pair in rest:
+            total = [x + y for x, y in zip(total, pair)]
+        return total
 
 
 def _size(row):
@@ -318,14 +325,15 @@ def _substep(state, h, memory, statistics):
         p_2 = 0.01 * xi1_2
         xE1_1_0 = xi1_0 * w1
         xE1_1_1 = xi1_1 * w1
+        w6 = g20 * xE1_1_1 - g21 * xE1_1_0
         xE1_1_2 = xi1_2 * w1
         w2 = xE1_1_0 * xE1_1_0 + xE1_1_1 * xE1_1_1 + xE1_1_2 * xE1_1_2
         c1_1, c2_1 = _stumpff_12(w2)
         w4 = g22 * xE1_1_0 - g20 * xE1_1_2
-        w6 = g20 * xE1_1_1 - g21 * xE1_1_0
         w7 = g21 * xE1_1_2 - g22 * xE1_1_1
         Q1_7 = g21 + w4 * c1_1 + (xE1_1_0 * w6 - xE1_1_2 * w7) * c2_1
         Q1_8 = g22 + w6 * c1_1 + (xE1_1_1 * w7 - xE1_1_0 * w4) * c2_1
+        Q1_6 = g20 + w7 * c1_1 + (xE1_1_2 * w4 - xE1_1_1 * w6) * c2_1
         w8 = 1.5 - 2.0 * Q1_8
         w9 = 1.0 / sqrt(1.01 + 1.5 * (w8 - 0.2 * Q1_7))
         w10 = w9 * w9 * (0.5 * w9)
@@ -334,47 +342,46 @@ def _substep(state, h, memory, statistics):
         w13 = -1.0 - 2.0 * (1.5 * w10 - 1.5 * w12)
         w14 = -0.3 * w10 - 0.3 * w12
         Nr1_0 = Q1_7 * w13 - Q1_8 * w14 + 99.0 * xi1_1 * p_2
+        Nr1_2 = 0.01 * xi1_0 * xi1_1 + w14 * Q1_6
+        Nr1_1 = -100.0 * xi1_0 * p_2 - w13 * Q1_6
+        s_mu_1 = m_1 + h * Nr1_1
+        s_mu_1_seen = s_mu_1
+        s_mu_2 = m_2 + h * Nr1_2
+        s_mu_2_seen = s_mu_2
         s_mu_0 = m_0 + h * Nr1_0
+        s_mu_0_seen = s_mu_0
         xe1_0 = h * xi1_0
         xe1_1 = h * xi1_1
+        w18 = s_mu_0 * xe1_1 - xe1_0 * s_mu_1
         xe1_2 = h * xi1_2
         w15 = xe1_0 * xe1_0 + xe1_1 * xe1_1 + xe1_2 * xe1_2
         c3_1 = _stumpff_3(0.25 * w15)
         w16 = 0.25 * c3_1
-        Q1_6 = g20 + w7 * c1_1 + (xE1_1_2 * w4 - xE1_1_1 * w6) * c2_1
-        Nr1_2 = 0.01 * xi1_0 * xi1_1 + w14 * Q1_6
-        s_mu_2 = m_2 + h * Nr1_2
         w17 = xe1_0 * s_mu_2 - s_mu_0 * xe1_2
-        Nr1_1 = -100.0 * xi1_0 * p_2 - w13 * Q1_6
-        s_mu_1 = m_1 + h * Nr1_1
-        w18 = s_mu_0 * xe1_1 - xe1_0 * s_mu_1
         s_mu_2_0 = s_mu_0 + w16 * (xe1_2 * w17 - xe1_1 * w18)
+        w26 = xe1_2 * s_mu_1 - xe1_1 * s_mu_2
+        s_mu_2_1 = s_mu_1 + w16 * (xe1_0 * w18 - xe1_2 * w26)
+        s_mu_2_2 = s_mu_2 + w16 * (xe1_1 * w26 - xe1_0 * w17)
         y1_2_0 = xi1_0 * w19
         y1_2_1 = xi1_1 * w19
+        w24 = Nr1_1 * y1_2_0 - Nr1_0 * y1_2_1
         y1_2_2 = xi1_2 * w19
         w20 = y1_2_0 * y1_2_0 + y1_2_1 * y1_2_1 + y1_2_2 * y1_2_2
         c2_2, c3_2 = _stumpff_23(w20)
         w22 = Nr1_2 * y1_2_1 - Nr1_1 * y1_2_2
-        w24 = Nr1_1 * y1_2_0 - Nr1_0 * y1_2_1
         w25 = Nr1_0 * y1_2_2 - Nr1_2 * y1_2_0
         M1_2_0 = (
             s_mu_2_0 + w19 * (Nr1_0 + w22 * c2_2 + (y1_2_1 * w24 - y1_2_2 * w25) * c3_2)
         )
-        residual_0 = M1_2_0 - 1.01 * xi1_0
-        w26 = xe1_2 * s_mu_1 - xe1_1 * s_mu_2
-        s_mu_2_1 = s_mu_1 + w16 * (xe1_0 * w18 - xe1_2 * w26)
-        M1_2_1 = (
-            s_mu_2_1 + w19 * (Nr1_1 + w25 * c2_2 + (y1_2_2 * w22 - y1_2_0 * w24) * c3_2)
-        )
-        residual_1 = M1_2_1 - xi1_1
-        s_mu_2_2 = s_mu_2 + w16 * (xe1_1 * w26 - xe1_0 * w17)
         M1_2_2 = (
             s_mu_2_2 + w19 * (Nr1_2 + w24 * c2_2 + (y1_2_0 * w25 - y1_2_1 * w22) * c3_2)
         )
+        M1_2_1 = (
+            s_mu_2_1 + w19 * (Nr1_1 + w25 * c2_2 + (y1_2_2 * w22 - y1_2_0 * w24) * c3_2)
+        )
         residual_2 = M1_2_2 - p_2
-        s_mu_0_seen = s_mu_0
-        s_mu_1_seen = s_mu_1
-        s_mu_2_seen = s_mu_2
+        residual_1 = M1_2_1 - xi1_1
+        residual_0 = M1_2_0 - 1.01 * xi1_0
         total = residual_0 + residual_1 + residual_2
         if not isfinite(total):
             raise _failed(NOT_FINITE, "the equations of xi1, n1", 0, sweep, statistics)
@@ -532,7 +539,7 @@ def _continued(state, h, memory, statistics):
             factor = factor**0.5 if found is not None else factor
         else:
             found, solved = memory.past[0], part
-            memory.past, memory.guess = [found], found
+            memory.past, memory.guess, memory.degree = [found], found, 0
             if part >= 1.0:
                 if statistics is not None:
                     statistics.failed = 0

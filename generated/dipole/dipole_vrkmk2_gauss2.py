@@ -42,7 +42,7 @@ Use:
     print(dipole_vrkmk2_gauss2.run(state, 0.005, 100))
 """
 
-from math import cos, fabs, isfinite, sin, sqrt
+from math import comb, cos, fabs, isfinite, sin, sqrt
 
 OK = 0
 NOT_CONVERGED = 1
@@ -99,7 +99,7 @@ def _failed(status, label, block, sweep, statistics):
 class _Memory:
     """What one step of a run leaves for the next.
 
-    past: the last solution of its equations and its backward differences, the first first;
+    past: the last solutions of its equations, the latest first; count: of all;
     guess: the polynomial through the last solutions, continued by a step; inverses: of Newton's
     matrices, by block.
     """
@@ -117,23 +117,30 @@ class _Memory:
             if self.first > 0.5 * moved:
                 self.past, self.degree = [], 0
         self.first = 0.0
-        rows = [found]
-        for row in self.past[:15]:
-            rows.append([x - y for x, y in zip(rows[-1], row)])
-        self.past = rows
+        self.past = [found, *self.past[:15]]
         self.count += 1
-        if len(rows) < 16 or self.count % 16 % 8 == 0:
-            self.choose(self.degree, [_size(row) for row in rows])
-        self.guess = found
-        for row in rows[1 : self.degree + 1]:
-            self.guess = [x + y for x, y in zip(self.guess, row)]
+        if len(self.past) < 16 or self.count % 16 % 8 == 0:
+            self.choose()
+        self.guess = [-x for x in self.difference(self.degree + 1, 1)]
 
-    def choose(self, k, sizes):
-        """Let the degree grow while the differences fall; of many, they are seldom looked at."""
-        if k + 1 < len(sizes) and sizes[k + 1] < sizes[k]:
+    def choose(self):
+        """Let the degree grow while differences fall; of many, they are seldom looked at."""
+        k, size = self.degree, _size(self.difference(self.degree, 0))
+        if k + 1 < len(self.past) and _size(self.difference(k + 1, 0)) < size:
             self.degree = k + 1
-        elif k > 0 and sizes[k] > sizes[k - 1]:
+        elif k > 0 and size > _size(self.difference(k - 1, 0)):
             self.degree = k - 1
+
+    def difference(self, order, first):
+        """Return a backward difference without its first terms, which were of later solutions."""
+        rows = range(first, order + 1)
+        factors = [float((-1) ** j * comb(order, j)) for j in rows]
+        terms = [[f * x for x in row] for f, row in zip(factors, self.past)]
+        pairs = [[x + y for x, y in zip(*pair)] for pair in zip(terms[::2], terms[1::2])]
+        total, *rest = pairs + (terms[-1:] if len(terms) % 2 else [])
+        for pair in rest:
+            total = [x + y for x, y in zip(total, pair)]
+        return total
 
 
 def _size(row):
@@ -346,59 +353,80 @@ def _advance(state, h, memory, statistics):
         X2_0 = v1_0 * w2 + v2_0 * w3
         X2_1 = v1_1 * w2 + v2_1 * w3
         w4 = v2_1 * X2_0 - v2_0 * X2_1
+        w19 = g20 * X2_1 - g21 * X2_0
         X2_2 = v1_2 * w2 + v2_2 * w3
         w5 = X2_0 * X2_0 + X2_1 * X2_1 + X2_2 * X2_2
-        c1_1, c2_1, c3_1 = _stumpff_123(w5)
         w7 = 1.0 - 0.08333333333333333 * w5
         w8 = 1.0 / (w7 * w7 + 0.25 * w5)
         w9 = w8 * (0.25 - 0.08333333333333333 * w7)
         w11 = -0.5 * w8
-        w12 = w5 * (w9 * c1_1 + w11 * c2_1) - (w11 + c1_1)
         w13 = v2_0 * X2_2 - v2_2 * X2_0
+        w55 = X2_1 * w4 - X2_2 * w13
         w14 = v2_2 * X2_1 - v2_1 * X2_2
         w15 = X2_0 * w13 - X2_1 * w14
-        w16 = w9 + c2_1 + w11 * c1_1 - w9 * c2_1 * w5
-        a_6_2 = v2_2 + w4 * w12 + w15 * w16
-        p_2_2 = 0.01 * a_6_2
+        a_5_2 = v2_2 - w4 * w11 + w9 * w15
+        w71 = -0.08333333333333333 * a_5_2
         w17 = X2_2 * w14 - X2_0 * w4
-        a_6_1 = v2_1 + w12 * w13 + w16 * w17
+        a_5_1 = v2_1 - w11 * w13 + w9 * w17
+        w73 = -0.08333333333333333 * a_5_1
+        a_5_0 = v2_0 - w11 * w14 + w9 * w55
+        w68 = 0.5 * a_5_2 - 0.08333333333333333 * (X2_0 * a_5_1 - X2_1 * a_5_0)
+        w69 = 0.5 * a_5_1 - 0.08333333333333333 * (X2_2 * a_5_0 - X2_0 * a_5_2)
+        w89 = 0.5 * a_5_0 - 0.08333333333333333 * (X2_1 * a_5_2 - X2_2 * a_5_1)
+        w90 = -0.08333333333333333 * a_5_0
         w18 = g22 * X2_0 - g20 * X2_2
-        w19 = g20 * X2_1 - g21 * X2_0
         w20 = g21 * X2_2 - g22 * X2_1
-        Q2_7 = g21 + w18 * c1_1 + (X2_0 * w19 - X2_2 * w20) * c2_1
-        Q2_8 = g22 + w19 * c1_1 + (X2_1 * w20 - X2_0 * w18) * c2_1
-        w21 = 1.5 - 2.0 * Q2_8
-        w22 = 1.0 / sqrt(1.01 + 1.5 * (w21 - 0.2 * Q2_7))
-        w23 = w22 * w22 * (0.5 * w22)
-        w24 = 1.0 / sqrt(1.01 + 1.5 * (w21 + 0.2 * Q2_7))
-        w25 = w24 * w24 * (0.5 * w24)
-        w26 = -1.0 - 2.0 * (1.5 * w23 - 1.5 * w25)
-        w27 = -0.3 * w23 - 0.3 * w25
-        Nn2_0 = Q2_7 * w26 - Q2_8 * w27 + 99.0 * a_6_1 * p_2_2
         X1_0 = v1_0 * w3 + v2_0 * w28
         X1_1 = v1_1 * w3 + v2_1 * w28
         w29 = v1_1 * X1_0 - v1_0 * X1_1
+        w44 = g20 * X1_1 - g21 * X1_0
         X1_2 = v1_2 * w3 + v2_2 * w28
         w30 = X1_0 * X1_0 + X1_1 * X1_1 + X1_2 * X1_2
-        c1_2, c2_2, c3_2 = _stumpff_123(w30)
         w32 = 1.0 - 0.08333333333333333 * w30
         w33 = 1.0 / (w32 * w32 + 0.25 * w30)
         w34 = w33 * (0.25 - 0.08333333333333333 * w32)
         w36 = -0.5 * w33
-        w37 = w30 * (w34 * c1_2 + w36 * c2_2) - (w36 + c1_2)
         w38 = v1_0 * X1_2 - v1_2 * X1_0
+        w56 = X1_1 * w29 - X1_2 * w38
         w39 = v1_2 * X1_1 - v1_1 * X1_2
         w40 = X1_0 * w38 - X1_1 * w39
+        a_2 = v1_2 - w29 * w36 + w34 * w40
+        w85 = -0.08333333333333333 * a_2
+        w42 = X1_2 * w39 - X1_0 * w29
+        a_1 = v1_1 - w36 * w38 + w34 * w42
+        w87 = -0.08333333333333333 * a_1
+        a_0 = v1_0 - w36 * w39 + w34 * w56
+        w82 = 0.5 * a_2 - 0.08333333333333333 * (X1_0 * a_1 - X1_1 * a_0)
+        w83 = 0.5 * a_1 - 0.08333333333333333 * (X1_2 * a_0 - X1_0 * a_2)
+        w92 = 0.5 * a_0 - 0.08333333333333333 * (X1_1 * a_2 - X1_2 * a_1)
+        w93 = -0.08333333333333333 * a_0
+        w43 = g22 * X1_0 - g20 * X1_2
+        w45 = g21 * X1_2 - g22 * X1_1
+        Y_0 = (v1_0 + v2_0) * w1
+        Y_1 = (v1_1 + v2_1) * w1
+        Y_2 = (v1_2 + v2_2) * w1
+        w53 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2
+        c2_3, c3_3 = _stumpff_23(w53)
+        c1_2, c2_2, c3_2 = _stumpff_123(w30)
+        w37 = w30 * (w34 * c1_2 + w36 * c2_2) - (w36 + c1_2)
         w41 = w34 + c2_2 + w36 * c1_2 - w34 * c2_2 * w30
         a_2_2 = v1_2 + w29 * w37 + w40 * w41
-        p_2 = 0.01 * a_2_2
-        w42 = X1_2 * w39 - X1_0 * w29
         a_2_1 = v1_1 + w37 * w38 + w41 * w42
-        w43 = g22 * X1_0 - g20 * X1_2
-        w44 = g20 * X1_1 - g21 * X1_0
-        w45 = g21 * X1_2 - g22 * X1_1
+        a_2_0 = v1_0 + w37 * w39 + w41 * w56
+        p_2 = 0.01 * a_2_2
+        w80 = X1_1 * p_2 - X1_2 * a_2_1
+        p_0 = 1.01 * a_2_0
+        w79 = X1_2 * p_0 - X1_0 * p_2
+        w81 = X1_0 * a_2_1 - X1_1 * p_0
+        a_4_0 = p_0 - w37 * w80 + w41 * (X1_1 * w81 - X1_2 * w79)
+        a_4_1 = a_2_1 - w37 * w79 + w41 * (X1_2 * w80 - X1_0 * w81)
+        a_4_2 = p_2 - w37 * w81 + w41 * (X1_0 * w79 - X1_1 * w80)
+        w84 = X1_0 * a_4_2 - X1_2 * a_4_0
+        w94 = X1_2 * a_4_1 - X1_1 * a_4_2
+        w86 = X1_1 * a_4_0 - X1_0 * a_4_1
         Q1_7 = g21 + w43 * c1_2 + (X1_0 * w44 - X1_2 * w45) * c2_2
         Q1_8 = g22 + w44 * c1_2 + (X1_1 * w45 - X1_0 * w43) * c2_2
+        Q1_6 = g20 + w45 * c1_2 + (X1_2 * w43 - X1_1 * w44) * c2_2
         w46 = 1.5 - 2.0 * Q1_8
         w47 = 1.0 / sqrt(1.01 + 1.5 * (w46 - 0.2 * Q1_7))
         w48 = w47 * w47 * (0.5 * w47)
@@ -407,107 +435,22 @@ def _advance(state, h, memory, statistics):
         w51 = -1.0 - 2.0 * (1.5 * w48 - 1.5 * w50)
         w52 = -0.3 * w48 - 0.3 * w50
         Nn1_0 = Q1_7 * w51 - Q1_8 * w52 + 99.0 * a_2_1 * p_2
-        s_L_0 = m_0 + w1 * (Nn2_0 + Nn1_0)
-        Y_0 = (v1_0 + v2_0) * w1
-        Y_1 = (v1_1 + v2_1) * w1
-        Y_2 = (v1_2 + v2_2) * w1
-        w53 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2
-        c2_3, c3_3 = _stumpff_23(w53)
-        w55 = X2_1 * w4 - X2_2 * w13
-        a_6_0 = v2_0 + w12 * w14 + w16 * w55
-        Q2_6 = g20 + w20 * c1_1 + (X2_2 * w18 - X2_1 * w19) * c2_1
-        Nn2_1 = -100.0 * a_6_0 * p_2_2 - w26 * Q2_6
-        w56 = X1_1 * w29 - X1_2 * w38
-        a_2_0 = v1_0 + w37 * w39 + w41 * w56
-        Q1_6 = g20 + w45 * c1_2 + (X1_2 * w43 - X1_1 * w44) * c2_2
-        Nn1_1 = -100.0 * a_2_0 * p_2 - w51 * Q1_6
-        s_L_1 = m_1 + w1 * (Nn2_1 + Nn1_1)
-        Nn2_2 = 0.01 * a_6_0 * a_6_1 + w27 * Q2_6
         Nn1_2 = 0.01 * a_2_0 * a_2_1 + w52 * Q1_6
-        s_L_2 = m_2 + w1 * (Nn2_2 + Nn1_2)
-        w57 = Y_2 * s_L_1 - Y_1 * s_L_2
-        w59 = Y_0 * s_L_2 - s_L_0 * Y_2
-        w60 = s_L_0 * Y_1 - Y_0 * s_L_1
-        L_4_0 = s_L_0 - w57 * c2_3 + (Y_2 * w59 - Y_1 * w60) * c3_3
-        w61 = X2_1 * Nn2_2 - X2_2 * Nn2_1
-        w63 = X2_0 * Nn2_1 - X2_1 * Nn2_0
-        w64 = X2_2 * Nn2_0 - X2_0 * Nn2_2
-        p_2_0 = 1.01 * a_6_0
-        w65 = X2_2 * p_2_0 - X2_0 * p_2_2
-        w66 = X2_1 * p_2_2 - X2_2 * a_6_1
-        w67 = X2_0 * a_6_1 - X2_1 * p_2_0
-        a_8_1 = a_6_1 - w12 * w65 + w16 * (X2_2 * w66 - X2_0 * w67)
-        a_5_2 = v2_2 - w4 * w11 + w9 * w15
-        a_5_1 = v2_1 - w11 * w13 + w9 * w17
-        a_5_0 = v2_0 - w11 * w14 + w9 * w55
-        w68 = 0.5 * a_5_2 - 0.08333333333333333 * (X2_0 * a_5_1 - X2_1 * a_5_0)
-        a_8_2 = p_2_2 - w12 * w67 + w16 * (X2_0 * w65 - X2_1 * w66)
-        w69 = 0.5 * a_5_1 - 0.08333333333333333 * (X2_2 * a_5_0 - X2_0 * a_5_2)
-        a_8_0 = p_2_0 - w12 * w66 + w16 * (X2_1 * w67 - X2_2 * w65)
-        w70 = X2_0 * a_8_2 - X2_2 * a_8_0
-        w71 = -0.08333333333333333 * a_5_2
-        w72 = X2_1 * a_8_0 - X2_0 * a_8_1
-        w73 = -0.08333333333333333 * a_5_1
-        sum_d2_0 = (
-            Nn2_0
-            + w61 * c2_1
-            + (X2_1 * w63 - X2_2 * w64) * c3_1
-            - (a_8_1 * w68 - a_8_2 * w69 + (w70 * w71 - w72 * w73))
-        )
+        Nn1_1 = -100.0 * a_2_0 * p_2 - w51 * Q1_6
         w75 = X1_1 * Nn1_2 - X1_2 * Nn1_1
         w77 = X1_0 * Nn1_1 - X1_1 * Nn1_0
         w78 = X1_2 * Nn1_0 - X1_0 * Nn1_2
-        p_0 = 1.01 * a_2_0
-        w79 = X1_2 * p_0 - X1_0 * p_2
-        w80 = X1_1 * p_2 - X1_2 * a_2_1
-        w81 = X1_0 * a_2_1 - X1_1 * p_0
-        a_4_1 = a_2_1 - w37 * w79 + w41 * (X1_2 * w80 - X1_0 * w81)
-        a_2 = v1_2 - w29 * w36 + w34 * w40
-        a_1 = v1_1 - w36 * w38 + w34 * w42
-        a_0 = v1_0 - w36 * w39 + w34 * w56
-        w82 = 0.5 * a_2 - 0.08333333333333333 * (X1_0 * a_1 - X1_1 * a_0)
-        a_4_2 = p_2 - w37 * w81 + w41 * (X1_0 * w79 - X1_1 * w80)
-        w83 = 0.5 * a_1 - 0.08333333333333333 * (X1_2 * a_0 - X1_0 * a_2)
-        a_4_0 = p_0 - w37 * w80 + w41 * (X1_1 * w81 - X1_2 * w79)
-        w84 = X1_0 * a_4_2 - X1_2 * a_4_0
-        w85 = -0.08333333333333333 * a_2
-        w86 = X1_1 * a_4_0 - X1_0 * a_4_1
-        w87 = -0.08333333333333333 * a_1
         sum_d1_0 = (
             Nn1_0
             + w75 * c2_2
             + (X1_1 * w77 - X1_2 * w78) * c3_2
             - (a_4_1 * w82 - a_4_2 * w83 + (w84 * w85 - w86 * w87))
         )
-        w1_0 = L_4_0 + sum_d2_0 * w74 + sum_d1_0 * w88
-        residual_0 = w1_0 - a_4_0
-        L_4_1 = s_L_1 - w59 * c2_3 + (Y_0 * w60 - Y_2 * w57) * c3_3
-        w89 = 0.5 * a_5_0 - 0.08333333333333333 * (X2_1 * a_5_2 - X2_2 * a_5_1)
-        w90 = -0.08333333333333333 * a_5_0
-        w91 = X2_2 * a_8_1 - X2_1 * a_8_2
-        sum_d2_1 = (
-            Nn2_1
-            + w64 * c2_1
-            + (X2_2 * w61 - X2_0 * w63) * c3_1
-            - (a_8_2 * w89 - w68 * a_8_0 + (w72 * w90 - w71 * w91))
-        )
-        w92 = 0.5 * a_0 - 0.08333333333333333 * (X1_1 * a_2 - X1_2 * a_1)
-        w93 = -0.08333333333333333 * a_0
-        w94 = X1_2 * a_4_1 - X1_1 * a_4_2
         sum_d1_1 = (
             Nn1_1
             + w78 * c2_2
             + (X1_2 * w75 - X1_0 * w77) * c3_2
             - (a_4_2 * w92 - w82 * a_4_0 + (w86 * w93 - w85 * w94))
-        )
-        w1_1 = L_4_1 + w74 * sum_d2_1 + w88 * sum_d1_1
-        residual_1 = w1_1 - a_4_1
-        L_4_2 = s_L_2 - w60 * c2_3 + (Y_1 * w57 - Y_0 * w59) * c3_3
-        sum_d2_2 = (
-            Nn2_2
-            + w63 * c2_1
-            + (X2_0 * w64 - X2_1 * w61) * c3_1
-            - (w69 * a_8_0 - a_8_1 * w89 + (w73 * w91 - w70 * w90))
         )
         sum_d1_2 = (
             Nn1_2
@@ -515,17 +458,81 @@ def _advance(state, h, memory, statistics):
             + (X1_0 * w78 - X1_1 * w75) * c3_2
             - (w83 * a_4_0 - a_4_1 * w92 + (w87 * w94 - w84 * w93))
         )
+        c1_1, c2_1, c3_1 = _stumpff_123(w5)
+        w12 = w5 * (w9 * c1_1 + w11 * c2_1) - (w11 + c1_1)
+        w16 = w9 + c2_1 + w11 * c1_1 - w9 * c2_1 * w5
+        a_6_2 = v2_2 + w4 * w12 + w15 * w16
+        a_6_1 = v2_1 + w12 * w13 + w16 * w17
+        a_6_0 = v2_0 + w12 * w14 + w16 * w55
+        p_2_2 = 0.01 * a_6_2
+        w66 = X2_1 * p_2_2 - X2_2 * a_6_1
+        p_2_0 = 1.01 * a_6_0
+        w65 = X2_2 * p_2_0 - X2_0 * p_2_2
+        w67 = X2_0 * a_6_1 - X2_1 * p_2_0
+        a_8_0 = p_2_0 - w12 * w66 + w16 * (X2_1 * w67 - X2_2 * w65)
+        a_8_1 = a_6_1 - w12 * w65 + w16 * (X2_2 * w66 - X2_0 * w67)
+        a_8_2 = p_2_2 - w12 * w67 + w16 * (X2_0 * w65 - X2_1 * w66)
+        w70 = X2_0 * a_8_2 - X2_2 * a_8_0
+        w91 = X2_2 * a_8_1 - X2_1 * a_8_2
+        w72 = X2_1 * a_8_0 - X2_0 * a_8_1
+        Q2_7 = g21 + w18 * c1_1 + (X2_0 * w19 - X2_2 * w20) * c2_1
+        Q2_8 = g22 + w19 * c1_1 + (X2_1 * w20 - X2_0 * w18) * c2_1
+        Q2_6 = g20 + w20 * c1_1 + (X2_2 * w18 - X2_1 * w19) * c2_1
+        w21 = 1.5 - 2.0 * Q2_8
+        w22 = 1.0 / sqrt(1.01 + 1.5 * (w21 - 0.2 * Q2_7))
+        w23 = w22 * w22 * (0.5 * w22)
+        w24 = 1.0 / sqrt(1.01 + 1.5 * (w21 + 0.2 * Q2_7))
+        w25 = w24 * w24 * (0.5 * w24)
+        w26 = -1.0 - 2.0 * (1.5 * w23 - 1.5 * w25)
+        w27 = -0.3 * w23 - 0.3 * w25
+        Nn2_0 = Q2_7 * w26 - Q2_8 * w27 + 99.0 * a_6_1 * p_2_2
+        Nn2_2 = 0.01 * a_6_0 * a_6_1 + w27 * Q2_6
+        Nn2_1 = -100.0 * a_6_0 * p_2_2 - w26 * Q2_6
+        s_L_1 = m_1 + w1 * (Nn2_1 + Nn1_1)
+        s_L_2 = m_2 + w1 * (Nn2_2 + Nn1_2)
+        s_L_0 = m_0 + w1 * (Nn2_0 + Nn1_0)
+        w59 = Y_0 * s_L_2 - s_L_0 * Y_2
+        w60 = s_L_0 * Y_1 - Y_0 * s_L_1
+        s_L_0_seen = s_L_0
+        w57 = Y_2 * s_L_1 - Y_1 * s_L_2
+        L_4_0 = s_L_0 - w57 * c2_3 + (Y_2 * w59 - Y_1 * w60) * c3_3
+        L_4_1 = s_L_1 - w59 * c2_3 + (Y_0 * w60 - Y_2 * w57) * c3_3
+        L_4_2 = s_L_2 - w60 * c2_3 + (Y_1 * w57 - Y_0 * w59) * c3_3
+        s_L_2_seen = s_L_2
+        s_L_1_seen = s_L_1
+        w61 = X2_1 * Nn2_2 - X2_2 * Nn2_1
+        w63 = X2_0 * Nn2_1 - X2_1 * Nn2_0
+        w64 = X2_2 * Nn2_0 - X2_0 * Nn2_2
+        sum_d2_0 = (
+            Nn2_0
+            + w61 * c2_1
+            + (X2_1 * w63 - X2_2 * w64) * c3_1
+            - (a_8_1 * w68 - a_8_2 * w69 + (w70 * w71 - w72 * w73))
+        )
+        sum_d2_1 = (
+            Nn2_1
+            + w64 * c2_1
+            + (X2_2 * w61 - X2_0 * w63) * c3_1
+            - (a_8_2 * w89 - w68 * a_8_0 + (w72 * w90 - w71 * w91))
+        )
+        sum_d2_2 = (
+            Nn2_2
+            + w63 * c2_1
+            + (X2_0 * w64 - X2_1 * w61) * c3_1
+            - (w69 * a_8_0 - a_8_1 * w89 + (w73 * w91 - w70 * w90))
+        )
         w1_2 = L_4_2 + w74 * sum_d2_2 + w88 * sum_d1_2
-        residual_2 = w1_2 - a_4_2
-        w2_0 = L_4_0 + sum_d2_0 * w95 + sum_d1_0 * w96
-        residual_2_0 = w2_0 - a_8_0
-        w2_1 = L_4_1 + sum_d2_1 * w95 + sum_d1_1 * w96
-        residual_2_1 = w2_1 - a_8_1
         w2_2 = L_4_2 + sum_d2_2 * w95 + sum_d1_2 * w96
         residual_2_2 = w2_2 - a_8_2
-        s_L_0_seen = s_L_0
-        s_L_1_seen = s_L_1
-        s_L_2_seen = s_L_2
+        residual_2 = w1_2 - a_4_2
+        w1_1 = L_4_1 + w74 * sum_d2_1 + w88 * sum_d1_1
+        w2_1 = L_4_1 + sum_d2_1 * w95 + sum_d1_1 * w96
+        residual_2_1 = w2_1 - a_8_1
+        residual_1 = w1_1 - a_4_1
+        w1_0 = L_4_0 + sum_d2_0 * w74 + sum_d1_0 * w88
+        w2_0 = L_4_0 + sum_d2_0 * w95 + sum_d1_0 * w96
+        residual_2_0 = w2_0 - a_8_0
+        residual_0 = w1_0 - a_4_0
         total = (
             residual_0
             + residual_1
@@ -803,7 +810,7 @@ def _continued(state, h, memory, statistics):
             factor = factor**0.5 if found is not None else factor
         else:
             found, solved = memory.past[0], part
-            memory.past, memory.guess = [found], found
+            memory.past, memory.guess, memory.degree = [found], found, 0
             if part >= 1.0:
                 if statistics is not None:
                     statistics.failed = 0

@@ -6,8 +6,8 @@ source:     Table 3.2a of Bogfjellmo and Marthinsen
 order:      2, certificate: exact (every order condition up to it is zero in exact
             arithmetic)
 scene:      Free rigid body with attitude, S^3 (thesis section 2.6), group S^3
-solved by:  the equations of xi: Newton's method, 3 unknowns (5.7 sweeps of 463
-            operations and 0.85 matrices of 1509 a step; fixed point: does not
+solved by:  the equations of xi: Newton's method, 3 unknowns (5.9 sweeps of 463
+            operations and 0.90 matrices of 1509 a step; fixed point: does not
             settle with steps 8 times as long; Newton's method with the matrix to
             first order in h: takes 21 sweeps with steps 8 times as long)
 state:      [0..3] y: element of S^3, real part first
@@ -34,7 +34,7 @@ Use:
     print(free_rigid_body_s3_discrete_gradient_midpoint.run(state, 0.02, 100))
 """
 
-from math import cos, isfinite, sin, sqrt
+from math import comb, cos, isfinite, sin, sqrt
 
 OK = 0
 NOT_CONVERGED = 1
@@ -91,7 +91,7 @@ def _failed(status, label, block, sweep, statistics):
 class _Memory:
     """What one step of a run leaves for the next.
 
-    past: the last solution of its equations and its backward differences, the first first;
+    past: the last solutions of its equations, the latest first; count: of all;
     guess: the polynomial through the last solutions, continued by a step; inverses: of Newton's
     matrices, by block.
     """
@@ -109,23 +109,30 @@ class _Memory:
             if self.first > 0.5 * moved:
                 self.past, self.degree = [], 0
         self.first = 0.0
-        rows = [found]
-        for row in self.past[:15]:
-            rows.append([x - y for x, y in zip(rows[-1], row)])
-        self.past = rows
+        self.past = [found, *self.past[:15]]
         self.count += 1
-        if len(rows) < 16 or self.count % 16 % 8 == 0:
-            self.choose(self.degree, [_size(row) for row in rows])
-        self.guess = found
-        for row in rows[1 : self.degree + 1]:
-            self.guess = [x + y for x, y in zip(self.guess, row)]
+        if len(self.past) < 16 or self.count % 16 % 8 == 0:
+            self.choose()
+        self.guess = [-x for x in self.difference(self.degree + 1, 1)]
 
-    def choose(self, k, sizes):
-        """Let the degree grow while the differences fall; of many, they are seldom looked at."""
-        if k + 1 < len(sizes) and sizes[k + 1] < sizes[k]:
+    def choose(self):
+        """Let the degree grow while differences fall; of many, they are seldom looked at."""
+        k, size = self.degree, _size(self.difference(self.degree, 0))
+        if k + 1 < len(self.past) and _size(self.difference(k + 1, 0)) < size:
             self.degree = k + 1
-        elif k > 0 and sizes[k] > sizes[k - 1]:
+        elif k > 0 and size > _size(self.difference(k - 1, 0)):
             self.degree = k - 1
+
+    def difference(self, order, first):
+        """Return a backward difference without its first terms, which were of later solutions."""
+        rows = range(first, order + 1)
+        factors = [float((-1) ** j * comb(order, j)) for j in rows]
+        terms = [[f * x for x in row] for f, row in zip(factors, self.past)]
+        pairs = [[x + y for x, y in zip(*pair)] for pair in zip(terms[::2], terms[1::2])]
+        total, *rest = pairs + (terms[-1:] if len(terms) % 2 else [])
+        for pair in rest:
+            total = [x + y for x, y in zip(total, pair)]
+        return total
 
 
 def _size(row):
@@ -368,82 +375,6 @@ def _advance(state, h, memory, statistics):
         x1_1 = xi_1 * w18
         x1_2 = xi_2 * w18
         w19 = x1_0 * x1_0 + x1_1 * x1_1 + x1_2 * x1_2
-        c0_1, c1_1 = _stumpff_01(w19)
-        w21 = x1_0 * c1_1
-        w22 = x1_1 * c1_1
-        w24 = x1_2 * c1_1
-        Y1_3 = q2 * w21 - q1 * w22 + (q0 * w24 + q3 * c0_1)
-        w25 = -0.5 * Y1_3
-        Y1_2 = q1 * w24 - q3 * w21 + (q0 * w22 + q2 * c0_1)
-        w26 = -120.0 * Y1_2 - 5.0 * Y1_3
-        w27 = -0.016666666666666666 * Y1_2
-        Y1_1 = q3 * w22 - q2 * w24 + (q0 * w21 + q1 * c0_1)
-        w28 = 2.0 * Y1_3
-        w29 = 120.0 * Y1_1 + w28
-        w30 = 0.016666666666666666 * Y1_1
-        w31 = -2.0 * Y1_2
-        w32 = 5.0 * Y1_1 + w31
-        w33 = q0 * c0_1
-        w34 = q1 * w21 + q2 * w22 + q3 * w24
-        Y1_0 = w33 - w34
-        w35 = -0.016666666666666666 * Y1_0
-        w36 = w32 * w35 - 1.0 + w29 * w30 + w26 * w27
-        w37 = -2.0 * Y1_1
-        w38 = 1.0 - w26 * Y1_0 + Y1_2 * w32
-        w39 = Y1_3 * w29
-        w40 = w38 - w39
-        w41 = w36 * w37 + w28 * w40
-        w42 = 0.5 * Y1_2
-        w43 = 0.2 * Y1_3
-        w44 = -0.2 * Y1_1
-        w45 = -0.2 * Y1_0
-        w46 = 0.5 + w29 * w45 + w32 * w44 + w26 * w43
-        w47 = 2.0 * Y1_1
-        w48 = w46 * w47 + w31 * w40
-        w49 = 2.0 * Y1_2
-        w50 = -2.0 * Y1_3
-        w51 = w36 * w49 + w46 * w50
-        w52 = 0.5 * Y1_0
-        w53 = -0.5 * Y1_0
-        w54 = 0.5 + w26 * w53 + w51 * w52 + w32 * w42 + w42 * w48 + w25 * w29
-        w55 = w25 * w41 + w54
-        w56 = Y1_3 * w26
-        w57 = 2.5 - w29 * Y1_0 - Y1_1 * w32 + w56
-        w58 = 0.5 * w57
-        w59 = 0.5 * w46
-        w60 = 0.5 * w36
-        w61 = Y1_2 * w26
-        w62 = -60.0 - w32 * Y1_0 + Y1_1 * w29 - w61
-        w63 = 0.5 * w62
-        w64 = w39 - w38
-        w65 = Y1_3 * w64
-        w66 = w45 * w58 - Y1_0 * w59 + Y1_1 * w60 + w30 * w63 + w65
-        w67 = (
-            -0.2 * (w32 * w58)
-            - w32 * w59
-            + w29 * w60
-            + 0.016666666666666666 * (w29 * w63)
-            + 120.0 * w66
-        )
-        w68 = w44 * w58 - Y1_1 * w59 - Y1_0 * w60 + w35 * w63 + Y1_2 * w40
-        w69 = w67 + 5.0 * w68
-        w70 = (
-            -0.2 * (w29 * w58)
-            - w29 * w59
-            - w32 * w60
-            - 0.016666666666666666 * (w32 * w63)
-            + w26 * w64
-        )
-        w71 = Y1_3 * w59 + w43 * w58 - Y1_2 * w60 + w27 * w63 + Y1_0 * w64
-        w72 = (
-            -0.016666666666666666 * (w26 * w63)
-            - w26 * w60
-            - 120.0 * w71
-            + w32 * w40
-            - 2.0 * w68
-        )
-        w73 = w26 * w59 + 0.2 * (w26 * w58) + w29 * w64 + 2.0 * w66 - 5.0 * w71
-        d1_0 = Y1_0 * w69 - Y1_1 * w70 - Y1_3 * w72 + Y1_2 * w73
         x_0 = h * xi_0
         x_2 = h * xi_2
         x_1 = h * xi_1
@@ -453,27 +384,111 @@ def _advance(state, h, memory, statistics):
         w77 = x_0 * c1_2
         w79 = x_1 * c1_2
         Y_2 = q1 * w76 - q3 * w77 + (q0 * w79 + q2 * c0_2)
+        w84 = -0.016666666666666666 * Y_2
         Y_1 = q3 * w79 - q2 * w76 + (q0 * w77 + q1 * c0_2)
         w80 = 5.0 * Y_1 - 2.0 * Y_2
+        w85 = 0.016666666666666666 * Y_1
+        w90 = -0.2 * Y_1
         Y_0 = q0 * c0_2 - (q1 * w77 + q2 * w79 + q3 * w76)
         Y_3 = q2 * w77 - q1 * w79 + (q0 * w76 + q3 * c0_2)
         w81 = -120.0 * Y_2 - 5.0 * Y_3
         w82 = 120.0 * Y_1 + 2.0 * Y_3
         w83 = 1.0 - Y_0 * w81 + Y_2 * w80 - Y_3 * w82
-        w84 = -0.016666666666666666 * Y_2
-        w85 = 0.016666666666666666 * Y_1
+        w88 = 0.5 * (-60.0 - w80 * Y_0 + Y_1 * w82 - Y_2 * w81)
+        w93 = 0.5 * (2.5 - Y_0 * w82 - Y_1 * w80 + Y_3 * w81)
+        w89 = 0.2 * Y_3
         w86 = -0.016666666666666666 * Y_0
         w87 = w80 * w86 - 1.0 + w82 * w85 + w81 * w84
-        w88 = 0.5 * (-60.0 - w80 * Y_0 + Y_1 * w82 - Y_2 * w81)
-        w89 = 0.2 * Y_3
-        w90 = -0.2 * Y_1
         w91 = -0.2 * Y_0
         w92 = 0.5 + w82 * w91 + w80 * w90 + w81 * w89
-        w93 = 0.5 * (2.5 - Y_0 * w82 - Y_1 * w80 + Y_3 * w81)
+        c0_1, c1_1 = _stumpff_01(w19)
+        w21 = x1_0 * c1_1
+        w22 = x1_1 * c1_1
+        w24 = x1_2 * c1_1
+        Y1_3 = q2 * w21 - q1 * w22 + (q0 * w24 + q3 * c0_1)
+        w25 = -0.5 * Y1_3
+        w28 = 2.0 * Y1_3
+        w43 = 0.2 * Y1_3
+        w50 = -2.0 * Y1_3
+        w119 = 0.5 * Y1_3
+        w120 = 0.1 * Y1_3
+        Y1_2 = q1 * w24 - q3 * w21 + (q0 * w22 + q2 * c0_1)
+        w26 = -120.0 * Y1_2 - 5.0 * Y1_3
+        w56 = Y1_3 * w26
+        w61 = Y1_2 * w26
+        w27 = -0.016666666666666666 * Y1_2
+        w31 = -2.0 * Y1_2
+        w42 = 0.5 * Y1_2
+        w49 = 2.0 * Y1_2
+        w126 = -0.5 * Y1_2
+        w127 = -0.008333333333333333 * Y1_2
+        Y1_1 = q3 * w22 - q2 * w24 + (q0 * w21 + q1 * c0_1)
+        w34 = q1 * w21 + q2 * w22 + q3 * w24
+        w29 = 120.0 * Y1_1 + w28
+        w39 = Y1_3 * w29
+        w30 = 0.016666666666666666 * Y1_1
+        w32 = 5.0 * Y1_1 + w31
+        w37 = -2.0 * Y1_1
+        w44 = -0.2 * Y1_1
+        w47 = 2.0 * Y1_1
+        w121 = -0.5 * Y1_1
+        w122 = -0.1 * Y1_1
+        w128 = 0.5 * Y1_1
+        w129 = 0.008333333333333333 * Y1_1
+        w33 = q0 * c0_1
+        Y1_0 = w33 - w34
+        w35 = -0.016666666666666666 * Y1_0
+        w36 = w32 * w35 - 1.0 + w29 * w30 + w26 * w27
+        w60 = 0.5 * w36
+        w38 = 1.0 - w26 * Y1_0 + Y1_2 * w32
+        w40 = w38 - w39
+        w64 = w39 - w38
+        w65 = Y1_3 * w64
+        w41 = w36 * w37 + w28 * w40
+        w45 = -0.2 * Y1_0
+        w46 = 0.5 + w29 * w45 + w32 * w44 + w26 * w43
+        w48 = w46 * w47 + w31 * w40
+        w51 = w36 * w49 + w46 * w50
+        w59 = 0.5 * w46
+        w52 = 0.5 * Y1_0
+        w53 = -0.5 * Y1_0
+        w54 = 0.5 + w26 * w53 + w51 * w52 + w32 * w42 + w42 * w48 + w25 * w29
+        w55 = w25 * w41 + w54
+        w57 = 2.5 - w29 * Y1_0 - Y1_1 * w32 + w56
+        w58 = 0.5 * w57
+        w62 = -60.0 - w32 * Y1_0 + Y1_1 * w29 - w61
+        w63 = 0.5 * w62
+        w66 = w45 * w58 - Y1_0 * w59 + Y1_1 * w60 + w30 * w63 + w65
+        w68 = w44 * w58 - Y1_1 * w59 - Y1_0 * w60 + w35 * w63 + Y1_2 * w40
+        w71 = Y1_3 * w59 + w43 * w58 - Y1_2 * w60 + w27 * w63 + Y1_0 * w64
+        w72 = (
+            -0.016666666666666666 * (w26 * w63)
+            - w26 * w60
+            - 120.0 * w71
+            + w32 * w40
+            - 2.0 * w68
+        )
+        w73 = w26 * w59 + 0.2 * (w26 * w58) + w29 * w64 + 2.0 * w66 - 5.0 * w71
+        w67 = (
+            -0.2 * (w32 * w58)
+            - w32 * w59
+            + w29 * w60
+            + 0.016666666666666666 * (w29 * w63)
+            + 120.0 * w66
+        )
+        w69 = w67 + 5.0 * w68
+        w70 = (
+            -0.2 * (w29 * w58)
+            - w29 * w59
+            - w32 * w60
+            - 0.016666666666666666 * (w32 * w63)
+            + w26 * w64
+        )
+        d1_0 = Y1_0 * w69 - Y1_1 * w70 - Y1_3 * w72 + Y1_2 * w73
         w113 = Y1_3 * w69 - Y1_2 * w70 + Y1_0 * w72
+        d1_2 = Y1_1 * w72 - (Y1_3 * w70 + Y1_2 * w69) + Y1_0 * w73
         w114 = Y1_1 * w73
         d1_1 = w113 - w114
-        d1_2 = Y1_1 * w72 - (Y1_3 * w70 + Y1_2 * w69) + Y1_0 * w73
         w115 = (
             w87 * w88
             + w92 * w93
@@ -487,17 +502,9 @@ def _advance(state, h, memory, statistics):
         D_2 = d1_2 + x_2 * w116
         w117 = d1_0 * d1_0 + d1_1 * d1_1 + d1_2 * d1_2
         w118 = quotient(d1_0 * D_0 + d1_1 * D_1 + d1_2 * D_2, w117)
-        w119 = 0.5 * Y1_3
-        w120 = 0.1 * Y1_3
-        w121 = -0.5 * Y1_1
-        w122 = -0.1 * Y1_1
         w123 = -0.1 * Y1_0
         w124 = 0.25 + w29 * w123 + w41 * w52 + w32 * w122 + w48 * w121 + w26 * w120
         w125 = w51 * w119 + w124
-        w126 = -0.5 * Y1_2
-        w127 = -0.008333333333333333 * Y1_2
-        w128 = 0.5 * Y1_1
-        w129 = 0.008333333333333333 * Y1_1
         w130 = -0.008333333333333333 * Y1_0
         w131 = w32 * w130 - 0.5 + w48 * w52 + w29 * w129 + w41 * w128 + w26 * w127
         w132 = w51 * w126 + w131
@@ -1229,7 +1236,7 @@ def _continued(state, h, memory, statistics):
             factor = factor**0.5 if found is not None else factor
         else:
             found, solved = memory.past[0], part
-            memory.past, memory.guess = [found], found
+            memory.past, memory.guess, memory.degree = [found], found, 0
             if part >= 1.0:
                 if statistics is not None:
                     statistics.failed = 0

@@ -29,7 +29,7 @@ Use:
     print(heavy_top_slgi_midpoint.run(state, 0.01, 100))
 """
 
-from math import cos, fabs, isfinite, sin, sqrt
+from math import comb, cos, fabs, isfinite, sin, sqrt
 
 OK = 0
 NOT_CONVERGED = 1
@@ -86,7 +86,7 @@ def _failed(status, label, block, sweep, statistics):
 class _Memory:
     """What one step of a run leaves for the next.
 
-    past: the last solution of its equations and its backward differences, the first first;
+    past: the last solutions of its equations, the latest first; count: of all;
     guess: the polynomial through the last solutions, continued by a step; inverses: of Newton's
     matrices, by block.
     """
@@ -104,23 +104,30 @@ class _Memory:
             if self.first > 0.5 * moved:
                 self.past, self.degree = [], 0
         self.first = 0.0
-        rows = [found]
-        for row in self.past[:15]:
-            rows.append([x - y for x, y in zip(rows[-1], row)])
-        self.past = rows
+        self.past = [found, *self.past[:15]]
         self.count += 1
-        if len(rows) < 16 or self.count % 16 % 8 == 0:
-            self.choose(self.degree, [_size(row) for row in rows])
-        self.guess = found
-        for row in rows[1 : self.degree + 1]:
-            self.guess = [x + y for x, y in zip(self.guess, row)]
+        if len(self.past) < 16 or self.count % 16 % 8 == 0:
+            self.choose()
+        self.guess = [-x for x in self.difference(self.degree + 1, 1)]
 
-    def choose(self, k, sizes):
-        """Let the degree grow while the differences fall; of many, they are seldom looked at."""
-        if k + 1 < len(sizes) and sizes[k + 1] < sizes[k]:
+    def choose(self):
+        """Let the degree grow while differences fall; of many, they are seldom looked at."""
+        k, size = self.degree, _size(self.difference(self.degree, 0))
+        if k + 1 < len(self.past) and _size(self.difference(k + 1, 0)) < size:
             self.degree = k + 1
-        elif k > 0 and sizes[k] > sizes[k - 1]:
+        elif k > 0 and size > _size(self.difference(k - 1, 0)):
             self.degree = k - 1
+
+    def difference(self, order, first):
+        """Return a backward difference without its first terms, which were of later solutions."""
+        rows = range(first, order + 1)
+        factors = [float((-1) ** j * comb(order, j)) for j in rows]
+        terms = [[f * x for x in row] for f, row in zip(factors, self.past)]
+        pairs = [[x + y for x, y in zip(*pair)] for pair in zip(terms[::2], terms[1::2])]
+        total, *rest = pairs + (terms[-1:] if len(terms) % 2 else [])
+        for pair in rest:
+            total = [x + y for x, y in zip(total, pair)]
+        return total
 
 
 def _size(row):
@@ -370,35 +377,28 @@ def _advance(state, h, memory, statistics):
     for sweep in range(1, 101):
         Y_0 = h * xi1_0
         Y_1 = h * xi1_1
+        w6 = mu0 * Y_1 - mu1 * Y_0
         Y_2 = h * xi1_2
         w1 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2
-        c2_1, c3_1 = _stumpff_23(w1)
-        w2 = c2_1
         w3 = mu1 * Y_2 - mu2 * Y_1
+        w17 = Y_0 * w6 - Y_2 * w3
         w5 = mu2 * Y_0 - mu0 * Y_2
-        w6 = mu0 * Y_1 - mu1 * Y_0
         w7 = Y_2 * w5 - Y_1 * w6
+        w19 = Y_1 * w3 - Y_0 * w5
         z_0 = xi1_0 * w8
         z_1 = xi1_1 * w8
+        w13 = n1_1 * z_0 - n1_0 * z_1
         z_2 = xi1_2 * w8
         w9 = z_0 * z_0 + z_1 * z_1 + z_2 * z_2
-        c2_2, c3_2 = _stumpff_23(w9)
-        w10 = c2_2
         w11 = n1_2 * z_1 - n1_1 * z_2
-        w13 = n1_1 * z_0 - n1_0 * z_1
+        w18 = z_2 * w11 - z_0 * w13
         w14 = n1_0 * z_2 - n1_2 * z_0
         w15 = z_1 * w13 - z_2 * w14
-        M1_0 = mu0 - w2 * w3 + w7 * c3_1 + w16 * (n1_0 - w10 * w11 + w15 * c3_2)
-        w17 = Y_0 * w6 - Y_2 * w3
-        w18 = z_2 * w11 - z_0 * w13
-        M1_1 = mu1 - w2 * w5 + w17 * c3_1 + w16 * (n1_1 - w10 * w14 + w18 * c3_2)
-        w19 = Y_1 * w3 - Y_0 * w5
         w20 = z_0 * w14 - z_1 * w11
-        M1_2 = mu2 - w2 * w6 + w19 * c3_1 + w16 * (n1_2 - w10 * w13 + w20 * c3_2)
         X1_2 = xi1_2 * w16
+        w21 = X1_2 * X1_2
         X1_0 = xi1_0 * w16
         X1_1 = xi1_1 * w16
-        w21 = X1_2 * X1_2
         w22 = X1_0 * X1_0 + X1_1 * X1_1 + w21
         c1_1, c2_3 = _stumpff_12(w22)
         w24 = X1_2 * c1_1
@@ -417,6 +417,13 @@ def _advance(state, h, memory, statistics):
             + g02 * (1.0 - (w29 + X1_1 * w30))
             + g22 * (X1_2 * w26 + X1_1 * c1_1)
         )
+        c2_2, c3_2 = _stumpff_23(w9)
+        w10 = c2_2
+        c2_1, c3_1 = _stumpff_23(w1)
+        w2 = c2_1
+        M1_0 = mu0 - w2 * w3 + w7 * c3_1 + w16 * (n1_0 - w10 * w11 + w15 * c3_2)
+        M1_1 = mu1 - w2 * w5 + w17 * c3_1 + w16 * (n1_1 - w10 * w14 + w18 * c3_2)
+        M1_2 = mu2 - w2 * w6 + w19 * c3_1 + w16 * (n1_2 - w10 * w13 + w20 * c3_2)
         next_xi1_0 = 0.001 * M1_0
         next_xi1_1 = 0.0002 * M1_1
         next_xi1_2 = 0.00016666666666666666 * M1_2
@@ -759,7 +766,7 @@ def _continued(state, h, memory, statistics):
             factor = factor**0.5 if found is not None else factor
         else:
             found, solved = memory.past[0], part
-            memory.past, memory.guess = [found], found
+            memory.past, memory.guess, memory.degree = [found], found, 0
             if part >= 1.0:
                 if statistics is not None:
                     statistics.failed = 0

@@ -50,6 +50,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     imports = ["isfinite"] if single else library
     if kernel.estimate is not None:
         imports = sorted({*imports, "copysign", "inf", "sqrt"})
+    if kernel.start is not None:
+        imports = sorted({*imports, "comb"})
     arrays = ["errstate", "float32", *(n for n in library if n != "isfinite")] if single else []
     parameters = [names.spelled[p] for p in interface.parameters]
     arguments = parameters

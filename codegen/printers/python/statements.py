@@ -19,7 +19,7 @@ _WORDS = """
     sqrt sin cos exp log sinh cosh inf isfinite still close quotient signed_stumpff0 signed_stumpff1
     state statistics steps step stride trajectory run row rows sweep change scale total
     settled error failure labels count made new memory invert fabs slope2 slope3
-    float32 errstate inputs _sampled copysign
+    float32 errstate inputs _sampled copysign comb
     end now size left last taken then rtol atol limit refused before shrunk norm wish factor
     LIMIT vector jacobian columns column _vary _substep fraction offset enumerate k
     OK NOT_CONVERGED NOT_FINITE BAD_STEP StepFailed Statistics

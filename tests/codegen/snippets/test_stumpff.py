@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 
 import mpmath
 import numpy as np
@@ -134,6 +135,27 @@ def test_no_branch_jumps_at_its_switch(compiled, k):
     for z in (float(TINY), float(SMALL), float(SWITCH[k])):
         below, above = compiled((k,), z)[0], compiled((k,), math.nextafter(z, 9))[0]
         assert abs(below - above) <= 2 * math.ulp(below)
+
+
+@pytest.mark.parametrize("last", [TINY, SMALL])
+@pytest.mark.parametrize("k", range(4))
+def test_short_polynomials_err_by_half_a_unit_and_no_shorter_ones_would(k, last):
+    terms = economised(k, last)
+
+    def error(terms):
+        places = [last * j / 400 for j in range(401)]
+        return max(
+            abs(sum(c * z**j for j, c in enumerate(terms)) - c_k(k, z)) * math.factorial(k) for z in places
+        )
+
+    assert error(terms) <= Fraction(1, 2**54)
+    assert error(coefficients(k, last, 60)[: len(terms)]) > error(terms)
+    assert terms[0] == Fraction(1, math.factorial(k))
+
+
+def c_k(k, z):
+    """The series, exact to far beyond a double."""
+    return sum(Fraction((-1) ** j, math.factorial(2 * j + k)) * z**j for j in range(14))
 
 
 def test_at_zero_the_values_are_exact(compiled):
