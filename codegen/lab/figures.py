@@ -10,7 +10,7 @@ from __future__ import annotations
 import io
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -49,6 +49,9 @@ LIGHT = {
 """The page's variables in a picture that stands alone, on white."""
 SIZE = (4.7, 3.9)
 """Inches; on a phone the picture is about as wide as its view box, so that text keeps its size."""
+
+LINE = 0.175
+"""Inches that a line of labels takes; pictures with more than three are higher by that."""
 
 
 @dataclass(frozen=True)
@@ -111,6 +114,35 @@ def growth_figure(name: str, curves: Sequence[Curve], label: str) -> str:
     return _svg(figure, name)
 
 
+PLANE = (-8.0, 4.0, -6.0, 6.0)
+"""The part of the complex plane that a picture of linear stability shows: real axis, then imaginary."""
+
+GRID = 121
+"""Points a side on which a stability function is evaluated."""
+
+
+def region_figure(name: str, functions: Sequence[tuple[str, int, Callable[[complex], complex]]]) -> str:
+    """Return the boundaries |R(z)| = 1 of stability functions, given with label and place.
+
+    Zero lies on every boundary; what lies next to it on the left is stable.
+    """
+    left, right, low, high = PLANE
+    xs, ys = ([a + (b - a) * k / (GRID - 1) for k in range(GRID)] for a, b in ((left, right), (low, high)))
+    figure, axes = _canvas(log=False)
+    axes.axhline(0.0, color=MUTED, linewidth=0.6)
+    axes.axvline(0.0, color=MUTED, linewidth=0.6)
+    for label, place, value in functions:
+        sizes = [[min(abs(value(complex(x, y))), 1e3) for x in xs] for y in ys]
+        colour = SERIES[place % len(SERIES)]
+        axes.contour(xs, ys, sizes, levels=[1.0], colors=[colour], linewidths=1.3)
+        axes.plot([], [], color=colour, label=label)
+    axes.set_aspect("equal")
+    axes.set_xlabel("real part of hλ")
+    axes.set_ylabel("imaginary part of hλ")
+    _legend(figure)
+    return _svg(figure, name)
+
+
 STYLE: dict[str, Any] = {
     "svg.fonttype": "none",
     "font.size": 9,
@@ -133,7 +165,7 @@ STYLE: dict[str, Any] = {
 }
 
 
-def _canvas() -> tuple[Any, Any]:
+def _canvas(*, log: bool = True) -> tuple[Any, Any]:
     import matplotlib
     from matplotlib.backends.backend_svg import FigureCanvasSVG
     from matplotlib.figure import Figure
@@ -142,8 +174,9 @@ def _canvas() -> tuple[Any, Any]:
         figure = Figure(figsize=SIZE, layout="constrained")
         FigureCanvasSVG(figure)
         axes = figure.add_subplot()
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    if log:
+        axes.set_xscale("log")
+        axes.set_yscale("log")
     axes.grid(color=RULE, linewidth=0.5)
     axes.set_axisbelow(True)
     return figure, axes
@@ -151,8 +184,11 @@ def _canvas() -> tuple[Any, Any]:
 
 def _legend(figure: Any) -> None:
     """Put the labels above the axes, where no curve can run into them."""
-    if not any(axes.get_legend_handles_labels()[1] for axes in figure.axes):
+    labels = sum(len(axes.get_legend_handles_labels()[1]) for axes in figure.axes)
+    if not labels:
         return
+    width, height = SIZE
+    figure.set_size_inches(width, height + LINE * max(0, (labels + 1) // 2 - 3))
     figure.legend(
         loc="outside upper left",
         ncols=2,
@@ -170,7 +206,7 @@ def _draw(axes: Any, curves: Sequence[Curve], *, marked: bool = True) -> None:
         colour = SERIES[k % len(SERIES)]
         x, y = zip(*curve.points, strict=True)
         style = {"linestyle": (0, (3, 2)), "linewidth": 0.9, "markerfacecolor": "none"} if curve.peer else {}
-        marker = MARKERS[k % len(MARKERS)] if marked else ""
+        marker = MARKERS[(k + 3 * (k // len(SERIES))) % len(MARKERS)] if marked else ""
         axes.plot(x, y, color=colour, marker=marker, label=curve.label, clip_on=False, **style)
     _ticks(axes.yaxis, power_of_ten)
 
@@ -236,8 +272,9 @@ def standalone(svg: str, title: str) -> str:
     for variable, value in LIGHT.items():
         svg = svg.replace(variable, value)
     head = svg.index(">") + 1
-    width, height = (72 * x for x in SIZE)
-    paper = f'<title>{title}</title><rect width="{width:g}" height="{height:g}" fill="#ffffff"/>'
+    size = re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', svg)
+    width, height = size.groups() if size else ("100%", "100%")
+    paper = f'<title>{title}</title><rect width="{width}" height="{height}" fill="#ffffff"/>'
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{svg[:head]}{paper}{svg[head:]}\n'
 
 

@@ -105,7 +105,9 @@ def _scene(survey: Survey) -> dict[str, Any]:
         "advice": advice.section(survey.advice) if survey.advice else None,
         "orders": orders.section(survey.orders, scene, again(survey, ORDERS)) if survey.orders else None,
         "cost": cost.section(survey.cost, bench_again(survey)) if survey.cost else None,
-        "stability": stability.section(survey.stability) if survey.stability else None,
+        "stability": stability.section(survey.stability, again(survey, STABILITY))
+        if survey.stability
+        else None,
         "long": longruns.section(survey.longruns, again(survey, LONG)) if survey.longruns else None,
         "again": {part: again(survey, part) for part in (ORDERS, COST, STABILITY, LONG)},
     }

@@ -6,17 +6,21 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
-from codegen.lab.page.spelling import scientific
+from markupsafe import Markup
+
+from codegen.lab.figures import region_figure
+from codegen.lab.page.spelling import Picture, scientific
 from codegen.lab.stability.endurance import Endurance
 from codegen.lab.stability.extremes import ACCURATE, WRONG, Answer
 from codegen.lab.stability.study import Stability
 
 
-def section(found: Sequence[Stability]) -> dict[str, Any]:
-    """Return what the templates need of the stability of methods."""
+def section(found: Sequence[Stability], again: str) -> dict[str, Any]:
+    """Return what the templates need of the stability of methods; ``again`` is the command for it."""
     stiff = [(s, v) for s in found for v in s.stiff]
     return {
         "rows": [_row(s) for s in found],
+        "picture": _picture(found, again),
         "cases": [_cases(s) for s in found],
         "variants": [
             {"variant": name, "verdicts": [(s.method, v.verdict) for s, v in stiff if v.variant == name]}
@@ -25,6 +29,18 @@ def section(found: Sequence[Stability]) -> dict[str, Any]:
         "endurance": [(s.method, e.name, _ended(e)) for s in found for e in s.endurance],
         "notes": list(dict.fromkeys(note for s in found for note in s.notes)),
     }
+
+
+def _picture(found: Sequence[Stability], again: str) -> Picture | None:
+    functions = [(s.method, k, s.region.value) for k, s in enumerate(found) if s.region is not None]
+    if not functions:
+        return None
+    return Picture(
+        Markup(region_figure(f"{found[0].scene} regions", functions)),
+        "Where |R(hλ)| = 1, the boundary of linear stability for y′ = λy. Zero lies on each; what lies next "
+        "to it on the left is stable.",
+        again,
+    )
 
 
 def _row(found: Stability) -> dict[str, Any]:

@@ -11,8 +11,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from codegen.errors import MethodError
 from codegen.method import Method
+from orderconds.errors import InputError
 from orderconds.tableau.stability import stability_function
 
 FARTHEST = 100.0
@@ -41,12 +41,12 @@ class Region:
 
 
 def region(method: Method) -> Region | None:
-    """Return the linear stability of a method's tableau, None for those without A and b or an exact ring."""
+    """Return the linear stability of what a tableau is on R^n, None for splittings and inexact rings."""
     tableau = method.tableau
     try:
-        R = stability_function(method.runge_kutta(), tableau.ring)
+        R = stability_function(tableau.abelian(), tableau.ring)
         rows = [[float(tableau.ring.approximate(x, 20)) for x in p] for p in (R.numerator, R.denominator)]
-    except (MethodError, TypeError, ValueError, ArithmeticError, AttributeError):
+    except (InputError, TypeError, ValueError, ArithmeticError, AttributeError):
         return None
 
     def value(z: complex) -> complex:

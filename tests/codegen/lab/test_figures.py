@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from codegen.lab.figures import Curve, convergence_figure, efficiency_figure
+from codegen.lab.figures import Curve, convergence_figure, efficiency_figure, growth_figure, region_figure
 
 CURVES = [
     Curve("cg:cg3", tuple((0.4 / 2**k, 1e-2 * (0.4 / 2**k) ** 3) for k in range(6)), 3),
@@ -15,7 +15,13 @@ CURVES = [
 ]
 
 
-@pytest.fixture(params=[convergence_figure, efficiency_figure])
+def regions(name: str, curves: list[Curve], label: str) -> str:
+    """Draw a disk and a half plane under the labels of the curves."""
+    functions = [(curves[0].label, 0, lambda z: 1 + z), (curves[1].label, 1, lambda z: (2 + z) / (2.1 - z))]
+    return region_figure(name, functions).replace("imaginary part of hλ", label)
+
+
+@pytest.fixture(params=[convergence_figure, efficiency_figure, growth_figure, regions])
 def svg(request: pytest.FixtureRequest) -> str:
     return str(request.param("a figure", CURVES, "error at t = 2"))
 
@@ -60,3 +66,19 @@ def test_a_reference_line_is_dashed_for_each_order_once() -> None:
     text = convergence_figure("x", [*CURVES, Curve("again", CURVES[0].points, 3)], "e")
     assert len(re.findall("stroke-dasharray", text)) == 2
     assert {"h³", "h⁴"} <= set(re.findall(r">([^<>\n]+)</text>", text))
+
+
+def test_the_boundary_of_stability_is_where_the_function_has_modulus_one() -> None:
+    """Of Euler's method the circle of radius one about -1: its points in the picture lie on a circle."""
+    svg = region_figure("euler", [("euler", 0, lambda z: 1 + z)])
+    (path,) = (d for d in re.findall(r'<path d="([^"]+)"[^>]*stroke: var\(--series-1\)', svg) if len(d) > 500)
+    points = [tuple(map(float, p)) for p in re.findall(r"[ML] ([\d.]+) ([\d.]+)", path)]
+    x, y = (sum(c) / len(points) for c in zip(*points, strict=True))
+    radii = [((a - x) ** 2 + (b - y) ** 2) ** 0.5 for a, b in points]
+    assert max(radii) < 1.03 * min(radii)
+
+
+def test_curves_keep_the_place_that_they_are_given() -> None:
+    moved = [Curve(c.label, c.points, place=4) for c in CURVES[:1]]
+    assert "--series-5" in efficiency_figure("x", moved, "e")
+    assert "--series-1)" not in efficiency_figure("x", moved, "e")
