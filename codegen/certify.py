@@ -12,8 +12,8 @@ from codegen.method import Method
 from codegen.setting import Setting
 
 if TYPE_CHECKING:
-    from orderconds.check import Failure
     from orderconds.families import Family
+    from orderconds.residuals import Failure
 
 
 @dataclass(frozen=True)

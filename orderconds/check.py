@@ -7,7 +7,7 @@ Certificates. ``exact``: every residual up to the order is zero in an exact ring
 which equations its decimals solve, and interval arithmetic proves that they have one solution within the last
 digits, which has the order (:mod:`orderconds.proof`). ``decimal``: some residuals are balls that contain
 zero, so the order is what the printed digits support, and no more than that is claimed: a ball never
-proves zero. A ball too wide to speak (see :data:`RESOLUTION`) leaves the
+proves zero. A ball too wide to speak (see :data:`orderconds.residuals.RESOLUTION`) leaves the
 order ``undecided`` and its certificate ``none``; one that excludes zero proves that the condition fails.
 """
 
@@ -17,9 +17,8 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Context, Decimal
-from functools import cached_property, partial
+from functools import partial
 from itertools import chain, islice
-from math import factorial
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -28,7 +27,8 @@ from orderconds import families
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
 from orderconds.families import Family
-from orderconds.ring import Balls, Element, Ring
+from orderconds.residuals import Failure, judge
+from orderconds.ring import Balls, Ring
 from orderconds.served import served, unclaimed
 from orderconds.tableau import Magnus, RungeKutta, Splitting, Tableau, find
 from orderconds.tableau.properties import properties, undecided
@@ -38,10 +38,6 @@ if TYPE_CHECKING:
     from orderconds.proof.certificate import Certificate
     from orderconds.proof.implications import Fact
     from orderconds.proof.reductions import Reductions
-
-RESOLUTION = Decimal("1e-3")
-"""A ball supports a condition of order n only when its radius is at most this part of 1/n!, the smallest
-exact value that an elementary integral of that order takes."""
 
 SEARCH_LIMIT = 8
 """How far to search where a family has no ``search_limit`` of its own; one beyond the claim in any case."""
@@ -58,38 +54,6 @@ batch in which one fails; those that fail in it are named, and the error norm is
 
 Tree = tuple[Any, Callable[[], OrderCondition]]
 """A family's own encoding of a tree, and its condition, made where it is evaluated."""
-
-
-@dataclass(frozen=True)
-class Failure:
-    """A condition that does not hold; ``value``, an element of ``ring``, is the method's minus the exact
-    flow's."""
-
-    condition: OrderCondition
-    ring: Ring = field(repr=False)
-    value: Element
-
-    @cached_property
-    def residual(self) -> str:
-        """The residual, exact where the ring is."""
-        return self.ring.text(self.value)
-
-    @cached_property
-    def decimal(self) -> str:
-        """The residual to 20 digits."""
-        return self.ring.approximate(self.value)
-
-    def as_json(self) -> dict[str, object]:
-        """Return the JSON object of one failing condition."""
-        return {
-            "order": self.condition.order,
-            "tree": self.condition.tree,
-            "expression": self.condition.expression,
-            "residual": self.residual,
-        }
-
-    def __str__(self) -> str:
-        return f"{self.condition.tree}: {self.condition}, residual {self.residual} ({self.decimal})"
 
 
 @dataclass(frozen=True)
@@ -426,6 +390,7 @@ def _search(
     brief: bool = False,
 ) -> FamilyOrder:
     limit = max(_limit(family), (claimed or 0) + 1, (required or 0) + 1)
+    expected = limit if claimed is None else claimed
     certificate = "exact"
     for n in range(1, limit + 1):
         failing: tuple[Failure, ...] = ()
@@ -436,21 +401,15 @@ def _search(
         for trees, every in () if spared.order_follows(n) else _batches(family, n):
             whole = every
             batch = tuple(condition() for key, condition in trees if not (known and spared.follows(n, key)))
-            residuals = families.residuals(family, method, ring, batch)
-            judged = [_judge(ring, residual, n) for residual in residuals]
-            verdicts.update(judged)
-            failing = tuple(
-                Failure(condition, ring, residual)
-                for condition, residual, verdict in zip(batch, residuals, judged, strict=True)
-                if verdict == "fails"
-            )
-            if failing or (not every and set(judged) == {"zero"} and spared.rest_follows(n)):
+            judged, failing = judge(family, method, ring, batch, n > expected)
+            verdicts |= judged
+            if failing or (not every and judged == {"zero"} and spared.rest_follows(n)):
                 break
         if failing or "undecided" in verdicts:
             decided, norm = bool(failing), None
             certificate = certificate if decided else "none"
             if failing and whole:
-                norm = _norm([failure.decimal for failure in failing])
+                norm = _norm([failure.size for failure in failing])
             return FamilyOrder(family.label(), n - 1, certificate, decided, failing, norm, claimed, required)
         if "supported" in verdicts:
             certificate = "decimal"
@@ -487,11 +446,11 @@ def _made(condition: OrderCondition) -> OrderCondition:
     return condition
 
 
-def _norm(decimals: list[str]) -> float:
+def _norm(sizes: list[Decimal]) -> float:
     """Return the 2-norm, to 15 digits."""
     context = Context(prec=30)
     total = Decimal(0)
-    for x in map(Decimal, decimals):
+    for x in sizes:
         total = context.fma(x, x, total)
     return float(f"{context.sqrt(total):.14e}")
 
@@ -579,12 +538,3 @@ def _missing_claims(tableau: Tableau, names: Sequence[str]) -> Iterator[str]:
         least = " at least" if found.limit is not None or not found.decided else ""
         order = f"its order there is{least} {found.order}"
         yield f"no order is claimed in family {name}, which it can serve: {order}"
-
-
-def _judge(ring: Ring, residual: Element, n: int) -> str:
-    """Say ``zero``, ``fails``, ``supported`` (a narrow ball around zero) or ``undecided`` (a wide one)."""
-    zero = ring.is_zero(residual)
-    if zero is not None:
-        return "zero" if zero else "fails"
-    radius = Decimal(ring.radius(residual))  # type: ignore[attr-defined]  # only balls answer None
-    return "supported" if radius <= RESOLUTION / factorial(n) else "undecided"
