@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import replace
 from typing import Any, Protocol
@@ -95,6 +95,7 @@ def interpret(
     limit: int = 400,
     newton: bool = True,
     solutions: dict[Var, Any] | None = None,
+    near: list[list[Any]] | None = None,
 ) -> dict[str, Any]:
     """Return the new state after one step, by input name.
 
@@ -102,10 +103,12 @@ def interpret(
     of scalars (group elements row by row). Blocks are iterated until the domain says they stand still; one
     that takes long or fails is solved by Newton's method with difference quotients where the domain has them
     (and ``newton``). After ``limit`` sweeps of either :class:`NotConverged` names the block. ``solutions``
-    are what unknowns are expected to be, to begin with; they receive what was found.
+    are what unknowns are expected to be, to begin with; they receive what was found. ``near`` instead gives
+    numbers near the unknowns, a list for each block in the order they are solved, where Newton's method
+    begins at once; they are replaced by what was found.
     """
     if program.substeps:
-        return _composed(program, setting, domain, inputs, limit, newton)
+        return _composed(program, setting, domain, inputs, limit, newton, near)
     expected = {} if solutions is None else solutions
     env: dict[Var, Any] = {v: inputs[v.name] for v in program.inputs}
 
@@ -116,6 +119,8 @@ def interpret(
     for statement in program.body:
         if isinstance(statement, Assign):
             run(statement)
+        elif near is not None:
+            near.append(_correct(statement, env, domain, run, limit, near.pop(0)))
         else:
             patience = getattr(domain, "patience", limit) if newton else limit
             try:
@@ -129,7 +134,13 @@ def interpret(
 
 
 def _composed(
-    program: Program, setting: Setting, domain: Domain, inputs: Mapping[str, Any], limit: int, newton: bool
+    program: Program,
+    setting: Setting,
+    domain: Domain,
+    inputs: Mapping[str, Any],
+    limit: int,
+    newton: bool,
+    near: list[list[Any]] | None,
 ) -> dict[str, Any]:
     """Return the new state after all substeps."""
     once, state = replace(program, substeps=()), dict(inputs)
@@ -138,7 +149,7 @@ def _composed(
         shorter.h = domain.number(step.fraction) * domain.h
         if "t" in inputs:
             state["t"] = inputs["t"] + domain.number(step.offset) * domain.h
-        state |= interpret(once, setting, shorter, state, limit=limit, newton=newton)
+        state |= interpret(once, setting, shorter, state, limit=limit, newton=newton, near=near)
     return {name: state[name] for name, _ in program.outputs}
 
 
@@ -161,8 +172,14 @@ def _iterate(
     raise NotConverged(f"{block.label} did not settle in {limit} sweeps; the last change was {size}")
 
 
-def _correct(block: Solve, env: dict[Var, Any], domain: Any, run: Any, limit: int) -> None:
-    """Solve a block by Newton's method with difference quotients: no formula is differentiated."""
+def _correct(
+    block: Solve, env: dict[Var, Any], domain: Any, run: Any, limit: int, near: Sequence[Any] | None = None
+) -> list[Any]:
+    """Solve a block by Newton's method with difference quotients: no formula is differentiated.
+
+    It begins at ``near``, by default where the block starts; the unknowns are returned. A domain may say how
+    images are ``rounded``.
+    """
     kinds = [u.kind for u in block.unknowns]
     widths = [len(flatten(s.kind, env[s])) for s in block.starts]
 
@@ -174,9 +191,10 @@ def _correct(block: Solve, env: dict[Var, Any], domain: Any, run: Any, limit: in
             place += width
         for assign in block.body:
             run(assign)
-        return [x for v in block.images for x in flatten(v.kind, env[v])]
+        return rounded([x for v in block.images for x in flatten(v.kind, env[v])])
 
-    now = [x for s in block.starts for x in flatten(s.kind, env[s])]
+    rounded = getattr(domain, "rounded", list)
+    now = [x for s in block.starts for x in flatten(s.kind, env[s])] if near is None else list(near)
     size, sharp = None, False
     for _ in range(limit):
         found = images(now)
@@ -193,7 +211,7 @@ def _correct(block: Solve, env: dict[Var, Any], domain: Any, run: Any, limit: in
         if done or sharp:
             images(now)
             if sharp:
-                return
+                return now
             sharp = True  # once more: a fixed point that settles slowly leaves some rounding errors
     raise NotConverged(f"{block.label} did not settle in {limit} sweeps; the last change was {size}")
 

@@ -84,14 +84,14 @@ class Loop:
     - unknowns, and the unknowns keep the values that the last body was computed from; with it the change is
     that times the inverse of ``newton.matrix``, and the last change is made too.
 
-    With the largest change d and its predecessor e, both in units of max(1, largest unknown), the iteration
-    has converged when d <= ``tolerance`` and d >= e (it stands still), or d <= ``close`` and
-    r d <= ``UNIT`` with the rate r = d/e (the next change would be below rounding). In the first sweep r is
-    the last rate of the step before, where the kernel has a :class:`Start`, doubled for each step that has
-    ended in its first sweep since; after ``limit`` sweeps without that it has
-    failed, and so has a change that is not finite, and Newton's method where a matrix just made gives no
-    smaller change than the sweep before. ``read_anew`` says that nothing but the unknowns is read
-    after the loop, so that the last change may be larger.
+    With the largest change d and its predecessor e, both in units of the largest unknown, the iteration
+    has converged when d >= e (it stands still) and d <= ``tolerance``, where an unknown below one counts
+    as one, or d <= ``close`` and r d <= ``UNIT`` with the rate r = d/e (the next change would be below
+    rounding). In the first sweep r is the last rate of the step before, where the kernel has a
+    :class:`Start`, doubled for each step that has ended in its first sweep since; after ``limit`` sweeps
+    without that it has failed, and so has a change that is not finite, and Newton's method where a matrix
+    just made gives no smaller change than the sweep before. ``read_anew`` says that nothing but the
+    unknowns is read after the loop, so that the last change may be larger.
     """
 
     label: str
@@ -122,17 +122,6 @@ class Loop:
             return 16 * self.tolerance
         first_order = self.solver == CHORD or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
-
-    def settled(self, change: float, previous: float, scale: float) -> bool:
-        """Return whether a change ends the iteration; ``previous`` is 0 in the first sweep.
-
-        >>> loop = Loop("x", (), (), (), ())
-        >>> loop.settled(1e-15, 1e-13, 1.0), loop.settled(1e-15, 2e-15, 1.0), loop.settled(1e-15, 0.0, 1.0)
-        (True, False, False)
-        """
-        if change <= self.close * scale and change * change <= UNIT * scale * previous:
-            return True
-        return previous > 0 and previous <= change <= self.tolerance * scale
 
 
 @dataclass(frozen=True)

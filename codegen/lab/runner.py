@@ -106,6 +106,11 @@ class Emitted:
         return load(self.emission)
 
     @cached_property
+    def twin(self) -> Emitted:
+        """The same step emitted to Python, which can be looked into."""
+        return Emitted(self.compiled, "python", self.order)
+
+    @cached_property
     def initial(self) -> list[float]:
         """The scene's initial state in doubles."""
         return list(self.compiled.scene.initial(FloatDomain(0.0)))

@@ -1313,7 +1313,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
 /*
  * Make a step whose equations do not settle: without the solutions before, which may mislead where the motion
  * changes; then for a shorter step, whose solution is continued in h as far at a time as it can be followed.
- * It is the one that tends to the motion as h tends to zero.
+ * It is the one that tends to the motion as h tends to zero. A step of no length changes nothing.
  */
 static int continued(double state[static 12], double h, struct memory *memory,
     dipole_vcf_cf4_statistics *statistics)
@@ -1321,6 +1321,14 @@ static int continued(double state[static 12], double h, struct memory *memory,
     double guess[12] = {0.0};
     double solved = 0.0, part = 1.0, factor = 2.0;
     int status = DIPOLE_VCF_CF4_NOT_CONVERGED;
+    if (!(h < 0.0 || h > 0.0)) {
+        for (size_t i = 0; i < 12; i++) {
+            if (!isfinite(state[i])) {
+                return DIPOLE_VCF_CF4_NOT_FINITE;
+            }
+        }
+        return DIPOLE_VCF_CF4_OK;
+    }
     for (int tries = 0; tries < 100 && factor > 1.00390625; tries++) {
         double trial[12];
         memcpy(trial, state, sizeof trial);

@@ -1436,8 +1436,10 @@ def _continued(state, h, memory, statistics):
 
     They are tried without the solutions before. Then those of a shorter step are solved, and the
     solution is continued in h, as far at a time as it can be followed: it is the one that tends
-    to the motion as h tends to zero.
+    to the motion as h tends to zero. A step of no length changes nothing.
     """
+    if h == 0.0 and all(map(isfinite, state)):
+        return state
     solved, part, factor, found, failure = 0.0, 1.0, 2.0, None, None
     for _ in range(100):
         memory.__init__()

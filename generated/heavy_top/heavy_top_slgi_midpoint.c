@@ -701,8 +701,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double change = greater(greater(fabs(change_xi1_0), greater(fabs(change_xi1_1),
             fabs(change_xi1_2))), greater(fabs(change_n1_0), greater(fabs(change_n1_1),
             fabs(change_n1_2))));
-        const double scale = greater(greater(1.0, greater(fabs(xi1_0), fabs(xi1_1))),
-            greater(greater(fabs(xi1_2), fabs(n1_0)), greater(fabs(n1_1), fabs(n1_2))));
+        const double scale = greater(greater(fabs(xi1_0), greater(fabs(xi1_1), fabs(xi1_2))),
+            greater(fabs(n1_0), greater(fabs(n1_1), fabs(n1_2))));
         const int still = previous_1 > 0.0 && change >= previous_1;
         if (sweep == 1) {
             memory->first = greater(memory->first, change);
@@ -718,7 +718,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         n1_0 += change_n1_0;
         n1_1 += change_n1_1;
         n1_2 += change_n1_2;
-        if (close || (still && change <= 5.684341886080802e-14 * scale)) {
+        if (close || (still && change <= 5.684341886080802e-14 * greater(1.0, scale))) {
             count_sweeps(statistics, 0, sweep, 0);
             memory->rate_1 = sweep > 1 ? rate_1 : 2.0 * rate_1;
             break;
@@ -801,7 +801,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
 /*
  * Make a step whose equations do not settle: without the solutions before, which may mislead where the motion
  * changes; then for a shorter step, whose solution is continued in h as far at a time as it can be followed.
- * It is the one that tends to the motion as h tends to zero.
+ * It is the one that tends to the motion as h tends to zero. A step of no length changes nothing.
  */
 static int continued(double state[static 12], double h, struct memory *memory,
     heavy_top_slgi_midpoint_statistics *statistics)
@@ -809,6 +809,14 @@ static int continued(double state[static 12], double h, struct memory *memory,
     double guess[6] = {0.0};
     double solved = 0.0, part = 1.0, factor = 2.0;
     int status = HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED;
+    if (!(h < 0.0 || h > 0.0)) {
+        for (size_t i = 0; i < 12; i++) {
+            if (!isfinite(state[i])) {
+                return HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE;
+            }
+        }
+        return HEAVY_TOP_SLGI_MIDPOINT_OK;
+    }
     for (int tries = 0; tries < 100 && factor > 1.00390625; tries++) {
         double trial[12];
         memcpy(trial, state, sizeof trial);

@@ -641,7 +641,7 @@ def _advance(state, h, memory, statistics):
             abs(change_n1_2),
         )
         scale = max(
-            1.0,
+            0.0,
             abs(xi1_0),
             abs(xi1_1),
             abs(xi1_2),
@@ -649,7 +649,7 @@ def _advance(state, h, memory, statistics):
             abs(n1_1),
             abs(n1_2),
         )
-        still = 0.0 < previous_1 <= change <= 5.684341886080802e-14 * scale
+        still = 0.0 < previous_1 <= change <= 5.684341886080802e-14 * max(1.0, scale)
         if sweep == 1:
             memory.first = max(memory.first, change)
         if previous_1 > 0.0:
@@ -752,8 +752,10 @@ def _continued(state, h, memory, statistics):
 
     They are tried without the solutions before. Then those of a shorter step are solved, and the
     solution is continued in h, as far at a time as it can be followed: it is the one that tends
-    to the motion as h tends to zero.
+    to the motion as h tends to zero. A step of no length changes nothing.
     """
+    if h == 0.0 and all(map(isfinite, state)):
+        return state
     solved, part, factor, found, failure = 0.0, 1.0, 2.0, None, None
     for _ in range(100):
         memory.__init__()

@@ -1,10 +1,15 @@
 """Extreme input, one step: emitted C against the interpreter with 60 digits on the same doubles.
 
 A step is *accurate* when it differs from the exact step by no more than its input determines: rounding the
-input at the last bit moves the exact answer by so much, and every operation may round once. Where that leaves
+input, and both sides of the equations of an implicit step, at the last bit moves the exact answer by so much,
+and every operation may round once. Where that leaves
 no digit (a rotation by 1e20 radians is known to no angle at all) the answer is accurate and says nothing; the
 table gives the digits that are determined. Anything else must be a status. A finite answer that is neither is
 *wrong*.
+
+Equations of long implicit steps have several solutions, and the way to any leads past the others. The
+interpreter finds its own where a fixed point leads to it; elsewhere it begins at that of emitted Python,
+which goes the way of C, and Newton's method makes it one to 60 digits, or shows that it is none.
 """
 
 from __future__ import annotations
@@ -13,6 +18,7 @@ import math
 import random
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import accumulate
 from typing import Any
 
 from codegen.emit import Compiled
@@ -20,7 +26,7 @@ from codegen.ir.domain import FloatDomain, NotConverged, PreciseDomain
 from codegen.ir.interpret import flatten, interpret
 from codegen.ir.program import Kind
 from codegen.lab.runner import Emitted
-from codegen.load import StepFailed
+from codegen.load import InterpretedIntegrator, StepFailed
 from codegen.lower import setting
 
 DIGITS = 60
@@ -33,9 +39,11 @@ ROUNDINGS = 256.0
 
 PROBES = 4
 
+SWEEPS, CORRECTIONS = 60, 30
+"""Of the interpreter, for a fixed point and Newton's method."""
+
 ACCURATE, WRONG = "accurate", "WRONG"
-UNVERIFIED = "unverified: the equations of this step were solved, but not from the same start in 60 digits"
-"""Large implicit steps have several solutions, and Newton's method goes astray on the way to any."""
+UNSOLVED = f"{WRONG}: the equations of this step have no solution there"
 
 ANGLES = (1e-300, 1e-8, math.pi - 1e-9, math.pi, 2 * math.pi, 100.0, 1e8, 1e300)
 STEPS = (1e-300, 1e-12, 1e-8, 1e-4)
@@ -147,11 +155,11 @@ def answer(compiled: Compiled, runner: Emitted, case: Case) -> Answer:
     if not all(map(math.isfinite, found)):
         return Answer(case, f"{WRONG}: an answer that is not finite")
     try:
-        exact = precise_step(compiled, case.state, case.t, case.h)
-        probed = [precise_step(compiled, *probe) for probe in _probes(case)]
+        exact, probed = _exact(compiled, runner, case)
     except (NotConverged, ArithmeticError, ValueError):
-        implicit = bool(runner.integrator.interface.blocks)
-        return Answer(case, UNVERIFIED if implicit else f"{WRONG}: an answer where the interpreter has none")
+        return Answer(
+            case, UNSOLVED if compiled.kernel.loops else f"{WRONG}: an answer where the interpreter has none"
+        )
     error, determined, accurate = 0.0, math.inf, True
     for block in _blocks(compiled):
         scale = max(abs(exact[i]) for i in block)
@@ -187,9 +195,83 @@ def _probes(case: Case) -> list[tuple[tuple[Any, ...], Any, Any]]:
     return [(tuple(rounded(x) for x in case.state), rounded(case.t), rounded(case.h)) for _ in range(PROBES)]
 
 
-def precise_step(compiled: Compiled, state: Sequence[Any], t: Any, h: Any) -> list[Any]:
-    """Return the state after one step of the program, in 60 digits."""
-    domain = PreciseDomain(h, DIGITS)
+def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Any], list[list[Any]]]:
+    """Return the state after the step in 60 digits, and those after the steps of the probes.
+
+    Equations of long steps are solved in more digits: they hold numbers of the size of h and of its square.
+    """
+    given, near = (case.state, case.t, case.h), None
+    more = 3 * math.ceil(math.log10(max(1.0, abs(case.h))))
+    try:
+        exact = precise_step(compiled, *given, limit=SWEEPS, newton=False)
+    except (NotConverged, ArithmeticError, ValueError):
+        near = solutions(runner, *given)
+        exact = precise_step(compiled, *given, near, limit=CORRECTIONS, digits=DIGITS + more)
+    if near is None and compiled.kernel.loops:
+        near = solutions(runner, *given)
+    probes = [
+        precise_step(
+            compiled, *probe, near and list(near), limit=CORRECTIONS, probing=True, digits=DIGITS + more
+        )
+        for probe in _probes(case)
+    ]
+    return exact, probes
+
+
+def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> list[list[float]] | None:
+    """Return the unknowns of each block that emitted Python ends a step with, in the order they are solved.
+
+    None where it cannot make the step.
+    """
+    integrator = runner.twin.integrator
+    assert isinstance(integrator, InterpretedIntegrator)
+    module: Any = integrator.module
+    plain, found = module._Memory, dict[int, list[float]]()
+
+    def keep(self: Any, unknowns: list[float]) -> None:
+        found[id(self)] = unknowns
+        plain.keep(self, unknowns)
+
+    module._Memory = type("_Memory", (plain,), {"keep": keep})
+    try:
+        integrator.run(list(state), h, 1, t)
+    except StepFailed:
+        return None
+    finally:
+        module._Memory = plain
+    widths = [len(loop.unknowns) for loop in runner.compiled.kernel.loops]
+    ends = list(accumulate(widths))
+    return [list(x[end - n : end]) for x in found.values() for n, end in zip(widths, ends, strict=True)]
+
+
+class Rounding(PreciseDomain):
+    """Numbers of many digits, but one side of every equation is off by a rounding of it and its neighbour."""
+
+    def rounded(self, images: list[Any]) -> list[Any]:
+        """Return the images moved up or down at random, each always the same way."""
+        draw = random.Random(11)
+        moves = [[draw.choice((-1, 1)) * EPSILON for _ in range(2)] for _ in images]
+        after = [*images[1:], images[0]]
+        return [x + a * x + b * y for x, y, (a, b) in zip(images, after, moves, strict=True)]
+
+
+def precise_step(
+    compiled: Compiled,
+    state: Sequence[Any],
+    t: Any,
+    h: Any,
+    near: list[list[Any]] | None = None,
+    *,
+    limit: int = 400,
+    newton: bool = True,
+    probing: bool = False,
+    digits: int = DIGITS,
+) -> list[Any]:
+    """Return the state after one step of the program, in many digits; ``near`` as for :func:`interpret`.
+
+    ``probing`` rounds equations too.
+    """
+    domain = Rounding(h, digits) if probing else PreciseDomain(h, digits)
     view = setting(compiled.scene, compiled.method)
     numbers = tuple(domain.context.mpf(x) for x in state)
     values: dict[str, Any] = {"t": domain.context.mpf(t)}
@@ -198,5 +280,8 @@ def precise_step(compiled: Compiled, state: Sequence[Any], t: Any, h: Any) -> li
         values[block.name] = numbers[start : start + len(block.symbols)]
         start += len(block.symbols)
     program = compiled.program
-    found = interpret(program, view, domain, {v.name: values[v.name] for v in program.inputs})
+    if near is not None:
+        near[:] = [[domain.context.mpf(x) for x in block] for block in near]
+    inputs = {v.name: values[v.name] for v in program.inputs}
+    found = interpret(program, view, domain, inputs, limit=limit, newton=newton, near=near)
     return [x for block in view.state for x in flatten(block.kind, found[block.name])]

@@ -207,7 +207,7 @@ def _decision(
     close, tolerance = (s.literal(scaled(x)) for x in (loop.close, loop.tolerance))
     unit = s.literal(s.precision.unit)
     yield from fill(f"const {s.real} change =", broken(greatest(changes)), ";")
-    sizes = [s.literal(1.0), *(f"{s.style.function('fabs')}({x})" for x in now)]
+    sizes = [f"{s.style.function('fabs')}({x})" for x in now]
     yield from fill(f"const {s.real} scale =", broken(greatest(sizes)), ";")
     yield from _not_finite(s, statement, finite) if finite else ()
     yield f"const int still = {previous} > {s.literal(0.0)} && change >= {previous};"
@@ -223,7 +223,8 @@ def _decision(
         small = f"change * {rate} <= {unit} * scale"
     yield from fill("const int close =", (f"change <= {close} * scale", f"&& {small}"), ";")
     yield from (f"{x} += {y};" for x, y in corrections)
-    yield f"if (close || (still && change <= {tolerance} * scale)) {{"
+    most = f"greater({s.literal(1.0)}, scale)"
+    yield f"if (close || (still && change <= {tolerance} * {most})) {{"
     yield f"    count_sweeps(statistics, {block}, sweep, 0);"
     if not statement.starts:
         rate = f"rate_{statement.number}"

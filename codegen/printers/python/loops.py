@@ -156,9 +156,12 @@ def _decision(
     close, tolerance = (precision.text(precision.scaled(x)) for x in (loop.close, loop.tolerance))
     unit = precision.text(precision.unit)
     yield from call("change = max", changes, 2)
-    yield from call("scale = max", ["1.0", *(f"abs({x})" for x in now)], 2)
+    compared = loop.newton is not None and loop.newton.residuals
+    sizes = [f"abs({x})" for x in now]
+    yield from call("scale = max", ["1.0" if compared else "0.0", *sizes], 2)
     yield from _finite(s, statement, finite) if finite else ()
-    yield f"        still = 0.0 < {previous} <= change <= {tolerance} * scale"
+    most = "scale" if compared else "max(1.0, scale)"
+    yield f"        still = 0.0 < {previous} <= change <= {tolerance} * {most}"
     small = f"change * change <= {unit} * scale * {previous}"
     if not statement.starts:
         rate = f"rate_{statement.number}"

@@ -30,6 +30,7 @@ class Spoilt:
         ("free_rigid_body", "ambient:rk4"),
         ("dipole", "cf:cf4"),
         ("dipole", "vcg:midpoint"),
+        ("heavy_top", "vcg:midpoint"),
         ("driven_spin", "cf:cf4"),
         ("linear_oscillator", "rk:rk4"),
         ("fast_heavy_top", "splitting:strang"),
@@ -43,6 +44,7 @@ def test_each_answer_is_accurate_or_a_status(scene, method):
     names = [a.case.name for a in found]
     for wanted in ("usual step", "h = 0", "h = 1e-12", "angle pi", "angle 1e+08", "h = nan"):
         assert wanted in names
+    assert found[names.index("h = 0")].verdict == ACCURATE
     usual = found[0]
     assert usual.determined is not None
     assert usual.determined > 14
@@ -66,6 +68,19 @@ def test_an_answer_that_is_neither_is_wrong(fault, monkeypatch):
     assert answer(made, runner, usual).verdict == ACCURATE
     monkeypatch.setitem(runner.__dict__, "integrator", Spoilt(runner.integrator, FAULTS[fault]))
     assert answer(made, runner, usual).verdict.startswith(WRONG)
+
+
+def test_what_solves_the_equations_almost_is_wrong(monkeypatch):
+    """The midpoint rule in a step that a fixed point does not solve, its answer off in the tenth digit."""
+    made = compile_method("heavy_top", "vcg:midpoint")
+    runner = Emitted(made, "c")
+    (case,) = (case for case in cases(made) if case.name == "angle 100")
+    assert answer(made, runner, case).verdict == ACCURATE
+    spoilt = Spoilt(
+        runner.integrator, lambda sound, y, h, n, t: [x * (1 + 1e-10) for x in sound.run(y, h, n, t)]
+    )
+    monkeypatch.setitem(runner.__dict__, "integrator", spoilt)
+    assert answer(made, runner, case).verdict.startswith(WRONG)
 
 
 def test_an_answer_to_nan_is_wrong(monkeypatch):
