@@ -120,11 +120,11 @@ class FloatDomain:
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         if not math.isfinite(change):
             raise NotConverged("a fixed-point iteration left the finite numbers")
-        scale = max(1.0, *(abs(a) for a in old))
+        scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
         if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
             return True, change
-        return 0 < before <= change <= 2.0**-44 * scale, change
+        return change == 0.0 or 0 < before <= change <= 2.0**-44 * max(1.0, scale), change
 
     def increment(self, x: float) -> float:
         """Return the step of a difference quotient at x."""

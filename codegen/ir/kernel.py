@@ -123,6 +123,21 @@ class Loop:
         first_order = self.solver == CHORD or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
+    def settled(self, change: float, previous: float, scale: float) -> bool:
+        """Return whether a change ends the iteration; ``previous`` is 0 in the first sweep.
+
+        ``scale`` is the largest unknown.
+
+        >>> loop = Loop("x", (), (), (), ())
+        >>> loop.settled(1e-15, 1e-13, 1.0), loop.settled(1e-15, 2e-15, 1.0), loop.settled(1e-15, 0.0, 1.0)
+        (True, False, False)
+        >>> loop.settled(1e-15, 1e-13, 1e-3), loop.settled(1e-15, 1e-15, 1e-3)
+        (False, True)
+        """
+        if change <= self.close * scale and change * change <= UNIT * scale * previous:
+            return True
+        return previous > 0 and previous <= change <= self.tolerance * max(1.0, scale)
+
 
 @dataclass(frozen=True)
 class Start:
