@@ -38,9 +38,9 @@ def section(runs: Sequence[LongRun], again: str) -> dict[str, Any]:
     first = runs[0]
     return {
         "pictures": pictures,
-        "steps": f"{first.steps:,}".replace(",", " "),
+        "steps": f"{first.steps:,}".replace(",", "\u00a0"),
         "h": f"{first.h:g}",
-        "confidence": f"{100 * CONFIDENCE:.0f} %",
+        "confidence": f"{100 * CONFIDENCE:.0f}\u00a0%",
         "rounded": max((g.steps[-1] for run in runs for g in run.rounding), default=0),
         "runs": [_run(run) for run in runs],
     }

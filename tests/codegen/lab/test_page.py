@@ -12,6 +12,9 @@ from codegen.lab import contest
 from codegen.lab import study as measured
 from codegen.lab.needs import NEEDS
 from codegen.lab.page import page_name, render, render_overview
+from codegen.lab.stability.endurance import Endurance
+from codegen.lab.stability.extremes import WRONG
+from codegen.lab.stability.stiff import Stiff
 from codegen.lab.survey import Effort, Survey, plan, survey
 from codegen.lab.timing import Timing
 from codegen.scenes import load
@@ -142,3 +145,18 @@ def test_a_part_that_was_not_asked_for_has_no_section(found: Survey) -> None:
     for part in ("advice", "cost", "stability", "long"):
         assert f'id="{part}"' not in short
         assert f'href="#{part}"' not in short
+
+
+def test_harsh_variants_long_runs_and_wrong_answers_are_told(found: Survey) -> None:
+    (one, *others) = found.stability
+    spin = Stiff("stiff spin", 2e3, 4, ((0.1, 1e-2, ""),), 2.0, "order reduction 4 to 2.0")
+    ended = Endurance("onwards", 10_000_000, 1e-12, None)
+    bad = replace(one.answers[0], verdict=f"{WRONG}: an answer that is not finite")
+    told = replace(
+        one, stiff=(spin,), endurance=(ended,), notes=("no reference",), answers=(bad, *one.answers[1:])
+    )
+    page = render(replace(found, stability=(told, *others)), "x")
+    for text in ("<dt>stiff spin</dt>", "order reduction 4 to 2.0", "10000000 steps", "no reference"):
+        assert text in page
+    assert '<td class="num fails">1</td>' in page
+    assert '<td class="num fails">1</td>' not in render(found, "x")
