@@ -12,6 +12,7 @@ from codegen.lab import contest
 from codegen.lab import study as measured
 from codegen.lab.needs import NEEDS
 from codegen.lab.page import page_name, render, render_overview
+from codegen.lab.page.orders import agreement
 from codegen.lab.stability.endurance import Endurance
 from codegen.lab.stability.extremes import WRONG
 from codegen.lab.stability.stiff import Stiff
@@ -102,7 +103,6 @@ def test_the_page_shows_orders_conditions_residuals_and_what_was_left_out(page: 
         "computed order",
         "exact",
         "holds",
-        "bit for bit",
         "<i>a</i><sub>ij</sub> <i>c</i><sub>j</sub> = 1/6",
         "−1/24",
         "equation solving: every stage is explicit here",
@@ -117,6 +117,15 @@ def test_the_page_shows_orders_conditions_residuals_and_what_was_left_out(page: 
         'name="viewport"',
     ):
         assert text in page
+
+
+@pytest.mark.parametrize(("spread", "said"), [(None, "no run"), (0.0, "bit for bit"), (2e-16, "2 · 10⁻¹⁶")])
+def test_agreement_is_said_in_words(spread: float | None, said: str) -> None:
+    assert agreement(spread).replace(".0", "") == said
+
+
+def test_the_executors_agree_to_rounding(found: Survey) -> None:
+    assert all(m.spread is not None and m.spread < 1e-14 for m in found.orders)
 
 
 def test_the_page_is_the_same_when_the_times_are(page: str, found: Survey) -> None:
