@@ -211,13 +211,27 @@ class Estimate:
 
 
 @dataclass(frozen=True)
+class Piece:
+    """A function that a kernel calls in several places: ``outputs`` over ``body``, of ``inputs`` alone.
+
+    Its k-th result is the expression that calls ``NAME.k``; ``about`` spells it in operations of a program.
+    """
+
+    name: str
+    inputs: tuple[str, ...]
+    body: tuple[Let, ...]
+    outputs: tuple[Expr, ...]
+    about: str
+
+
+@dataclass(frozen=True)
 class Kernel:
     """One step: state fields, scalar inputs (h, t, run-time parameters), body, new state in field order.
 
     ``inputs`` names functions of time that the caller supplies, ``samples`` are the times they are read at.
     ``vary`` carries a variation along: its state is this one's and then the variation, its outputs are the
     variation of the new state. With ``substeps`` this is one of the parts of a step, all alike: h and t are
-    those of the part.
+    those of the part. ``pieces`` are functions that its expressions call.
     """
 
     name: str
@@ -231,6 +245,7 @@ class Kernel:
     estimate: Estimate | None = None
     vary: Kernel | None = None
     substeps: tuple[Substep, ...] = ()
+    pieces: tuple[Piece, ...] = ()
 
     @property
     def loops(self) -> tuple[Loop, ...]:

@@ -34,6 +34,7 @@ from codegen.ir.kernel import (
     Let,
     Loop,
     Newton,
+    Piece,
     Sample,
     Start,
 )
@@ -42,6 +43,7 @@ from codegen.ir.normal import NormalForms
 from codegen.ir.program import EMBEDDED, Assign, Kind, Program, Solve, Var
 from codegen.ir.tangent import tangents
 from codegen.lower import late, newton
+from codegen.lower.outline import LONG, WORTH, Outline
 from codegen.lower.variation import Variations
 from codegen.setting import TIME, Setting
 
@@ -112,6 +114,7 @@ def to_kernel(
             hints.setdefault(x.id, f"{var.name}_{k}" if var.kind is not Kind.REAL else var.name)
 
     def run(assign: Assign) -> None:
+        nonlocal inside
         try:
             results = apply(scene, domain, assign, tuple(env[a] for a in assign.args))
         except ArithmeticError as error:
@@ -121,10 +124,12 @@ def to_kernel(
                 expected="a group whose operations have closed forms",
                 hint="this group serves exact series and interpretation",
             ) from error
+        outline.note(assign, [env[a] for a in assign.args], results, len(blocks) if inside else -1)
         for target, value in zip(assign.targets, results, strict=True):
             env[target] = value
             remember(target)
 
+    outline, inside = Outline(program, scene, domain), False
     given = tuple(space.sym(s) for s in scene.symbols)
     if scene.body_group is not None:
         given = _framed(scene, given, lambda q, mu: scene.body_group.Adtinv(domain, q, mu))
@@ -137,7 +142,9 @@ def to_kernel(
         if isinstance(statement, Assign):
             run(statement)
             continue
+        inside = True
         entered = _enter(statement, env, domain, name, run)
+        inside = False
         corrected = solvers.get(statement.label, FIXED_POINT) != FIXED_POINT
         comparing = corrected and solvers[statement.label] == NEWTON and variations is None
         compared = _compared(statement, entered, env, name) if comparing else None
@@ -165,6 +172,7 @@ def to_kernel(
         outputs = variations.ends(domain, outputs, tangents(outputs, seeds))
         lower = ()
     errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
+    before = frozenset(taken)
     schedule = _Schedule(blocks, (*outputs, *errors), hints, name, variations is None)
     state = tuple(Field(b.name, b.symbols, _meaning(b.kind, scene)) for b in scene.state)
     if scene.body_group is not None:
@@ -174,14 +182,81 @@ def to_kernel(
     durations = [v.name for v in program.inputs if v.name in (LEAD, ELAPSED)]
     scalars = (TIME, "h", *scene.runtime, *durations)
     body = schedule.run()
+    pieces: tuple[Piece, ...] = ()
+    if variations is None and chains == AS_WRITTEN and _count(body) > LONG:
+        taken.clear()
+        taken.update(before)
+        shorter, pieces = _outlined(outline, blocks, (*outputs, *errors), hints, name)
+        if shorter is not None and _count(shorter.body) + _count(pieces) < WORTH * _count(body):
+            schedule, body = shorter, tuple(shorter.body)
+        else:
+            pieces = ()
     if chains in (ORDERED, SHORTENED):
         body = late.ordered([let for let in body if isinstance(let, Let)])
     made = Kernel(
-        program.name, state, scalars, body, schedule.outputs[: len(outputs)], substeps=program.substeps
+        *(program.name, state, scalars, body, schedule.outputs[: len(outputs)]),
+        substeps=program.substeps,
+        pieces=pieces,
     )
     if errors:
         made = replace(made, estimate=Estimate(schedule.outputs[len(outputs) :], 0))
     return _sampled(made, scene, domain)
+
+
+def _count(body: Iterable[Let | Start | Loop | Piece]) -> int:
+    """Return how many assignments a body holds, those in loops and of Newton's matrices included."""
+    total = 0
+    for statement in body:
+        if isinstance(statement, Let):
+            total += 1
+            continue
+        total += len(statement.body)
+        if isinstance(statement, Loop) and statement.newton is not None:
+            total += len(statement.newton.body)
+    return total
+
+
+def _outlined(
+    outline: Outline,
+    blocks: Sequence[_Block],
+    roots: Sequence[Expr],
+    hints: dict[int, str],
+    name: Callable[[str], str],
+) -> tuple[_Schedule | None, tuple[Piece, ...]]:
+    """Return the schedule of a step that calls pieces, and these; None where nothing is repeated."""
+    flat = list(roots)
+    for block in blocks:
+        flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
+    read = {n.payload for n in walk(flat) if n.op == "sym"}
+    blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
+    flat += [x for block in blocks for _, x in block.kept]
+    owners = {u: k for k, block in enumerate(blocks) for u in block.unknowns}
+    found = outline.run(flat, owners)
+    if found is None:
+        return None, ()
+    new = iter(found)
+
+    def take(n: int) -> tuple[Expr, ...]:
+        return tuple(next(new) for _ in range(n))
+
+    ends = take(len(roots))
+    changed = []
+    for block in blocks:
+        starts, images = take(len(block.starts)), take(len(block.images))
+        matrix = tuple(take(len(row)) for row in block.matrix)
+        changed.append(replace(block, starts=starts, images=images, matrix=matrix))
+    changed = [replace(b, kept=tuple((key, next(new)) for key, _ in b.kept)) for b in changed]
+    for old, made in zip(flat, found, strict=True):
+        if old.id in hints:
+            hints.setdefault(made.id, hints[old.id])
+    schedule = _Schedule(changed, ends, hints, name)
+    schedule.run()
+    pieces = []
+    for piece in outline.pieces:
+        own = _Schedule((), piece.outputs, {}, name)
+        lets = own.run()
+        pieces.append(replace(piece, body=tuple(x for x in lets if isinstance(x, Let)), outputs=own.outputs))
+    return schedule, tuple(pieces)
 
 
 def _varied(block: _Block, seeds: dict[str, Expr], space: Space, name: Callable[[str], str]) -> _Block:

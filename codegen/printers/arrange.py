@@ -1,7 +1,7 @@
 """Kernel to printable statements: Stumpff functions of one argument computed together, powers as products.
 
-A target's template sees four kinds of statement: :class:`Assignment`, :class:`Joint` (one call, several
-results), :class:`Beginning` and :class:`Iteration`. What a loop computes on the way is not reused after it.
+A target's template sees five kinds of statement: :class:`Assignment`, :class:`Joint` (one call, several
+results), :class:`Invocation` (the same of a piece), :class:`Beginning` and :class:`Iteration`. What a loop computes on the way is not reused after it.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from codegen.ir.expr import Expr, walk
-from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Kernel, Let, Loop, Start
+from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Kernel, Let, Loop, Piece, Start
 from codegen.printers.narrow import narrowed
 
 METHODS = {
@@ -45,7 +45,22 @@ class Joint:
         return "stumpff_" + "".join(map(str, self.orders))
 
 
-Simple = Assignment | Joint
+@dataclass(frozen=True)
+class Invocation:
+    """name = function(arguments): all results of a piece of the kernel, from one call."""
+
+    name: str
+    results: int
+    function: str
+    arguments: tuple[Expr, ...]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What the results are called in expressions."""
+        return tuple(f"{self.name}.{k}" for k in range(self.results))
+
+
+Simple = Assignment | Joint | Invocation
 
 
 @dataclass(frozen=True)
@@ -86,11 +101,16 @@ class Arrangement:
     outputs: tuple[Expr, ...]
     errors: tuple[Expr, ...] = ()
     repeated: int = 1
+    pieces: tuple[tuple[Piece, Arrangement], ...] = ()
 
     def functions(self) -> tuple[str, ...]:
         """Return the functions called, sorted: scalar ones and sets of Stumpff functions."""
         called = {s.function for s in self._simple() if isinstance(s, Joint)}
-        called |= {n.payload for n in walk(self.expressions()) if n.op == "call"}
+        made = {piece.name for piece, _ in self.pieces}
+        names = {n.payload for n in walk(self.expressions()) if n.op == "call"}
+        called |= {name for name in names if name.partition(".")[0] not in made}
+        for _, inner in self.pieces:
+            called |= set(inner.functions())
         return tuple(sorted(called))
 
     def _simple(self) -> Iterable[Simple]:
@@ -104,7 +124,10 @@ class Arrangement:
     def expressions(self) -> Iterable[Expr]:
         """Yield every expression to be spelled."""
         for simple in self._simple():
-            yield simple.value if isinstance(simple, Assignment) else simple.argument
+            if isinstance(simple, Invocation):
+                yield from simple.arguments
+            else:
+                yield simple.value if isinstance(simple, Assignment) else simple.argument
         for statement in self.statements:
             if isinstance(statement, Iteration):
                 yield from (*statement.starts, *statement.images, *statement.matrix)
@@ -120,7 +143,7 @@ class Arrangement:
 
 def arrange(kernel: Kernel) -> Arrangement:
     """Return the printable statements of a kernel, in its order and with its roundings."""
-    scope = _Scope(_taken(kernel))
+    scope = _Scope(_taken(kernel), pieces={piece.name: len(piece.outputs) for piece in kernel.pieces})
     ends = [*kernel.outputs, *(kernel.estimate.errors if kernel.estimate is not None else ())]
     scope.expect([*(e for s in kernel.body for e in _outside(s)), *ends])
     statements: list[Statement] = []
@@ -142,7 +165,13 @@ def arrange(kernel: Kernel) -> Arrangement:
     statements += scope.take()
     states = len(kernel.outputs)
     repeated = max(1, len(kernel.substeps))
-    return Arrangement(tuple(statements), rewritten[:states], rewritten[states:], repeated)
+    pieces = tuple((piece, arrange(_alone(piece))) for piece in kernel.pieces)
+    return Arrangement(tuple(statements), rewritten[:states], rewritten[states:], repeated, pieces)
+
+
+def _alone(piece: Piece) -> Kernel:
+    """Return a piece as a kernel that takes scalars."""
+    return Kernel(piece.name, (), piece.inputs, piece.body, piece.outputs)
 
 
 def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
@@ -207,6 +236,7 @@ class _Scope:
     orders: dict[int, tuple[int, ...]] = field(default_factory=dict)
     pending: list[Simple] = field(default_factory=list)
     results: dict[str, int] = field(default_factory=dict)
+    pieces: dict[str, int] = field(default_factory=dict)
 
     def nested(
         self, lets: Sequence[Let], values: Sequence[Expr]
@@ -219,7 +249,7 @@ class _Scope:
 
     def inside(self, expressions: list[Expr]) -> _Scope:
         """Return the scope of a loop body: it sees what stands before the loop."""
-        inner = _Scope(self.taken, dict(self.known))
+        inner = _Scope(self.taken, dict(self.known), pieces=self.pieces)
         inner.expect(expressions)
         return inner
 
@@ -257,6 +287,8 @@ class _Scope:
                     self.known[node.id] = self._power(args[0], node.payload)
                 case "call" if node.payload in STUMPFF:
                     self._joint(node, args[0])
+                case "call" if node.payload.partition(".")[0] in self.pieces:
+                    self._invoke(node, args)
                 case "call":
                     self.known[node.id] = space.call(node.payload, *args)
                 case "const" | "sym":
@@ -273,6 +305,15 @@ class _Scope:
             self.results[name] = k
             call = node.space.call(f"stumpff{k}", node.args[0])
             self.known[call.id] = node.space.sym(name)
+
+    def _invoke(self, node: Expr, args: list[Expr]) -> None:
+        function = node.payload.partition(".")[0]
+        call = Invocation(self._fresh("v"), self.pieces[function], function, tuple(args))
+        self.pending.append(call)
+        for k, name in enumerate(call.names):
+            self.results[name] = k
+            whole = node.space._make("call", node.args, f"{function}.{k}")
+            self.known[whole.id] = node.space.sym(name)
 
     def _power(self, base: Expr, n: int) -> Expr:
         space = base.space

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from codegen.ir.kernel import Kernel
-from codegen.printers.arrange import Arrangement, Beginning, Iteration, Joint
+from codegen.printers.arrange import Arrangement, Beginning, Invocation, Iteration, Joint, Statement
 from codegen.printers.expression import spell
 from codegen.printers.names import Names
 
@@ -36,7 +38,12 @@ def register(kernel: Kernel, arrangement: Arrangement, names: Names) -> Names:
     names.add_all(kernel.scalars)
     names.add_all(s for f in kernel.state for s in f.symbols)
     names.add_all(s for sample in kernel.samples for s in sample.symbols)
-    for statement in arrangement.statements:
+    return named(arrangement.statements, names)
+
+
+def named(statements: Iterable[Statement], names: Names) -> Names:
+    """Give every name that statements make an identifier and return the names."""
+    for statement in statements:
         match statement:
             case Iteration():
                 names.add_all(statement.loop.unknowns)
@@ -49,6 +56,10 @@ def register(kernel: Kernel, arrangement: Arrangement, names: Names) -> Names:
                 simple = (statement,)
         for one in simple:
             names.add_all(one.names if isinstance(one, Joint) else (one.name,))
+            if isinstance(one, Invocation) and one.results == 1:
+                names.spelled[one.names[0]] = names.spelled[one.name]
+            elif isinstance(one, Invocation):
+                names.spelled |= {x: f"{names.spelled[one.name]}[{k}]" for k, x in enumerate(one.names)}
     return names
 
 

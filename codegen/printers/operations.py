@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from codegen.ir.expr import Expr, walk
 from codegen.ir.kernel import Kernel
-from codegen.printers.arrange import Arrangement, Assignment, Beginning, Iteration, Joint, arrange
+from codegen.printers.arrange import (
+    Arrangement,
+    Beginning,
+    Invocation,
+    Iteration,
+    Joint,
+    Simple,
+    arrange,
+)
 
 STEP = "step"
 """The key under which operations outside loops are counted."""
@@ -22,21 +30,26 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
     further keys what each block does a sweep, and where it makes Newton's matrix, without its inversion.
     Changes of sign, comparisons, extrapolation and what a stopping rule costs are not counted.
     """
-    total = {STEP: _count([], (*arrangement.outputs, *arrangement.errors))}
+    inside = {piece.name: operations(inner)[STEP] for piece, inner in arrangement.pieces}
+
+    def count(statements: Iterable[Simple], more: Iterable[Expr]) -> dict[str, int]:
+        return _counted(statements, more, inside)
+
+    total = {STEP: count([], (*arrangement.outputs, *arrangement.errors))}
     for statement in arrangement.statements:
         match statement:
             case Iteration():
-                total[STEP] = _plus(total[STEP], _count([], statement.starts))
-                sweep, label = _count(statement.body, statement.images), statement.loop.label
+                total[STEP] = _plus(total[STEP], count([], statement.starts))
+                sweep, label = count(statement.body, statement.images), statement.loop.label
                 if statement.matrix:
                     n = len(statement.loop.unknowns)
                     sweep = _plus(sweep, {"add": n * (n - 1), "mul": n * n})
-                    total[matrix_of(label)] = _count(statement.newton, statement.matrix)
+                    total[matrix_of(label)] = count(statement.newton, statement.matrix)
                 total[label] = sweep
             case Beginning():
-                total[START] = _count(statement.body, statement.values)
+                total[START] = count(statement.body, statement.values)
             case _:
-                total[STEP] = _plus(total[STEP], _count([statement], ()))
+                total[STEP] = _plus(total[STEP], count([statement], ()))
     for key in (STEP, START):
         if key in total:
             total[key] = {name: n * arrangement.repeated for name, n in total[key].items()}
@@ -77,11 +90,16 @@ def costs(kernel: Kernel) -> list[str]:
     return lines
 
 
-def _count(statements: Iterable[Assignment | Joint], more: Iterable[Expr]) -> dict[str, int]:
+def _counted(
+    statements: Iterable[Simple], more: Iterable[Expr], pieces: Mapping[str, dict[str, int]]
+) -> dict[str, int]:
     total: dict[str, int] = {}
     roots = list(more)
     for statement in statements:
-        if isinstance(statement, Joint):
+        if isinstance(statement, Invocation):
+            total = _plus(total, pieces[statement.function])
+            roots += statement.arguments
+        elif isinstance(statement, Joint):
             total = _plus(total, {statement.function: 1})
             roots.append(statement.argument)
         else:

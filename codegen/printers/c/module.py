@@ -7,8 +7,9 @@ from math import comb
 
 from codegen.ir.kernel import CHORD, ELAPSED, LEAD, LONGEST, NEWTON, Kernel, PutOff, Start
 from codegen.ir.number import Number
-from codegen.printers.arrange import Arrangement, arrange
+from codegen.printers.arrange import Arrangement, Beginning, Invocation, Iteration, arrange
 from codegen.printers.c.jacobian import varying
+from codegen.printers.c.pieces import function
 from codegen.printers.c.statements import RESERVED, Statements, literal
 from codegen.printers.c.text import comment, fill, paired
 from codegen.printers.expression import spell
@@ -49,6 +50,13 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     if kernel.estimate is not None:
         variables["order"] = kernel.estimate.order
         held += 2 * interface.size
+    pieces, most = [], 0
+    for piece, arranged in arrangement.pieces:
+        lines, own_numbers = function(piece, arranged, interface, RESERVED | own_names(interface))
+        pieces.append(lines)
+        most = max(most, own_numbers)
+    variables["pieces"] = pieces
+    held += most + called(arrangement)
     variables["vary"] = None
     if kernel.vary is not None:
         own = Names(RESERVED | own_names(interface))
@@ -302,6 +310,16 @@ def substeps(kernel: Kernel, interface: Interface) -> dict[str, object] | None:
     if real is not DOUBLE:
         exact = f"({real.c_type})((double)t + (double)offset[number] * (double)h)"
     return {"count": len(kernel.substeps), "tables": tables, "time": exact}
+
+
+def called(arrangement: Arrangement) -> int:
+    """Return how many numbers the results of calls of pieces are."""
+    total = 0
+    for statement in arrangement.statements:
+        inner = statement.body if isinstance(statement, Beginning | Iteration) else (statement,)
+        more = statement.newton if isinstance(statement, Iteration) else ()
+        total += sum(one.results for one in (*inner, *more) if isinstance(one, Invocation))
+    return total
 
 
 def memory_of(kernel: Kernel) -> dict[str, object]:

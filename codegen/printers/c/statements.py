@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from codegen.ir.expr import Expr
-from codegen.printers.arrange import Arrangement, Assignment, Beginning, Iteration, Joint
+from codegen.printers.arrange import Arrangement, Assignment, Beginning, Invocation, Iteration, Simple
 from codegen.printers.c import loops
 from codegen.printers.c.text import fill
 from codegen.printers.expression import Style, spell
@@ -96,12 +96,15 @@ class Statements:
         """Spell a number of this precision."""
         return literal(self.precision, x)
 
-    def simple(self, statement: Assignment | Joint, kept: Iterable[str] = ()) -> Iterator[str]:
+    def simple(self, statement: Simple, kept: Iterable[str] = ()) -> Iterator[str]:
         """Yield the lines of an assignment or joint call; those of ``kept`` names are declared elsewhere."""
         if isinstance(statement, Assignment):
             name = self.names.spelled[statement.name]
             kind = "" if statement.name in kept else None
             yield from self.declare(name, statement.value, kind)
+            return
+        if isinstance(statement, Invocation):
+            yield from self._invoked(statement)
             return
         argument = " ".join(spell(statement.argument, self.names.spelled, self.style))
         names = [self.names.spelled[n] for n in statement.names]
@@ -110,6 +113,18 @@ class Statements:
             return
         yield f"{self.real} {', '.join(names)};"
         yield f"{statement.function}({argument}, {', '.join(f'&{n}' for n in names)});"
+
+    def _invoked(self, call: Invocation) -> Iterator[str]:
+        """Yield the lines that call a piece."""
+        name = self.names.spelled[call.name]
+        given = [" ".join(spell(x, self.names.spelled, self.style)) for x in call.arguments]
+        start = f"{call.function}("
+        if call.results == 1:
+            start = f"const {self.real} {name} = {start}"
+        else:
+            yield f"{self.real} {name}[{call.results}];"
+            given.append(name)
+        yield from fill(start, (*(f"{x}," for x in given[:-1]), given[-1]), ");", joint="")
 
 
 def literal(precision: Precision, x: float) -> str:

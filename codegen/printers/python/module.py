@@ -12,6 +12,7 @@ from codegen.printers.layout import inverts, layout, register, times
 from codegen.printers.names import Names
 from codegen.printers.operations import costs
 from codegen.printers.precision import DOUBLE
+from codegen.printers.python.pieces import function
 from codegen.printers.python.statements import RESERVED, Statements
 from codegen.printers.python.text import WIDTH, listed, quoted
 from codegen.printers.recipe import Recipe, header
@@ -45,6 +46,11 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         derivative, more, constants = jacobian(kernel.vary, interface)
         statements.constants |= constants
         functions |= more
+    pieces = []
+    for piece, arranged in arrangement.pieces:
+        lines, constants = function(piece, arranged, interface)
+        statements.constants |= constants
+        pieces.append(lines)
     found = needed("python", sorted(functions), precision)
     library = found.library
     imports = ["isfinite"] if single else library
@@ -121,6 +127,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             tries=Start.TRIES,
             shortest=Start.SHORTEST,
             put_off=ending,
+            pieces=pieces,
             again=", ".join(["state", *time, "h", "made", *parameters]),
             body=[*body, *ends],
             new=listed("return ", (*new, *statements.errors()), 1),

@@ -7,12 +7,12 @@ from collections.abc import Iterator, Sequence
 
 from codegen.ir.expr import Expr
 from codegen.ir.number import Number
-from codegen.printers.arrange import Arrangement, Assignment, Beginning, Iteration, Joint
+from codegen.printers.arrange import Arrangement, Assignment, Beginning, Invocation, Iteration, Simple
 from codegen.printers.expression import Style, spell
 from codegen.printers.names import Names
 from codegen.printers.precision import DOUBLE, Precision
 from codegen.printers.python import loops
-from codegen.printers.python.text import indented
+from codegen.printers.python.text import filled, indented
 
 _WORDS = """
     abs all max range float len list map sum tuple zip ArithmeticError ValueError
@@ -92,10 +92,15 @@ class Statements:
             yield f"{space}    {spelled},"
         yield f"{space}]"
 
-    def simple(self, statement: Assignment | Joint, depth: int) -> Iterator[str]:
+    def simple(self, statement: Simple, depth: int) -> Iterator[str]:
         """Yield the lines of an assignment or joint call."""
         if isinstance(statement, Assignment):
             yield from self.assign(self.names.spelled[statement.name], statement.value, depth)
+            return
+        if isinstance(statement, Invocation):
+            given = [" ".join(spell(x, self.names.spelled, self.style)) for x in statement.arguments]
+            name = self.names.spelled[statement.name]
+            yield from filled(f"{name} = _{statement.function}(", given, ")", depth)
             return
         argument = " ".join(spell(statement.argument, self.names.spelled, self.style))
         names = ", ".join(self.names.spelled[n] for n in statement.names)

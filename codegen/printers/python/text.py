@@ -24,6 +24,25 @@ def call(start: str, terms: list[str], depth: int) -> list[str]:
     return [f"{space}{start}(", *(f"{space}    {term}," for term in terms), f"{space})"]
 
 
+def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
+    """Return start, terms with commas and end on one line, or with as many terms a line as there is room for.
+
+    >>> filled("x = f(", ["a" * 40, "b" * 40, "c"], ")", 0)[2]
+    '    bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, c,'
+    """
+    space = "    " * depth
+    line = f"{space}{start}{', '.join(terms)}{end}"
+    if len(line) <= WIDTH:
+        return [line]
+    lines = [f"{space}    {terms[0]},"]
+    for term in terms[1:]:
+        if len(lines[-1]) + len(term) + 2 > WIDTH:
+            lines.append(f"{space}    {term},")
+        else:
+            lines[-1] += f" {term},"
+    return [f"{space}{start}", *lines, f"{space}{end}"]
+
+
 def indented(start: str, pieces: tuple[str, ...], depth: int) -> list[str]:
     """Return start and pieces on one line, or in parentheses with a piece a line where that is too long.
 
