@@ -11,7 +11,7 @@ from codegen.ir.program import Program
 from codegen.lower.discrete_gradient import keeps_energy
 from codegen.lower.simplify import simplified
 from codegen.lower.splitting import setting as with_flows
-from codegen.lower.substeps import substeps
+from codegen.lower.substeps import substeps as repeated
 from codegen.method import Method
 from codegen.setting import Setting
 
@@ -94,7 +94,7 @@ def lower(scene: Setting, method: Method) -> Program:
 
 def lower_composed(scene: Setting, method: Method) -> Program | None:
     """Return the verified program of a step made of shorter ones that are alike, None where it is not."""
-    found = substeps(method)
+    found = repeated(method)
     if found is None:
         return None
     base, steps = found

@@ -51,6 +51,9 @@ INLINE = 10
 """Largest number of operations spelled in one assignment: longer expressions get names on the way."""
 
 
+LONGEST_MATRIX = 1500
+"""How many operations an exact matrix of Newton's method may take: a longer one is made to first order."""
+
 WEIGHT = {"call": 10, "div": 4, "neg": 0}
 """What operations cost, in additions or products; those that are not named cost one."""
 
@@ -113,8 +116,9 @@ def to_kernel(
         for k, x in enumerate(flatten(var.kind, env[var])):
             hints.setdefault(x.id, f"{var.name}_{k}" if var.kind is not Kind.REAL else var.name)
 
+    outline, inside = Outline(program, scene, domain), False
+
     def run(assign: Assign) -> None:
-        nonlocal inside
         try:
             results = apply(scene, domain, assign, tuple(env[a] for a in assign.args))
         except ArithmeticError as error:
@@ -129,7 +133,6 @@ def to_kernel(
             env[target] = value
             remember(target)
 
-    outline, inside = Outline(program, scene, domain), False
     given = tuple(space.sym(s) for s in scene.symbols)
     if scene.body_group is not None:
         given = _framed(scene, given, lambda q, mu: scene.body_group.Adtinv(domain, q, mu))
@@ -183,7 +186,7 @@ def to_kernel(
     scalars = (TIME, "h", *scene.runtime, *durations)
     body = schedule.run()
     pieces: tuple[Piece, ...] = ()
-    if variations is None and chains == AS_WRITTEN and _count(body) > LONG:
+    if blocks and variations is None and _count(body) > LONG:
         taken.clear()
         taken.update(before)
         shorter, pieces = _outlined(outline, blocks, (*outputs, *errors), hints, name)
@@ -388,10 +391,18 @@ def _with_matrix(block: _Block, solver: str) -> _Block:
     """Return the block with the matrix of Newton's method, or of chords."""
     leading = solver == CHORD
     rows = (newton.leading_matrix if leading else newton.matrix)(block.images, block.unknowns)
+    if not leading and _own(rows, block.images) > LONGEST_MATRIX:
+        rows = newton.leading_matrix(block.images, block.unknowns)
     inverted = len(rows) <= newton.SMALL
     return replace(
         block, matrix=newton.inverse(rows) if inverted else rows, leading=leading, inverted=inverted
     )
+
+
+def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
+    """Return how many operations a matrix takes beside those of the images."""
+    shared = {n.id for n in walk(images)}
+    return sum(1 for n in walk([x for row in rows for x in row]) if n.args and n.id not in shared)
 
 
 class _Solved:

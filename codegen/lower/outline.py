@@ -1,10 +1,10 @@
 """Outlining: what a step computes in several places alike becomes one function that is called there.
 
-Operations of a program are joined into trees, the pair that saves most first: a value that one operation alone
-uses is computed with it. Trees of one shape, whose sums have other coefficients and whose operands are others,
-are one function of those. Where a part of a result alone is read, only that is computed, and what it does not
-depend on is no argument. It is done where a step is long: what is shared between operations otherwise, such
-as sine and cosine of one angle, is not shared across calls.
+Operations of a program are joined into trees, the pair that saves most first: a value that one operation
+alone uses is computed with it. Trees of one shape, whose sums have other coefficients and whose operands are
+others, are one function of those. Where a part of a result alone is read, only that is computed, and what it
+does not depend on is no argument. It is done where a step is long: what is shared between operations
+otherwise, such as sine and cosine of one angle, is not shared across calls.
 
 The rewriting is exact. It is verified: the outlined expressions are evaluated at a point beside the others.
 """
@@ -267,24 +267,7 @@ class Outline:
     def _chosen(self, roots: Sequence[Expr], trees: list[_Tree]) -> dict[Shape, list[_Tree]]:
         """Return the trees that are made functions, by shape and the results that are read."""
         while True:
-            ends: dict[int, tuple[int, int]] = {}
-            for t, tree in enumerate(trees):
-                for k, x in enumerate(self._results(tree)):
-                    if x.args and not (x.op == "neg" and not x.args[0].args):
-                        ends.setdefault(x.id, (t, k))
-            read: dict[int, set[int]] = {}
-            waiting = list(roots)
-            seen: set[int] = set()
-            entered: set[int] = set()
-            while waiting:
-                for node in walk(waiting, lambda n: n.id in ends or n.id in seen):
-                    if node.id in ends and node.id not in seen:
-                        t, k = ends[node.id]
-                        read.setdefault(t, set()).add(k)
-                    seen.add(node.id)
-                fresh = sorted(set(read) - entered)
-                entered |= set(fresh)
-                waiting = [x for t in fresh for x in self._inputs(trees[t])]
+            read = self._read(roots, trees)
             groups: dict[Shape, list[int]] = {}
             for t in sorted(read):
                 if self._even(trees[t], read[t]):
@@ -295,11 +278,41 @@ class Outline:
                 return {key: [trees[t] for t in found] for key, found in kept.items()}
             trees = [trees[t] for t in sorted(left)]
 
+    def _read(self, roots: Sequence[Expr], trees: Sequence[_Tree]) -> dict[int, set[int]]:
+        """Return which results of which trees are read, by number, where all trees are called."""
+        ends: dict[int, tuple[int, int]] = {}
+        for t, tree in enumerate(trees):
+            for k, x in enumerate(self._results(tree)):
+                if x.args and not (x.op == "neg" and not x.args[0].args):
+                    ends.setdefault(x.id, (t, k))
+        read: dict[int, set[int]] = {}
+        seen: set[int] = set()
+        entered: set[int] = set()
+
+        def ends_here(node: Expr) -> bool:
+            return node.id in ends or node.id in seen
+
+        waiting = list(roots)
+        while waiting:
+            for node in walk(waiting, ends_here):
+                if node.id in ends and node.id not in seen:
+                    t, k = ends[node.id]
+                    read.setdefault(t, set()).add(k)
+                seen.add(node.id)
+            fresh = sorted(set(read) - entered)
+            entered |= set(fresh)
+            waiting = [x for t in fresh for x in self._inputs(trees[t])]
+        return read
+
     def _even(self, tree: _Tree, read: set[int]) -> bool:
-        """Whether what is read of a tree depends on the same blocks as all that it is given."""
-        results = self._results(tree)
-        deepest = max(self._level[x.id] for x in self._inputs(tree))
-        return all(self._level[results[k].id] == deepest for k in read)
+        """Whether what is read of a tree depends on the same blocks as all that it is given.
+
+        And is younger, as what is computed from it must be: an older one is the result of something else.
+        """
+        results, inputs = self._results(tree), self._inputs(tree)
+        deepest = max(self._level.get(x.id, -1) for x in inputs)
+        youngest = max((x.id for x in inputs if x.args), default=-1)
+        return all(self._level[results[k].id] == deepest and results[k].id > youngest for k in read)
 
     def _results(self, tree: _Tree) -> Values:
         return tuple(x for value in self.made[tree.root].results for x in value)

@@ -21,7 +21,7 @@ from codegen.method import Method
 from orderconds.ring.protocol import Element
 from orderconds.tableau import Composition, RungeKutta
 
-FAMILIES = frozenset({"vcg", "cg", "cf", "rk", "ambient"})
+FAMILIES = frozenset({"vcg", "vcf", "cg", "cf", "rk", "ambient"})
 """Families in which a composition's tableau is the composition: none that expands dexp^{-1} over the step."""
 
 

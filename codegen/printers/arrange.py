@@ -1,7 +1,8 @@
 """Kernel to printable statements: Stumpff functions of one argument computed together, powers as products.
 
 A target's template sees five kinds of statement: :class:`Assignment`, :class:`Joint` (one call, several
-results), :class:`Invocation` (the same of a piece), :class:`Beginning` and :class:`Iteration`. What a loop computes on the way is not reused after it.
+results), :class:`Invocation` (the same of a piece), :class:`Beginning` and :class:`Iteration`. What a loop
+computes on the way is not reused after it.
 """
 
 from __future__ import annotations
@@ -124,10 +125,7 @@ class Arrangement:
     def expressions(self) -> Iterable[Expr]:
         """Yield every expression to be spelled."""
         for simple in self._simple():
-            if isinstance(simple, Invocation):
-                yield from simple.arguments
-            else:
-                yield simple.value if isinstance(simple, Assignment) else simple.argument
+            yield from _values(simple)
         for statement in self.statements:
             if isinstance(statement, Iteration):
                 yield from (*statement.starts, *statement.images, *statement.matrix)
@@ -194,17 +192,19 @@ def _iteration(
     if loop.newton is not None:
         entries = tuple(x for row in loop.newton.matrix for x in row)
         made, matrix = (scope if loop.newton.leading else inner).nested(loop.newton.body, entries)
-    after = _read([*images, *matrix, *(_value(s) for s in made)]) | frozenset(kept)
-    order = narrowed([_made(s) for s in body], [_read([_value(s)]) for s in body], after)
+    after = _read([*images, *matrix, *(x for s in made for x in _values(s))]) | frozenset(kept)
+    order = narrowed([_made(s) for s in body], [_read(_values(s)) for s in body], after)
     return Iteration(loop, number, starts, tuple(body[k] for k in order), images, kept, made, matrix)
 
 
 def _made(statement: Simple) -> tuple[str, ...]:
-    return statement.names if isinstance(statement, Joint) else (statement.name,)
+    return (statement.name,) if isinstance(statement, Assignment) else statement.names
 
 
-def _value(statement: Simple) -> Expr:
-    return statement.argument if isinstance(statement, Joint) else statement.value
+def _values(statement: Simple) -> tuple[Expr, ...]:
+    if isinstance(statement, Invocation):
+        return statement.arguments
+    return (statement.argument if isinstance(statement, Joint) else statement.value,)
 
 
 def _read(expressions: Iterable[Expr]) -> frozenset[str]:

@@ -9,6 +9,9 @@ from codegen.printers.arrange import Arrangement, Beginning, Invocation, Iterati
 from codegen.printers.expression import spell
 from codegen.printers.names import Names
 
+WIDE = 12
+"""The most unknowns for which each entry of a matrix stands in a statement of its own."""
+
 
 def layout(kernel: Kernel) -> tuple[str, ...]:
     """Return a line for each field of the state: its places, its name and what it means."""

@@ -315,17 +315,7 @@ def _advance(state, h, memory, statistics):
     m_2 = g02 * mu0 + g12 * mu1 + g22 * mu2
     if memory.past:
         (
-            xi1_0,
-            xi1_1,
-            xi1_2,
-            xi2_0,
-            xi2_1,
-            xi2_2,
-            xi3_0,
-            xi3_1,
-            xi3_2,
-            xi4_0,
-            xi4_1,
+            xi1_0, xi1_1, xi1_2, xi2_0, xi2_1, xi2_2, xi3_0, xi3_1, xi3_2, xi4_0, xi4_1,
             xi4_2,
         ) = memory.guess
     else:
@@ -683,32 +673,21 @@ def _advance(state, h, memory, statistics):
         residual_2_1 = M2_1 - a_4_1
         residual_2_0 = M2_0 - a_4_0
         total = (
-            residual_0
-            + residual_1
-            + residual_2
-            + residual_2_0
-            + residual_2_1
-            + residual_2_2
-            + residual_3_0
-            + residual_3_1
-            + residual_3_2
-            + residual_4_0
-            + residual_4_1
-            + residual_4_2
+            residual_0 + residual_1 + residual_2 + residual_2_0 + residual_2_1
+            + residual_2_2 + residual_3_0 + residual_3_1 + residual_3_2 + residual_4_0
+            + residual_4_1 + residual_4_2
         )
         if not isfinite(total):
             raise _failed(NOT_FINITE, "the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4", 0, sweep, statistics)
         if make_1:
             w171 = 0.165 * xi1_2
             w172 = (
-                0.08333333333333333 * g02 * mu0
-                + 0.08333333333333333 * g12 * mu1
+                0.08333333333333333 * g02 * mu0 + 0.08333333333333333 * g12 * mu1
                 + 0.08333333333333333 * g22 * mu2
             )
             w173 = 0.165 * xi1_1
             w174 = (
-                -0.08333333333333333 * g01 * mu0
-                - 0.08333333333333333 * g11 * mu1
+                -0.08333333333333333 * g01 * mu0 - 0.08333333333333333 * g11 * mu1
                 - 0.08333333333333333 * g21 * mu2
             )
             w175 = -0.66 * h
@@ -717,21 +696,18 @@ def _advance(state, h, memory, statistics):
             w178 = xi3_1 * w176
             w179 = 0.165 * xi4_2
             w180 = (
-                -0.08333333333333333 * g02 * mu0
-                - 0.08333333333333333 * g12 * mu1
+                -0.08333333333333333 * g02 * mu0 - 0.08333333333333333 * g12 * mu1
                 - 0.08333333333333333 * g22 * mu2
             )
             w181 = 0.165 * xi4_1
             w182 = (
-                0.08333333333333333 * g01 * mu0
-                + 0.08333333333333333 * g11 * mu1
+                0.08333333333333333 * g01 * mu0 + 0.08333333333333333 * g11 * mu1
                 + 0.08333333333333333 * g21 * mu2
             )
             w183 = -0.16666666666666666 * xi1_2
             w184 = -0.16666666666666666 * xi1_0
             w185 = (
-                0.08333333333333333 * g00 * mu0
-                + 0.08333333333333333 * g10 * mu1
+                0.08333333333333333 * g00 * mu0 + 0.08333333333333333 * g10 * mu1
                 + 0.08333333333333333 * g20 * mu2
             )
             w186 = 0.6666666666666666 * h
@@ -741,8 +717,7 @@ def _advance(state, h, memory, statistics):
             w190 = -0.16666666666666666 * xi4_2
             w191 = -0.16666666666666666 * xi4_0
             w192 = (
-                -0.08333333333333333 * g00 * mu0
-                - 0.08333333333333333 * g10 * mu1
+                -0.08333333333333333 * g00 * mu0 - 0.08333333333333333 * g10 * mu1
                 - 0.08333333333333333 * g20 * mu2
             )
             w193 = 0.0016666666666666668 * xi1_1
@@ -754,14 +729,12 @@ def _advance(state, h, memory, statistics):
             w199 = 0.0016666666666666668 * xi4_1
             w200 = 0.0016666666666666668 * xi4_0
             w201 = (
-                0.16666666666666666 * g02 * mu0
-                + 0.16666666666666666 * g12 * mu1
+                0.16666666666666666 * g02 * mu0 + 0.16666666666666666 * g12 * mu1
                 + 0.16666666666666666 * g22 * mu2
             )
             w202 = w171 + w201
             w203 = (
-                -0.16666666666666666 * g01 * mu0
-                - 0.16666666666666666 * g11 * mu1
+                -0.16666666666666666 * g01 * mu0 - 0.16666666666666666 * g11 * mu1
                 - 0.16666666666666666 * g21 * mu2
             )
             w204 = w173 + w203
@@ -773,14 +746,12 @@ def _advance(state, h, memory, statistics):
             w210 = xi4_2 * w209
             w211 = xi4_1 * w209
             w212 = (
-                -0.16666666666666666 * g02 * mu0
-                - 0.16666666666666666 * g12 * mu1
+                -0.16666666666666666 * g02 * mu0 - 0.16666666666666666 * g12 * mu1
                 - 0.16666666666666666 * g22 * mu2
             )
             w213 = w183 + w212
             w214 = (
-                0.16666666666666666 * g00 * mu0
-                + 0.16666666666666666 * g10 * mu1
+                0.16666666666666666 * g00 * mu0 + 0.16666666666666666 * g10 * mu1
                 + 0.16666666666666666 * g20 * mu2
             )
             w215 = w184 + w214
@@ -790,14 +761,12 @@ def _advance(state, h, memory, statistics):
             w219 = xi4_2 * w122
             w220 = xi4_0 * w122
             w221 = (
-                0.16666666666666666 * g01 * mu0
-                + 0.16666666666666666 * g11 * mu1
+                0.16666666666666666 * g01 * mu0 + 0.16666666666666666 * g11 * mu1
                 + 0.16666666666666666 * g21 * mu2
             )
             w222 = w193 + w221
             w223 = (
-                -0.16666666666666666 * g00 * mu0
-                - 0.16666666666666666 * g10 * mu1
+                -0.16666666666666666 * g00 * mu0 - 0.16666666666666666 * g10 * mu1
                 - 0.16666666666666666 * g20 * mu2
             )
             w224 = w194 + w223
@@ -820,208 +789,98 @@ def _advance(state, h, memory, statistics):
             w241 = h * (0.25 * g02 * mu0 + 0.25 * g12 * mu1 + 0.25 * g22 * mu2 + w171)
             w242 = h * (-0.25 * g01 * mu0 - 0.25 * g11 * mu1 - 0.25 * g21 * mu2 + w173)
             w243 = (
-                0.3333333333333333 * g02 * mu0
-                + 0.3333333333333333 * g12 * mu1
+                0.3333333333333333 * g02 * mu0 + 0.3333333333333333 * g12 * mu1
                 + 0.3333333333333333 * g22 * mu2
             )
             w244 = (
-                -0.3333333333333333 * g01 * mu0
-                - 0.3333333333333333 * g11 * mu1
+                -0.3333333333333333 * g01 * mu0 - 0.3333333333333333 * g11 * mu1
                 - 0.3333333333333333 * g21 * mu2
             )
             w245 = -0.01 * xi3_2
             w246 = h * (-0.25 * g02 * mu0 - 0.25 * g12 * mu1 - 0.25 * g22 * mu2 + w183)
             w247 = h * (0.25 * g00 * mu0 + 0.25 * g10 * mu1 + 0.25 * g20 * mu2 + w184)
             w248 = (
-                -0.3333333333333333 * g02 * mu0
-                - 0.3333333333333333 * g12 * mu1
+                -0.3333333333333333 * g02 * mu0 - 0.3333333333333333 * g12 * mu1
                 - 0.3333333333333333 * g22 * mu2
             )
             w249 = (
-                0.3333333333333333 * g00 * mu0
-                + 0.3333333333333333 * g10 * mu1
+                0.3333333333333333 * g00 * mu0 + 0.3333333333333333 * g10 * mu1
                 + 0.3333333333333333 * g20 * mu2
             )
             w250 = -0.99 * xi3_0
             w251 = h * (0.25 * g01 * mu0 + 0.25 * g11 * mu1 + 0.25 * g21 * mu2 + w193)
             w252 = h * (-0.25 * g00 * mu0 - 0.25 * g10 * mu1 - 0.25 * g20 * mu2 + w194)
             w253 = (
-                0.3333333333333333 * g01 * mu0
-                + 0.3333333333333333 * g11 * mu1
+                0.3333333333333333 * g01 * mu0 + 0.3333333333333333 * g11 * mu1
                 + 0.3333333333333333 * g21 * mu2
             )
             w254 = (
-                -0.3333333333333333 * g00 * mu0
-                - 0.3333333333333333 * g10 * mu1
+                -0.3333333333333333 * g00 * mu0 - 0.3333333333333333 * g10 * mu1
                 - 0.3333333333333333 * g20 * mu2
             )
             row_1_1 = [
-                1.01,
-                -h * (w171 + w172),
-                -h * (w173 + w174),
-                0.0,
-                -xi2_2 * w175,
-                -xi2_1 * w175,
-                0.0,
-                -w177,
-                -w178,
-                0.0,
-                -h * (w179 + w180),
+                1.01, -h * (w171 + w172), -h * (w173 + w174), 0.0, -xi2_2 * w175,
+                -xi2_1 * w175, 0.0, -w177, -w178, 0.0, -h * (w179 + w180),
                 -h * (w181 + w182),
             ]
             row_1_2 = [
-                -h * (w180 + w183),
-                1.0,
-                -h * (w184 + w185),
-                -xi2_2 * w186,
-                0.0,
-                -xi2_0 * w186,
-                -w188,
-                0.0,
-                -w189,
-                -h * (w172 + w190),
-                0.0,
+                -h * (w180 + w183), 1.0, -h * (w184 + w185), -xi2_2 * w186, 0.0,
+                -xi2_0 * w186, -w188, 0.0, -w189, -h * (w172 + w190), 0.0,
                 -h * (w191 + w192),
             ]
             row_1_3 = [
-                -h * (w182 + w193),
-                -h * (w192 + w194),
-                0.01,
-                -xi2_1 * w195,
-                -xi2_0 * w195,
-                0.0,
-                -w197,
-                -w198,
-                0.0,
-                -h * (w174 + w199),
-                -h * (w185 + w200),
-                0.0,
+                -h * (w182 + w193), -h * (w192 + w194), 0.01, -xi2_1 * w195,
+                -xi2_0 * w195, 0.0, -w197, -w198, 0.0, -h * (w174 + w199),
+                -h * (w185 + w200), 0.0,
             ]
             row_1_4 = [
-                0.0,
-                -h * (0.5 * xi2_2 + w202),
-                -h * (w204 - 0.005 * xi2_1),
-                1.01,
-                -h * (w201 + w206 + w205),
-                -h * (w203 + w208 + w207),
-                0.0,
-                -h * (w201 - 0.165 * xi3_2),
-                -h * (w203 - 0.165 * xi3_1),
-                0.0,
-                -w210,
+                0.0, -h * (0.5 * xi2_2 + w202), -h * (w204 - 0.005 * xi2_1), 1.01,
+                -h * (w201 + w206 + w205), -h * (w203 + w208 + w207), 0.0,
+                -h * (w201 - 0.165 * xi3_2), -h * (w203 - 0.165 * xi3_1), 0.0, -w210,
                 -w211,
             ]
             row_1_5 = [
-                -h * (w213 - 0.495 * xi2_2),
-                0.0,
-                -h * (w215 - 0.005 * xi2_0),
-                -h * (w206 + w212 + w216),
-                1.0,
-                -h * (w214 + w218 + w217),
-                -h * (0.16666666666666666 * xi3_2 + w212),
-                0.0,
-                -h * (0.16666666666666666 * xi3_0 + w214),
-                -w219,
-                0.0,
-                -w220,
+                -h * (w213 - 0.495 * xi2_2), 0.0, -h * (w215 - 0.005 * xi2_0),
+                -h * (w206 + w212 + w216), 1.0, -h * (w214 + w218 + w217),
+                -h * (0.16666666666666666 * xi3_2 + w212), 0.0,
+                -h * (0.16666666666666666 * xi3_0 + w214), -w219, 0.0, -w220,
             ]
             row_1_6 = [
-                -h * (w222 - 0.495 * xi2_1),
-                -h * (0.5 * xi2_0 + w224),
-                0.0,
-                -h * (w208 + w221 + w225),
-                -h * (w218 + w223 + w226),
-                0.01,
+                -h * (w222 - 0.495 * xi2_1), -h * (0.5 * xi2_0 + w224), 0.0,
+                -h * (w208 + w221 + w225), -h * (w218 + w223 + w226), 0.01,
                 -h * (w221 - 0.0016666666666666668 * xi3_1),
-                -h * (w223 - 0.0016666666666666668 * xi3_0),
-                0.0,
-                -w228,
-                -w229,
-                0.0,
+                -h * (w223 - 0.0016666666666666668 * xi3_0), 0.0, -w228, -w229, 0.0,
             ]
             row_1_7 = [
-                0.0,
-                -h * w202,
-                -h * w204,
-                0.0,
-                -h * (w201 + w205 + 0.5 * xi3_2),
-                -h * (w203 + w207 - 0.005 * xi3_1),
-                1.01,
-                -h * (w201 + w231 + w230),
-                -h * (w203 + w233 + w232),
-                0.0,
-                -xi4_2 * w234,
-                -xi4_1 * w234,
+                0.0, -h * w202, -h * w204, 0.0, -h * (w201 + w205 + 0.5 * xi3_2),
+                -h * (w203 + w207 - 0.005 * xi3_1), 1.01, -h * (w201 + w231 + w230),
+                -h * (w203 + w233 + w232), 0.0, -xi4_2 * w234, -xi4_1 * w234,
             ]
             row_1_8 = [
-                -h * w213,
-                0.0,
-                -h * w215,
-                -h * (w212 + w216 - 0.495 * xi3_2),
-                0.0,
-                -h * (w214 + w217 - 0.005 * xi3_0),
-                -h * (w212 + w231 + w235),
-                1.0,
-                -h * (w214 + w237 + w236),
-                -xi4_2 * w119,
-                0.0,
-                -xi4_0 * w119,
+                -h * w213, 0.0, -h * w215, -h * (w212 + w216 - 0.495 * xi3_2), 0.0,
+                -h * (w214 + w217 - 0.005 * xi3_0), -h * (w212 + w231 + w235), 1.0,
+                -h * (w214 + w237 + w236), -xi4_2 * w119, 0.0, -xi4_0 * w119,
             ]
             row_1_9 = [
-                -h * w222,
-                -h * w224,
-                0.0,
-                -h * (w221 + w225 - 0.495 * xi3_1),
-                -h * (w223 + w226 + 0.5 * xi3_0),
-                0.0,
-                -h * (w221 + w233 + w238),
-                -h * (w223 + w237 + w239),
-                0.01,
-                -xi4_1 * w240,
-                -xi4_0 * w240,
-                0.0,
+                -h * w222, -h * w224, 0.0, -h * (w221 + w225 - 0.495 * xi3_1),
+                -h * (w223 + w226 + 0.5 * xi3_0), 0.0, -h * (w221 + w233 + w238),
+                -h * (w223 + w237 + w239), 0.01, -xi4_1 * w240, -xi4_0 * w240, 0.0,
             ]
             row_1_10 = [
-                0.0,
-                -w241,
-                -w242,
-                0.0,
-                -h * (w205 + w243),
-                -h * (w207 + w244),
-                0.0,
-                -h * (w230 + w243 + xi4_2),
-                -h * (w232 + w244 - 0.01 * xi4_1),
-                1.01,
-                -h * (w172 + w245 + w179),
-                -h * (xi3_1 + w174 + w181),
+                0.0, -w241, -w242, 0.0, -h * (w205 + w243), -h * (w207 + w244), 0.0,
+                -h * (w230 + w243 + xi4_2), -h * (w232 + w244 - 0.01 * xi4_1), 1.01,
+                -h * (w172 + w245 + w179), -h * (xi3_1 + w174 + w181),
             ]
             row_1_11 = [
-                -w246,
-                0.0,
-                -w247,
-                -h * (w216 + w248),
-                0.0,
-                -h * (w217 + w249),
-                -h * (w235 + w248 - 0.99 * xi4_2),
-                0.0,
-                -h * (w236 + w249 - 0.01 * xi4_0),
-                -h * (w180 + w245 + w190),
-                1.0,
+                -w246, 0.0, -w247, -h * (w216 + w248), 0.0, -h * (w217 + w249),
+                -h * (w235 + w248 - 0.99 * xi4_2), 0.0,
+                -h * (w236 + w249 - 0.01 * xi4_0), -h * (w180 + w245 + w190), 1.0,
                 -h * (w185 + w250 + w191),
             ]
             row_1_12 = [
-                -w251,
-                -w252,
-                0.0,
-                -h * (w225 + w253),
-                -h * (w226 + w254),
-                0.0,
-                -h * (w238 + w253 - 0.99 * xi4_1),
-                -h * (w239 + w254 + xi4_0),
-                0.0,
-                -h * (xi3_1 + w182 + w199),
-                -h * (w192 + w250 + w200),
-                0.01,
+                -w251, -w252, 0.0, -h * (w225 + w253), -h * (w226 + w254), 0.0,
+                -h * (w238 + w253 - 0.99 * xi4_1), -h * (w239 + w254 + xi4_0), 0.0,
+                -h * (xi3_1 + w182 + w199), -h * (w192 + w250 + w200), 0.01,
             ]
             memory.inverses[0] = invert([row_1_1, row_1_2, row_1_3, row_1_4, row_1_5, row_1_6, row_1_7, row_1_8, row_1_9, row_1_10, row_1_11, row_1_12])
             if statistics is not None:
@@ -1029,186 +888,104 @@ def _advance(state, h, memory, statistics):
             if memory.inverses[0] is None:
                 raise _failed(NOT_CONVERGED, "the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4", 0, sweep, statistics)
         (
-            row_1_1,
-            row_1_2,
-            row_1_3,
-            row_1_4,
-            row_1_5,
-            row_1_6,
-            row_1_7,
-            row_1_8,
-            row_1_9,
-            row_1_10,
-            row_1_11,
-            row_1_12,
+            row_1_1, row_1_2, row_1_3, row_1_4, row_1_5, row_1_6, row_1_7, row_1_8,
+            row_1_9, row_1_10, row_1_11, row_1_12,
         ) = memory.inverses[0]
         d_xi1_0 = (
-            row_1_1[0] * residual_0
-            + row_1_1[1] * residual_1
-            + row_1_1[2] * residual_2
-            + row_1_1[3] * residual_2_0
-            + row_1_1[4] * residual_2_1
-            + row_1_1[5] * residual_2_2
-            + row_1_1[6] * residual_3_0
-            + row_1_1[7] * residual_3_1
-            + row_1_1[8] * residual_3_2
-            + row_1_1[9] * residual_4_0
-            + row_1_1[10] * residual_4_1
+            row_1_1[0] * residual_0 + row_1_1[1] * residual_1 + row_1_1[2] * residual_2
+            + row_1_1[3] * residual_2_0 + row_1_1[4] * residual_2_1
+            + row_1_1[5] * residual_2_2 + row_1_1[6] * residual_3_0
+            + row_1_1[7] * residual_3_1 + row_1_1[8] * residual_3_2
+            + row_1_1[9] * residual_4_0 + row_1_1[10] * residual_4_1
             + row_1_1[11] * residual_4_2
         )
         d_xi1_1 = (
-            row_1_2[0] * residual_0
-            + row_1_2[1] * residual_1
-            + row_1_2[2] * residual_2
-            + row_1_2[3] * residual_2_0
-            + row_1_2[4] * residual_2_1
-            + row_1_2[5] * residual_2_2
-            + row_1_2[6] * residual_3_0
-            + row_1_2[7] * residual_3_1
-            + row_1_2[8] * residual_3_2
-            + row_1_2[9] * residual_4_0
-            + row_1_2[10] * residual_4_1
+            row_1_2[0] * residual_0 + row_1_2[1] * residual_1 + row_1_2[2] * residual_2
+            + row_1_2[3] * residual_2_0 + row_1_2[4] * residual_2_1
+            + row_1_2[5] * residual_2_2 + row_1_2[6] * residual_3_0
+            + row_1_2[7] * residual_3_1 + row_1_2[8] * residual_3_2
+            + row_1_2[9] * residual_4_0 + row_1_2[10] * residual_4_1
             + row_1_2[11] * residual_4_2
         )
         d_xi1_2 = (
-            row_1_3[0] * residual_0
-            + row_1_3[1] * residual_1
-            + row_1_3[2] * residual_2
-            + row_1_3[3] * residual_2_0
-            + row_1_3[4] * residual_2_1
-            + row_1_3[5] * residual_2_2
-            + row_1_3[6] * residual_3_0
-            + row_1_3[7] * residual_3_1
-            + row_1_3[8] * residual_3_2
-            + row_1_3[9] * residual_4_0
-            + row_1_3[10] * residual_4_1
+            row_1_3[0] * residual_0 + row_1_3[1] * residual_1 + row_1_3[2] * residual_2
+            + row_1_3[3] * residual_2_0 + row_1_3[4] * residual_2_1
+            + row_1_3[5] * residual_2_2 + row_1_3[6] * residual_3_0
+            + row_1_3[7] * residual_3_1 + row_1_3[8] * residual_3_2
+            + row_1_3[9] * residual_4_0 + row_1_3[10] * residual_4_1
             + row_1_3[11] * residual_4_2
         )
         d_xi2_0 = (
-            row_1_4[0] * residual_0
-            + row_1_4[1] * residual_1
-            + row_1_4[2] * residual_2
-            + row_1_4[3] * residual_2_0
-            + row_1_4[4] * residual_2_1
-            + row_1_4[5] * residual_2_2
-            + row_1_4[6] * residual_3_0
-            + row_1_4[7] * residual_3_1
-            + row_1_4[8] * residual_3_2
-            + row_1_4[9] * residual_4_0
-            + row_1_4[10] * residual_4_1
+            row_1_4[0] * residual_0 + row_1_4[1] * residual_1 + row_1_4[2] * residual_2
+            + row_1_4[3] * residual_2_0 + row_1_4[4] * residual_2_1
+            + row_1_4[5] * residual_2_2 + row_1_4[6] * residual_3_0
+            + row_1_4[7] * residual_3_1 + row_1_4[8] * residual_3_2
+            + row_1_4[9] * residual_4_0 + row_1_4[10] * residual_4_1
             + row_1_4[11] * residual_4_2
         )
         d_xi2_1 = (
-            row_1_5[0] * residual_0
-            + row_1_5[1] * residual_1
-            + row_1_5[2] * residual_2
-            + row_1_5[3] * residual_2_0
-            + row_1_5[4] * residual_2_1
-            + row_1_5[5] * residual_2_2
-            + row_1_5[6] * residual_3_0
-            + row_1_5[7] * residual_3_1
-            + row_1_5[8] * residual_3_2
-            + row_1_5[9] * residual_4_0
-            + row_1_5[10] * residual_4_1
+            row_1_5[0] * residual_0 + row_1_5[1] * residual_1 + row_1_5[2] * residual_2
+            + row_1_5[3] * residual_2_0 + row_1_5[4] * residual_2_1
+            + row_1_5[5] * residual_2_2 + row_1_5[6] * residual_3_0
+            + row_1_5[7] * residual_3_1 + row_1_5[8] * residual_3_2
+            + row_1_5[9] * residual_4_0 + row_1_5[10] * residual_4_1
             + row_1_5[11] * residual_4_2
         )
         d_xi2_2 = (
-            row_1_6[0] * residual_0
-            + row_1_6[1] * residual_1
-            + row_1_6[2] * residual_2
-            + row_1_6[3] * residual_2_0
-            + row_1_6[4] * residual_2_1
-            + row_1_6[5] * residual_2_2
-            + row_1_6[6] * residual_3_0
-            + row_1_6[7] * residual_3_1
-            + row_1_6[8] * residual_3_2
-            + row_1_6[9] * residual_4_0
-            + row_1_6[10] * residual_4_1
+            row_1_6[0] * residual_0 + row_1_6[1] * residual_1 + row_1_6[2] * residual_2
+            + row_1_6[3] * residual_2_0 + row_1_6[4] * residual_2_1
+            + row_1_6[5] * residual_2_2 + row_1_6[6] * residual_3_0
+            + row_1_6[7] * residual_3_1 + row_1_6[8] * residual_3_2
+            + row_1_6[9] * residual_4_0 + row_1_6[10] * residual_4_1
             + row_1_6[11] * residual_4_2
         )
         d_xi3_0 = (
-            row_1_7[0] * residual_0
-            + row_1_7[1] * residual_1
-            + row_1_7[2] * residual_2
-            + row_1_7[3] * residual_2_0
-            + row_1_7[4] * residual_2_1
-            + row_1_7[5] * residual_2_2
-            + row_1_7[6] * residual_3_0
-            + row_1_7[7] * residual_3_1
-            + row_1_7[8] * residual_3_2
-            + row_1_7[9] * residual_4_0
-            + row_1_7[10] * residual_4_1
+            row_1_7[0] * residual_0 + row_1_7[1] * residual_1 + row_1_7[2] * residual_2
+            + row_1_7[3] * residual_2_0 + row_1_7[4] * residual_2_1
+            + row_1_7[5] * residual_2_2 + row_1_7[6] * residual_3_0
+            + row_1_7[7] * residual_3_1 + row_1_7[8] * residual_3_2
+            + row_1_7[9] * residual_4_0 + row_1_7[10] * residual_4_1
             + row_1_7[11] * residual_4_2
         )
         d_xi3_1 = (
-            row_1_8[0] * residual_0
-            + row_1_8[1] * residual_1
-            + row_1_8[2] * residual_2
-            + row_1_8[3] * residual_2_0
-            + row_1_8[4] * residual_2_1
-            + row_1_8[5] * residual_2_2
-            + row_1_8[6] * residual_3_0
-            + row_1_8[7] * residual_3_1
-            + row_1_8[8] * residual_3_2
-            + row_1_8[9] * residual_4_0
-            + row_1_8[10] * residual_4_1
+            row_1_8[0] * residual_0 + row_1_8[1] * residual_1 + row_1_8[2] * residual_2
+            + row_1_8[3] * residual_2_0 + row_1_8[4] * residual_2_1
+            + row_1_8[5] * residual_2_2 + row_1_8[6] * residual_3_0
+            + row_1_8[7] * residual_3_1 + row_1_8[8] * residual_3_2
+            + row_1_8[9] * residual_4_0 + row_1_8[10] * residual_4_1
             + row_1_8[11] * residual_4_2
         )
         d_xi3_2 = (
-            row_1_9[0] * residual_0
-            + row_1_9[1] * residual_1
-            + row_1_9[2] * residual_2
-            + row_1_9[3] * residual_2_0
-            + row_1_9[4] * residual_2_1
-            + row_1_9[5] * residual_2_2
-            + row_1_9[6] * residual_3_0
-            + row_1_9[7] * residual_3_1
-            + row_1_9[8] * residual_3_2
-            + row_1_9[9] * residual_4_0
-            + row_1_9[10] * residual_4_1
+            row_1_9[0] * residual_0 + row_1_9[1] * residual_1 + row_1_9[2] * residual_2
+            + row_1_9[3] * residual_2_0 + row_1_9[4] * residual_2_1
+            + row_1_9[5] * residual_2_2 + row_1_9[6] * residual_3_0
+            + row_1_9[7] * residual_3_1 + row_1_9[8] * residual_3_2
+            + row_1_9[9] * residual_4_0 + row_1_9[10] * residual_4_1
             + row_1_9[11] * residual_4_2
         )
         d_xi4_0 = (
-            row_1_10[0] * residual_0
-            + row_1_10[1] * residual_1
-            + row_1_10[2] * residual_2
-            + row_1_10[3] * residual_2_0
-            + row_1_10[4] * residual_2_1
-            + row_1_10[5] * residual_2_2
-            + row_1_10[6] * residual_3_0
-            + row_1_10[7] * residual_3_1
-            + row_1_10[8] * residual_3_2
-            + row_1_10[9] * residual_4_0
-            + row_1_10[10] * residual_4_1
-            + row_1_10[11] * residual_4_2
+            row_1_10[0] * residual_0 + row_1_10[1] * residual_1
+            + row_1_10[2] * residual_2 + row_1_10[3] * residual_2_0
+            + row_1_10[4] * residual_2_1 + row_1_10[5] * residual_2_2
+            + row_1_10[6] * residual_3_0 + row_1_10[7] * residual_3_1
+            + row_1_10[8] * residual_3_2 + row_1_10[9] * residual_4_0
+            + row_1_10[10] * residual_4_1 + row_1_10[11] * residual_4_2
         )
         d_xi4_1 = (
-            row_1_11[0] * residual_0
-            + row_1_11[1] * residual_1
-            + row_1_11[2] * residual_2
-            + row_1_11[3] * residual_2_0
-            + row_1_11[4] * residual_2_1
-            + row_1_11[5] * residual_2_2
-            + row_1_11[6] * residual_3_0
-            + row_1_11[7] * residual_3_1
-            + row_1_11[8] * residual_3_2
-            + row_1_11[9] * residual_4_0
-            + row_1_11[10] * residual_4_1
-            + row_1_11[11] * residual_4_2
+            row_1_11[0] * residual_0 + row_1_11[1] * residual_1
+            + row_1_11[2] * residual_2 + row_1_11[3] * residual_2_0
+            + row_1_11[4] * residual_2_1 + row_1_11[5] * residual_2_2
+            + row_1_11[6] * residual_3_0 + row_1_11[7] * residual_3_1
+            + row_1_11[8] * residual_3_2 + row_1_11[9] * residual_4_0
+            + row_1_11[10] * residual_4_1 + row_1_11[11] * residual_4_2
         )
         d_xi4_2 = (
-            row_1_12[0] * residual_0
-            + row_1_12[1] * residual_1
-            + row_1_12[2] * residual_2
-            + row_1_12[3] * residual_2_0
-            + row_1_12[4] * residual_2_1
-            + row_1_12[5] * residual_2_2
-            + row_1_12[6] * residual_3_0
-            + row_1_12[7] * residual_3_1
-            + row_1_12[8] * residual_3_2
-            + row_1_12[9] * residual_4_0
-            + row_1_12[10] * residual_4_1
-            + row_1_12[11] * residual_4_2
+            row_1_12[0] * residual_0 + row_1_12[1] * residual_1
+            + row_1_12[2] * residual_2 + row_1_12[3] * residual_2_0
+            + row_1_12[4] * residual_2_1 + row_1_12[5] * residual_2_2
+            + row_1_12[6] * residual_3_0 + row_1_12[7] * residual_3_1
+            + row_1_12[8] * residual_3_2 + row_1_12[9] * residual_4_0
+            + row_1_12[10] * residual_4_1 + row_1_12[11] * residual_4_2
         )
         xi1_0 += d_xi1_0
         xi1_1 += d_xi1_1
@@ -1223,33 +1000,13 @@ def _advance(state, h, memory, statistics):
         xi4_1 += d_xi4_1
         xi4_2 += d_xi4_2
         change = max(
-            abs(d_xi1_0),
-            abs(d_xi1_1),
-            abs(d_xi1_2),
-            abs(d_xi2_0),
-            abs(d_xi2_1),
-            abs(d_xi2_2),
-            abs(d_xi3_0),
-            abs(d_xi3_1),
-            abs(d_xi3_2),
-            abs(d_xi4_0),
-            abs(d_xi4_1),
-            abs(d_xi4_2),
+            abs(d_xi1_0), abs(d_xi1_1), abs(d_xi1_2), abs(d_xi2_0), abs(d_xi2_1),
+            abs(d_xi2_2), abs(d_xi3_0), abs(d_xi3_1), abs(d_xi3_2), abs(d_xi4_0),
+            abs(d_xi4_1), abs(d_xi4_2),
         )
         scale = max(
-            1.0,
-            abs(xi1_0),
-            abs(xi1_1),
-            abs(xi1_2),
-            abs(xi2_0),
-            abs(xi2_1),
-            abs(xi2_2),
-            abs(xi3_0),
-            abs(xi3_1),
-            abs(xi3_2),
-            abs(xi4_0),
-            abs(xi4_1),
-            abs(xi4_2),
+            1.0, abs(xi1_0), abs(xi1_1), abs(xi1_2), abs(xi2_0), abs(xi2_1), abs(xi2_2),
+            abs(xi3_0), abs(xi3_1), abs(xi3_2), abs(xi4_0), abs(xi4_1), abs(xi4_2),
         )
         still = 0.0 < previous_1 <= change <= 5.684341886080802e-14 * scale
         if sweep == 1:
@@ -1334,11 +1091,8 @@ def _advance(state, h, memory, statistics):
     w289 = 0.165 * h
     w290 = 0.33 * h
     w291 = (
-        s_p1_0_seen
-        + xi1_2 * w289 * d_xi1_1
-        + xi1_1 * w289 * d_xi1_2
-        + xi2_2 * w290 * d_xi2_1
-        + xi2_1 * w290 * d_xi2_2
+        s_p1_0_seen + xi1_2 * w289 * d_xi1_1 + xi1_1 * w289 * d_xi1_2
+        + xi2_2 * w290 * d_xi2_1 + xi2_1 * w290 * d_xi2_2
     )
     w292 = xi3_2 * w290
     w293 = xi3_1 * w290
@@ -1347,11 +1101,8 @@ def _advance(state, h, memory, statistics):
     w296 = w291 + d_xi3_1 * w292 + d_xi3_2 * w293 + d_xi4_1 * w294 + d_xi4_2 * w295
     w297 = -0.3333333333333333 * h
     w298 = (
-        s_p1_1_seen
-        + xi1_2 * w122 * d_xi1_0
-        + xi1_0 * w122 * d_xi1_2
-        + xi2_2 * w297 * d_xi2_0
-        + xi2_0 * w297 * d_xi2_2
+        s_p1_1_seen + xi1_2 * w122 * d_xi1_0 + xi1_0 * w122 * d_xi1_2
+        + xi2_2 * w297 * d_xi2_0 + xi2_0 * w297 * d_xi2_2
     )
     w299 = xi3_2 * w297
     w300 = xi3_0 * w297
@@ -1361,11 +1112,8 @@ def _advance(state, h, memory, statistics):
     w304 = 0.0016666666666666668 * h
     w305 = 0.0033333333333333335 * h
     w306 = (
-        s_p1_2_seen
-        + xi1_1 * w304 * d_xi1_0
-        + xi1_0 * w304 * d_xi1_1
-        + xi2_1 * w305 * d_xi2_0
-        + xi2_0 * w305 * d_xi2_1
+        s_p1_2_seen + xi1_1 * w304 * d_xi1_0 + xi1_0 * w304 * d_xi1_1
+        + xi2_1 * w305 * d_xi2_0 + xi2_0 * w305 * d_xi2_1
     )
     w307 = xi3_1 * w305
     w308 = xi3_0 * w305
@@ -1388,33 +1136,13 @@ def _advance(state, h, memory, statistics):
     new_mu1 = g10 * change_0 + g11 * change_1 + g12 * change_2 + mu1
     new_mu2 = g20 * change_0 + g21 * change_1 + g22 * change_2 + mu2
     found = (
-        xi1_0,
-        xi1_1,
-        xi1_2,
-        xi2_0,
-        xi2_1,
-        xi2_2,
-        xi3_0,
-        xi3_1,
-        xi3_2,
-        xi4_0,
-        xi4_1,
+        xi1_0, xi1_1, xi1_2, xi2_0, xi2_1, xi2_2, xi3_0, xi3_1, xi3_2, xi4_0, xi4_1,
         xi4_2,
     )
     memory.keep(found)
     return (
-        new_g00,
-        new_g01,
-        new_g02,
-        new_g10,
-        new_g11,
-        new_g12,
-        new_g20,
-        new_g21,
-        new_g22,
-        new_mu0,
-        new_mu1,
-        new_mu2,
+        new_g00, new_g01, new_g02, new_g10, new_g11, new_g12, new_g20, new_g21, new_g22,
+        new_mu0, new_mu1, new_mu2,
     )
 
 

@@ -393,19 +393,14 @@ def _advance(state, h, memory, statistics):
             w35 = w32 + y1_2_2 * w28
             w36 = 1.0 / (1.01 * w29 - w31 * w33 - w34 * w35)
             row_1_1 = [
-                w29 * w36,
-                w36 * (w28 * w34 + 0.01 * w31),
-                w36 * (w34 + y1_2_0 * w31),
+                w29 * w36, w36 * (w28 * w34 + 0.01 * w31), w36 * (w34 + y1_2_0 * w31),
             ]
             row_1_2 = [
-                w33 * w36,
-                w36 * (0.0101 - w32 * w34),
+                w33 * w36, w36 * (0.0101 - w32 * w34),
                 w36 * (y1_2_2 * w34 + 1.01 * y1_2_0),
             ]
             row_1_3 = [
-                w35 * w36,
-                w36 * (w31 * w32 + 1.01 * w28),
-                w36 * (1.01 - y1_2_2 * w31),
+                w35 * w36, w36 * (w31 * w32 + 1.01 * w28), w36 * (1.01 - y1_2_2 * w31),
             ]
             memory.inverses[0] = [row_1_1, row_1_2, row_1_3]
             if statistics is not None:
@@ -488,18 +483,8 @@ def _advance(state, h, memory, statistics):
     found = xi1_0, xi1_1, xi1_2
     memory.keep(found)
     return (
-        new_g00,
-        new_g01,
-        new_g02,
-        new_g10,
-        new_g11,
-        new_g12,
-        new_g20,
-        new_g21,
-        new_g22,
-        new_mu0,
-        new_mu1,
-        new_mu2,
+        new_g00, new_g01, new_g02, new_g10, new_g11, new_g12, new_g20, new_g21, new_g22,
+        new_mu0, new_mu1, new_mu2,
     )
 
 

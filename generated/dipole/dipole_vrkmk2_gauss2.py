@@ -441,21 +441,15 @@ def _advance(state, h, memory, statistics):
         w77 = X1_0 * Nn1_1 - X1_1 * Nn1_0
         w78 = X1_2 * Nn1_0 - X1_0 * Nn1_2
         sum_d1_0 = (
-            Nn1_0
-            + w75 * c2_2
-            + (X1_1 * w77 - X1_2 * w78) * c3_2
+            Nn1_0 + w75 * c2_2 + (X1_1 * w77 - X1_2 * w78) * c3_2
             - (a_4_1 * w82 - a_4_2 * w83 + (w84 * w85 - w86 * w87))
         )
         sum_d1_1 = (
-            Nn1_1
-            + w78 * c2_2
-            + (X1_2 * w75 - X1_0 * w77) * c3_2
+            Nn1_1 + w78 * c2_2 + (X1_2 * w75 - X1_0 * w77) * c3_2
             - (a_4_2 * w92 - w82 * a_4_0 + (w86 * w93 - w85 * w94))
         )
         sum_d1_2 = (
-            Nn1_2
-            + w77 * c2_2
-            + (X1_0 * w78 - X1_1 * w75) * c3_2
+            Nn1_2 + w77 * c2_2 + (X1_0 * w78 - X1_1 * w75) * c3_2
             - (w83 * a_4_0 - a_4_1 * w92 + (w87 * w94 - w84 * w93))
         )
         c1_1, c2_1, c3_1 = _stumpff_123(w5)
@@ -504,21 +498,15 @@ def _advance(state, h, memory, statistics):
         w63 = X2_0 * Nn2_1 - X2_1 * Nn2_0
         w64 = X2_2 * Nn2_0 - X2_0 * Nn2_2
         sum_d2_0 = (
-            Nn2_0
-            + w61 * c2_1
-            + (X2_1 * w63 - X2_2 * w64) * c3_1
+            Nn2_0 + w61 * c2_1 + (X2_1 * w63 - X2_2 * w64) * c3_1
             - (a_8_1 * w68 - a_8_2 * w69 + (w70 * w71 - w72 * w73))
         )
         sum_d2_1 = (
-            Nn2_1
-            + w64 * c2_1
-            + (X2_2 * w61 - X2_0 * w63) * c3_1
+            Nn2_1 + w64 * c2_1 + (X2_2 * w61 - X2_0 * w63) * c3_1
             - (a_8_2 * w89 - w68 * a_8_0 + (w72 * w90 - w71 * w91))
         )
         sum_d2_2 = (
-            Nn2_2
-            + w63 * c2_1
-            + (X2_0 * w64 - X2_1 * w61) * c3_1
+            Nn2_2 + w63 * c2_1 + (X2_0 * w64 - X2_1 * w61) * c3_1
             - (w69 * a_8_0 - a_8_1 * w89 + (w73 * w91 - w70 * w90))
         )
         w1_2 = L_4_2 + w74 * sum_d2_2 + w88 * sum_d1_2
@@ -534,11 +522,7 @@ def _advance(state, h, memory, statistics):
         residual_2_0 = w2_0 - a_8_0
         residual_0 = w1_0 - a_4_0
         total = (
-            residual_0
-            + residual_1
-            + residual_2
-            + residual_2_0
-            + residual_2_1
+            residual_0 + residual_1 + residual_2 + residual_2_0 + residual_2_1
             + residual_2_2
         )
         if not isfinite(total):
@@ -557,24 +541,19 @@ def _advance(state, h, memory, statistics):
             w107 = 0.26933756729740643 * v1_1
             w108 = -0.26664419162443237 * v1_0
             row_1_1 = [
-                1.01,
-                -h * (0.495 * v1_2 + w98 + w97),
-                -h * (0.495 * v1_1 + w100 + w99),
+                1.01, -h * (0.495 * v1_2 + w98 + w97), -h * (0.495 * v1_1 + w100 + w99),
                 0.0,
                 -h * (w98 - 0.01933756729740644 * v1_2 + 0.22835580837556763 * v2_2),
                 -h * (0.0001933756729740644 * v1_1 + w100 + 0.22835580837556763 * v2_1),
             ]
             row_1_2 = [
-                -h * (w101 - 0.5 * v1_2 + w97),
-                1.0,
-                -h * (w103 - 0.5 * v1_0 + w102),
+                -h * (w101 - 0.5 * v1_2 + w97), 1.0, -h * (w103 - 0.5 * v1_0 + w102),
                 -h * (0.019144191624432375 * v1_2 + w101 - 0.23066243270259357 * v2_2),
                 0.0,
                 -h * (0.0001933756729740644 * v1_0 + w103 - 0.23066243270259357 * v2_0),
             ]
             row_1_3 = [
-                -h * (0.005 * v1_1 + w104 + w99),
-                -h * (0.005 * v1_0 + w105 + w102),
+                -h * (0.005 * v1_1 + w104 + w99), -h * (0.005 * v1_0 + w105 + w102),
                 0.01,
                 -h * (0.019144191624432375 * v1_1 + w104 + 0.0023066243270259356 * v2_1),
                 -h * (w105 - 0.01933756729740644 * v1_0 + 0.0023066243270259356 * v2_0),
@@ -584,25 +563,20 @@ def _advance(state, h, memory, statistics):
                 0.0,
                 -h * (0.5141441916244324 * v1_2 + w98 + 0.26933756729740643 * v2_2),
                 -h * (0.5141441916244324 * v1_1 + w100 - 0.0026933756729740645 * v2_1),
-                1.01,
-                -h * (w98 + w106 + 0.495 * v2_2),
+                1.01, -h * (w98 + w106 + 0.495 * v2_2),
                 -h * (w100 + w107 + 0.495 * v2_1),
             ]
             row_1_5 = [
                 -h * (w101 - 0.5193375672974064 * v1_2 - 0.26664419162443237 * v2_2),
                 0.0,
                 -h * (w103 - 0.5193375672974064 * v1_0 - 0.0026933756729740645 * v2_0),
-                -h * (w101 + w106 - 0.5 * v2_2),
-                1.0,
-                -h * (w103 + w108 - 0.5 * v2_0),
+                -h * (w101 + w106 - 0.5 * v2_2), 1.0, -h * (w103 + w108 - 0.5 * v2_0),
             ]
             row_1_6 = [
                 -h * (0.005193375672974065 * v1_1 + w104 - 0.26664419162443237 * v2_1),
                 -h * (0.005193375672974065 * v1_0 + w105 + 0.26933756729740643 * v2_0),
-                0.0,
-                -h * (w104 + w107 + 0.005 * v2_1),
-                -h * (w105 + w108 + 0.005 * v2_0),
-                0.01,
+                0.0, -h * (w104 + w107 + 0.005 * v2_1),
+                -h * (w105 + w108 + 0.005 * v2_0), 0.01,
             ]
             memory.inverses[0] = invert([row_1_1, row_1_2, row_1_3, row_1_4, row_1_5, row_1_6])
             if statistics is not None:
@@ -611,51 +585,33 @@ def _advance(state, h, memory, statistics):
                 raise _failed(NOT_CONVERGED, "the equations of v1, v2, m1, m2", 0, sweep, statistics)
         row_1_1, row_1_2, row_1_3, row_1_4, row_1_5, row_1_6 = memory.inverses[0]
         d_v1_0 = (
-            row_1_1[0] * residual_0
-            + row_1_1[1] * residual_1
-            + row_1_1[2] * residual_2
-            + row_1_1[3] * residual_2_0
-            + row_1_1[4] * residual_2_1
+            row_1_1[0] * residual_0 + row_1_1[1] * residual_1 + row_1_1[2] * residual_2
+            + row_1_1[3] * residual_2_0 + row_1_1[4] * residual_2_1
             + row_1_1[5] * residual_2_2
         )
         d_v1_1 = (
-            row_1_2[0] * residual_0
-            + row_1_2[1] * residual_1
-            + row_1_2[2] * residual_2
-            + row_1_2[3] * residual_2_0
-            + row_1_2[4] * residual_2_1
+            row_1_2[0] * residual_0 + row_1_2[1] * residual_1 + row_1_2[2] * residual_2
+            + row_1_2[3] * residual_2_0 + row_1_2[4] * residual_2_1
             + row_1_2[5] * residual_2_2
         )
         d_v1_2 = (
-            row_1_3[0] * residual_0
-            + row_1_3[1] * residual_1
-            + row_1_3[2] * residual_2
-            + row_1_3[3] * residual_2_0
-            + row_1_3[4] * residual_2_1
+            row_1_3[0] * residual_0 + row_1_3[1] * residual_1 + row_1_3[2] * residual_2
+            + row_1_3[3] * residual_2_0 + row_1_3[4] * residual_2_1
             + row_1_3[5] * residual_2_2
         )
         d_v2_0 = (
-            row_1_4[0] * residual_0
-            + row_1_4[1] * residual_1
-            + row_1_4[2] * residual_2
-            + row_1_4[3] * residual_2_0
-            + row_1_4[4] * residual_2_1
+            row_1_4[0] * residual_0 + row_1_4[1] * residual_1 + row_1_4[2] * residual_2
+            + row_1_4[3] * residual_2_0 + row_1_4[4] * residual_2_1
             + row_1_4[5] * residual_2_2
         )
         d_v2_1 = (
-            row_1_5[0] * residual_0
-            + row_1_5[1] * residual_1
-            + row_1_5[2] * residual_2
-            + row_1_5[3] * residual_2_0
-            + row_1_5[4] * residual_2_1
+            row_1_5[0] * residual_0 + row_1_5[1] * residual_1 + row_1_5[2] * residual_2
+            + row_1_5[3] * residual_2_0 + row_1_5[4] * residual_2_1
             + row_1_5[5] * residual_2_2
         )
         d_v2_2 = (
-            row_1_6[0] * residual_0
-            + row_1_6[1] * residual_1
-            + row_1_6[2] * residual_2
-            + row_1_6[3] * residual_2_0
-            + row_1_6[4] * residual_2_1
+            row_1_6[0] * residual_0 + row_1_6[1] * residual_1 + row_1_6[2] * residual_2
+            + row_1_6[3] * residual_2_0 + row_1_6[4] * residual_2_1
             + row_1_6[5] * residual_2_2
         )
         v1_0 += d_v1_0
@@ -665,21 +621,11 @@ def _advance(state, h, memory, statistics):
         v2_1 += d_v2_1
         v2_2 += d_v2_2
         change = max(
-            abs(d_v1_0),
-            abs(d_v1_1),
-            abs(d_v1_2),
-            abs(d_v2_0),
-            abs(d_v2_1),
+            abs(d_v1_0), abs(d_v1_1), abs(d_v1_2), abs(d_v2_0), abs(d_v2_1),
             abs(d_v2_2),
         )
         scale = max(
-            1.0,
-            abs(v1_0),
-            abs(v1_1),
-            abs(v1_2),
-            abs(v2_0),
-            abs(v2_1),
-            abs(v2_2),
+            1.0, abs(v1_0), abs(v1_1), abs(v1_2), abs(v2_0), abs(v2_1), abs(v2_2),
         )
         still = 0.0 < previous_1 <= change <= 5.684341886080802e-14 * scale
         if sweep == 1:
@@ -723,26 +669,17 @@ def _advance(state, h, memory, statistics):
     g_8 = 1.0 - (w112 + w120)
     w123 = 0.495 * h
     w124 = (
-        s_L_0_seen
-        + v1_2 * w123 * d_v1_1
-        + v1_1 * w123 * d_v1_2
-        + v2_2 * w123 * d_v2_1
+        s_L_0_seen + v1_2 * w123 * d_v1_1 + v1_1 * w123 * d_v1_2 + v2_2 * w123 * d_v2_1
         + v2_1 * w123 * d_v2_2
     )
     w125 = -0.5 * h
     w126 = (
-        s_L_1_seen
-        + v1_2 * w125 * d_v1_0
-        + v1_0 * w125 * d_v1_2
-        + v2_2 * w125 * d_v2_0
+        s_L_1_seen + v1_2 * w125 * d_v1_0 + v1_0 * w125 * d_v1_2 + v2_2 * w125 * d_v2_0
         + v2_0 * w125 * d_v2_2
     )
     w127 = 0.005 * h
     w128 = (
-        s_L_2_seen
-        + v1_1 * w127 * d_v1_0
-        + v1_0 * w127 * d_v1_1
-        + v2_1 * w127 * d_v2_0
+        s_L_2_seen + v1_1 * w127 * d_v1_0 + v1_0 * w127 * d_v1_1 + v2_1 * w127 * d_v2_0
         + v2_0 * w127 * d_v2_1
     )
     change_0 = g_0 * w124 + g_1 * w126 + g_2 * w128 - m_0
@@ -763,18 +700,8 @@ def _advance(state, h, memory, statistics):
     found = v1_0, v1_1, v1_2, v2_0, v2_1, v2_2
     memory.keep(found)
     return (
-        new_g00,
-        new_g01,
-        new_g02,
-        new_g10,
-        new_g11,
-        new_g12,
-        new_g20,
-        new_g21,
-        new_g22,
-        new_mu0,
-        new_mu1,
-        new_mu2,
+        new_g00, new_g01, new_g02, new_g10, new_g11, new_g12, new_g20, new_g21, new_g22,
+        new_mu0, new_mu1, new_mu2,
     )
 
 

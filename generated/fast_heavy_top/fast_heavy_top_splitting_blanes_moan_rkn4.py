@@ -278,17 +278,7 @@ def _advance(state, h, lead_h):
     new_mu1 = w92 - w17 * w98 + 147.15 * lead_h * w138
     new_mu2 = mu2
     return (
-        new_g00,
-        w138,
-        w139,
-        new_g10,
-        w104,
-        w137,
-        new_g20,
-        w136,
-        w135,
-        new_mu0,
-        new_mu1,
+        new_g00, w138, w139, new_g10, w104, w137, new_g20, w136, w135, new_mu0, new_mu1,
         new_mu2,
     )
 
@@ -309,18 +299,8 @@ def _begin(state, h):
     new_mu1 = mu1 + 12.211155404321127 * h * g01
     new_mu2 = mu2
     return (
-        new_g00,
-        new_g01,
-        new_g02,
-        new_g10,
-        new_g11,
-        new_g12,
-        new_g20,
-        new_g21,
-        new_g22,
-        new_mu0,
-        new_mu1,
-        new_mu2,
+        new_g00, new_g01, new_g02, new_g10, new_g11, new_g12, new_g20, new_g21, new_g22,
+        new_mu0, new_mu1, new_mu2,
     )
 
 
@@ -345,18 +325,8 @@ def _finish(state, elapsed_h):
     new_mu1 = mu1
     new_mu2 = mu2
     return (
-        new_g00,
-        new_g01,
-        new_g02,
-        new_g10,
-        new_g11,
-        new_g12,
-        new_g20,
-        new_g21,
-        new_g22,
-        new_mu0,
-        new_mu1,
-        new_mu2,
+        new_g00, new_g01, new_g02, new_g10, new_g11, new_g12, new_g20, new_g21, new_g22,
+        new_mu0, new_mu1, new_mu2,
     )
 
 

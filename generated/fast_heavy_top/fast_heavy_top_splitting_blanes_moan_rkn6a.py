@@ -479,17 +479,7 @@ def _advance(state, h, lead_h):
     new_mu1 = w255 - w5 * w262
     new_mu2 = mu2
     return (
-        new_g00,
-        w353,
-        w354,
-        new_g10,
-        w268,
-        w352,
-        new_g20,
-        w351,
-        w350,
-        new_mu0,
-        new_mu1,
+        new_g00, w353, w354, new_g10, w268, w352, new_g20, w351, w350, new_mu0, new_mu1,
         new_mu2,
     )
 
@@ -522,17 +512,7 @@ def _begin(state, h):
     new_mu1 = mu1
     new_mu2 = mu2
     return (
-        new_g00,
-        q1_1,
-        q1_2,
-        new_g10,
-        q1_4,
-        q1_5,
-        new_g20,
-        q1_7,
-        q1_8,
-        new_mu0,
-        new_mu1,
+        new_g00, q1_1, q1_2, new_g10, q1_4, q1_5, new_g20, q1_7, q1_8, new_mu0, new_mu1,
         new_mu2,
     )
 
@@ -558,18 +538,8 @@ def _finish(state, elapsed_h):
     new_mu1 = mu1
     new_mu2 = mu2
     return (
-        new_g00,
-        new_g01,
-        new_g02,
-        new_g10,
-        new_g11,
-        new_g12,
-        new_g20,
-        new_g21,
-        new_g22,
-        new_mu0,
-        new_mu1,
-        new_mu2,
+        new_g00, new_g01, new_g02, new_g10, new_g11, new_g12, new_g20, new_g21, new_g22,
+        new_mu0, new_mu1, new_mu2,
     )
 
 

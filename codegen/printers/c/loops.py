@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 from codegen.ir.kernel import CHORD, NEWTON, SLOWEST, Newton
 from codegen.printers.arrange import METHODS, Beginning, Iteration
 from codegen.printers.c.text import broken, comment, fill, greatest, paired
+from codegen.printers.expression import spell
+from codegen.printers.layout import WIDE
 
 if TYPE_CHECKING:
     from codegen.printers.c.statements import Statements
@@ -92,11 +94,7 @@ def _sweep(s: Statements, statement: Iteration, now: list[str], previous: str) -
         yield from (f"    {line}" for line in _matrix(s, statement))
         yield "    count_matrix(statistics);"
         yield "}"
-    n = len(now)
-    for row, change in enumerate(changes):
-        terms = [f"{_cell(statement, row * n + column)} * {r}" for column, r in enumerate(residuals)]
-        kind = "" if compared else f"const {s.real} "
-        yield from fill(f"{kind}{change} =", paired(terms), ";")
+    yield from _product(s, statement, changes, residuals, "" if compared else f"const {s.real} ")
     sizes = [f"{absolute}({change})" for change in changes]
     if compared:
         yield from _end(s, statement, changes, now, previous)
@@ -106,6 +104,36 @@ def _sweep(s: Statements, statement: Iteration, now: list[str], previous: str) -
         limit = f"{s.literal(Newton.CONTRACTION)} * {previous}"
         yield f"{_fresh(statement.number)} = {limit} > {s.literal(0.0)} && change > {limit};"
     yield f"{previous} = change;"
+
+
+def _product(
+    s: Statements, statement: Iteration, changes: list[str], residuals: list[str], kind: str
+) -> Iterator[str]:
+    """Yield the lines of changes = inverse residuals: a sum for each row, or loops where there are many."""
+    n = len(changes)
+    if n <= WIDE:
+        for row, change in enumerate(changes):
+            terms = [f"{_cell(statement, row * n + column)} * {r}" for column, r in enumerate(residuals)]
+            yield from fill(f"{kind}{change} =", paired(terms), ";")
+        return
+    right, left = (s.names.fresh(f"{word}_{statement.number}") for word in ("residuals", "changes"))
+    inverse = _cell(statement, 0).removesuffix("[0]")
+    yield from array(f"const {s.real} {right}[{n}] =", residuals)
+    yield f"{s.real} {left}[{n}];"
+    yield f"for (size_t i = 0; i < {n}; i++) {{"
+    yield f"    {s.real} sum = {s.literal(0.0)};"
+    yield f"    for (size_t j = 0; j < {n}; j++) {{"
+    yield f"        sum += {inverse}[{n} * i + j] * {right}[j];"
+    yield "    }"
+    yield f"    {left}[i] = sum;"
+    yield "}"
+    yield from (f"{kind}{change} = {left}[{row}];" for row, change in enumerate(changes))
+
+
+def array(start: str, entries: list[str]) -> list[str]:
+    """Return the lines that give an array its entries."""
+    pieces = [f"{x}," for x in entries[:-1]]
+    return fill(start, ("{" + pieces[0], *pieces[1:], f"{entries[-1]}}}"), ";")
 
 
 def _cell(statement: Iteration, place: int) -> str:
@@ -126,8 +154,14 @@ def _matrix(s: Statements, statement: Iteration) -> Iterator[str]:
     names = newton.leading and newton.inverted
     if newton.leading and not names:
         yield f"{s.real} inverse_{number}[{n * n}];"
-    for place, entry in enumerate(statement.matrix):
-        yield from s.declare(_cell(statement, place), entry, None if names else "")
+    if n > WIDE:
+        matrix, target = s.names.fresh(f"matrix_{number}"), _cell(statement, 0).removesuffix("[0]")
+        entries = [" ".join(spell(x, s.names.spelled, s.style)) for x in statement.matrix]
+        yield from array(f"const {s.real} {matrix}[{n * n}] =", entries)
+        yield f"memcpy({target}, {matrix}, sizeof {matrix});"
+    else:
+        for place, entry in enumerate(statement.matrix):
+            yield from s.declare(_cell(statement, place), entry, None if names else "")
     if newton.inverted:
         yield from [] if newton.leading else [f"memory->made_{number} = 1;"]
         return

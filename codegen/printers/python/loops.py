@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from codegen.ir.kernel import CHORD, NEWTON, SLOWEST, Newton
 from codegen.printers.arrange import METHODS, Beginning, Iteration
-from codegen.printers.python.text import WIDTH, call, indented, quoted
+from codegen.printers.layout import WIDE
+from codegen.printers.python.text import WIDTH, call, filled, indented, quoted
 
 if TYPE_CHECKING:
     from codegen.printers.python.statements import Statements
@@ -31,7 +32,7 @@ def unpacked(names: list[str], value: str, depth: int) -> list[str]:
     line = f"{space}{', '.join(names)}{comma} = {value}"
     if len(line) <= WIDTH:
         return [line]
-    return [f"{space}(", *(f"{space}    {name}," for name in names), f"{space}) = {value}"]
+    return filled("(", names, f") = {value}", depth)
 
 
 def iteration(s: Statements, statement: Iteration) -> Iterator[str]:
@@ -97,10 +98,17 @@ def _newton(
     if kept:
         yield f"        if make_{number}:"
         yield from _matrix(s, statement, rows, 3)
-        yield from unpacked(rows, f"memory.inverses[{number - 1}]", 2)
-    for change, row in zip(changes, rows, strict=True):
-        terms = [f"{row}[{j}] * {residual}" for j, residual in enumerate(residuals)]
-        yield from indented(f"{change} = ", (terms[0], *(f"+ {t}" for t in terms[1:])), 2)
+        if len(rows) <= WIDE:
+            yield from unpacked(rows, f"memory.inverses[{number - 1}]", 2)
+    if len(rows) <= WIDE:
+        for change, row in zip(changes, rows, strict=True):
+            terms = [f"{row}[{j}] * {residual}" for j, residual in enumerate(residuals)]
+            yield from indented(f"{change} = ", (terms[0], *(f"+ {t}" for t in terms[1:])), 2)
+    else:
+        yield from filled("right = [", residuals, "]", 2)
+        inverse = f"memory.inverses[{number - 1}]" if kept else f"inverse_{number}"
+        yield f"        left = [sum(x * y for x, y in zip(row, right)) for row in {inverse}]"
+        yield from filled("(", changes, ") = left", 2)
     yield from (f"        {x} += {y}" for x, y in zip(now, changes, strict=True))
     yield from _decision(s, statement, [], [f"abs({c})" for c in changes], now, previous)
     if kept:
@@ -134,7 +142,7 @@ def _matrix(s: Statements, statement: Iteration, rows: list[str], depth: int) ->
         sweep = "0" if newton.leading else "sweep"
         yield f"{space}if {place} is None:"
         yield f"{space}    raise _failed(NOT_CONVERGED, {_failure(statement).replace('sweep', sweep)}"
-    if newton.leading:
+    if newton.leading and n <= WIDE:
         yield from unpacked(rows, place, depth)
 
 

@@ -14,7 +14,7 @@ from codegen.printers.operations import costs
 from codegen.printers.precision import DOUBLE
 from codegen.printers.python.pieces import function
 from codegen.printers.python.statements import RESERVED, Statements
-from codegen.printers.python.text import WIDTH, listed, quoted
+from codegen.printers.python.text import WIDTH, filled, listed, quoted
 from codegen.printers.recipe import Recipe, header
 from codegen.snippets.graph import needed
 from codegen.templates import environment
@@ -258,7 +258,7 @@ def unpacking(symbols: list[str]) -> list[str]:
     return (
         [*lines[:-1], f"{lines[-1]} = state"]
         if len(f"{lines[-1]} = state") <= WIDTH
-        else ["    (", *(f"        {symbol}," for symbol in symbols), "    ) = state"]
+        else filled("(", symbols, ") = state", 1)
     )
 
 

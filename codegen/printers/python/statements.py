@@ -21,7 +21,7 @@ _WORDS = """
     settled error failure labels count made new memory invert fabs slope2 slope3
     float32 errstate inputs _sampled copysign comb
     end now size left last taken then rtol atol limit refused before shrunk norm wish factor
-    LIMIT vector jacobian columns column _vary _substep fraction offset enumerate k
+    LIMIT vector jacobian columns column _vary _substep fraction offset enumerate k right
     OK NOT_CONVERGED NOT_FINITE BAD_STEP StepFailed Statistics
 """
 RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split())
@@ -85,12 +85,8 @@ class Statements:
 
     def listing(self, name: str, values: Sequence[Expr], depth: int) -> Iterator[str]:
         """Yield the lines of name = [values]."""
-        space = "    " * depth
-        yield f"{space}{name} = ["
-        for value in values:
-            spelled = " ".join(spell(value, self.names.spelled, self.style))
-            yield f"{space}    {spelled},"
-        yield f"{space}]"
+        spelled = [" ".join(spell(value, self.names.spelled, self.style)) for value in values]
+        yield from filled(f"{name} = [", spelled, "]", depth)
 
     def simple(self, statement: Simple, depth: int) -> Iterator[str]:
         """Yield the lines of an assignment or joint call."""

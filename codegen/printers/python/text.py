@@ -21,7 +21,7 @@ def call(start: str, terms: list[str], depth: int) -> list[str]:
     line = f"{space}{start}({', '.join(terms)})"
     if len(line) <= WIDTH:
         return [line]
-    return [f"{space}{start}(", *(f"{space}    {term}," for term in terms), f"{space})"]
+    return filled(f"{start}(", terms, ")", depth)
 
 
 def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
@@ -34,17 +34,23 @@ def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
     line = f"{space}{start}{', '.join(terms)}{end}"
     if len(line) <= WIDTH:
         return [line]
-    lines = [f"{space}    {terms[0]},"]
-    for term in terms[1:]:
-        if len(lines[-1]) + len(term) + 2 > WIDTH:
-            lines.append(f"{space}    {term},")
+    return [f"{space}{start}", *packed([f"{term}," for term in terms], depth + 1), f"{space}{end}"]
+
+
+def packed(pieces: Sequence[str], depth: int) -> list[str]:
+    """Return lines of as many pieces as there is room for."""
+    space = "    " * depth
+    lines = [f"{space}{pieces[0]}"]
+    for piece in pieces[1:]:
+        if len(lines[-1]) + 1 + len(piece) > WIDTH:
+            lines.append(f"{space}{piece}")
         else:
-            lines[-1] += f" {term},"
-    return [f"{space}{start}", *lines, f"{space}{end}"]
+            lines[-1] += f" {piece}"
+    return lines
 
 
 def indented(start: str, pieces: tuple[str, ...], depth: int) -> list[str]:
-    """Return start and pieces on one line, or in parentheses with a piece a line where that is too long.
+    """Return start and pieces on one line, or in parentheses on several where that is too long.
 
     >>> indented("x = ", ("a", "+ b"), 1)
     ['    x = a + b']
@@ -53,15 +59,13 @@ def indented(start: str, pieces: tuple[str, ...], depth: int) -> list[str]:
     line = f"{space}{start}{' '.join(pieces)}"
     if len(line) <= WIDTH or len(pieces) == 1:
         return [line]
-    inner = f"{space}    {' '.join(pieces)}"
-    lines = [inner] if len(inner) <= WIDTH else [f"{space}    {piece}" for piece in pieces]
-    return [f"{space}{start}(", *lines, f"{space})"]
+    return [f"{space}{start}(", *packed(pieces, depth + 1), f"{space})"]
 
 
 def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
-    """Return start and a tuple of terms: bare on one line, else in parentheses with a term a line."""
+    """Return start and a tuple of terms: bare on one line, else in parentheses on several."""
     space = "    " * depth
     line = f"{space}{start}{', '.join(terms)}{',' if len(terms) == 1 else ''}"
     if len(line) <= WIDTH:
         return [line]
-    return [f"{space}{start}(", *(f"{space}    {term}," for term in terms), f"{space})"]
+    return filled(f"{start}(", terms, ")", depth)

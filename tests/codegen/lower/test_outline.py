@@ -1,0 +1,142 @@
+"""Outlining: equal pieces of a long step are one function, and the step is the same."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+from codegen import scenes
+from codegen.emit import compile_method, emit_compiled
+from codegen.ir.domain import ExprDomain
+from codegen.ir.interpret import apply, flatten
+from codegen.ir.kernel import Piece
+from codegen.ir.number import Number
+from codegen.ir.program import Assign, Builder, Coefficient, Kind, Program, Var
+from codegen.ir.verify import IllFormed
+from codegen.load import load
+from codegen.lower import kernel as lowering
+from codegen.lower.outline import Outline
+from tests.strategies import hamiltonian_scene
+
+SPECS = [("dipole", "vcg:gauss4")]
+
+LONGEST = ["vcg:kahan_triple_jump"]
+
+
+@cache
+def compiled(scene, method):
+    return compile_method(scene, method)
+
+
+@cache
+def unoutlined(scene, method):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(lowering, "LONG", 10**9)
+        return compile_method(scene, method)
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+@pytest.mark.parametrize(("scene", "method"), SPECS, ids=lambda x: x)
+def test_the_step_is_the_same_to_rounding_in_far_fewer_lines(scene, method, target):
+    short, long = (emit_compiled(make(scene, method), target) for make in (compiled, unoutlined))
+    lines = [max(text.count("\n") for text in e.files.values()) for e in (short, long)]
+    assert lines[0] < 0.85 * lines[1]
+    start = short.manifest["initial"]
+    span = scenes.load(scene).span
+    h = float(span[1] - span[0]) / 100
+    assert load(short).run(start, h, 3) == pytest.approx(load(long).run(start, h, 3), rel=1e-12, abs=1e-12)
+
+
+@pytest.mark.parametrize(("scene", "method"), SPECS, ids=lambda x: x)
+def test_every_piece_is_called_more_than_once_and_takes_what_it_reads(scene, method):
+    made = compiled(scene, method)
+    source = next(text for name, text in emit_compiled(made, "c").files.items() if name.endswith(".c"))
+    assert len(made.kernel.pieces) > 3
+    for piece in made.kernel.pieces:
+        assert source.count(f"{piece.name}(") > 2  # its definition, and two calls
+        read = {n for let in piece.body for n in symbols(let.value)} | {
+            n for x in piece.outputs for n in symbols(x)
+        }
+        assert set(piece.inputs) <= read
+        assert read <= set(piece.inputs) | {let.name for let in piece.body}
+
+
+def symbols(root):
+    return {root.payload} if root.op == "sym" else {s for a in root.args for s in symbols(a)}
+
+
+def test_short_steps_have_no_pieces():
+    for spec in (("dipole", "vcg:midpoint"), ("dipole", "vcf:cf4"), ("free_rigid_body", "rkmk:rk4")):
+        assert compile_method(*spec).kernel.pieces == ()
+
+
+def twice(c1, c2):
+    """A program that applies exp(c h x) to its state twice; its execution, noted."""
+    scene = hamiltonian_scene("SO(3)")
+    q, x = Var("q", Kind.GROUP), Var("x", Kind.ALG)
+    do = Builder({"q", "x", "h"})
+    y = q
+    for c in (c1, c2):
+        step = do.lin("s", Kind.ALG, [(Coefficient(c, 1), x)])
+        y = do.do("mul", "g", do.do("exp", "e", step), y)
+    program = Program("twice", (q, x), do.take(), (("q", y),))
+    domain = ExprDomain()
+    outline = Outline(program, scene, domain)
+    env = {v: tuple(domain.space.sym(f"{v.name}{k}") for k in range(n)) for v, n in ((q, 9), (x, 3))}
+    for assign in program.body:
+        assert isinstance(assign, Assign)
+        args = [env[a] for a in assign.args]
+        results = apply(scene, domain, assign, tuple(args))
+        outline.note(assign, args, results, -1)
+        env.update(zip(assign.targets, results, strict=True))
+    return outline, flatten(Kind.GROUP, env[y])
+
+
+def test_trees_with_other_coefficients_are_one_function_of_them():
+    outline, roots = twice(Number.rational(1, 3), Number.rational(2, 5))
+    assert outline.run(roots, {}) is not None
+    (piece,) = outline.pieces
+    assert piece.about == "mul(exp(c1 h x1), g1)"
+    assert len(piece.inputs) == 3 + 9 + 1 + 1
+    assert len(piece.outputs) == 9
+
+
+def test_equal_coefficients_stay_folded():
+    outline, roots = twice(Number.rational(1, 3), Number.rational(1, 3))
+    outline.run(roots, {})
+    assert all("c1" not in name for piece in outline.pieces for name in piece.inputs)
+
+
+def test_a_wrong_piece_is_caught(monkeypatch):
+    outline, roots = twice(Number.rational(1, 3), Number.rational(2, 5))
+    right = Outline._piece
+
+    def wrong(self, *args):
+        places = right(self, *args)
+        last = self.pieces.pop()
+        spoilt = (last.outputs[0] + last.outputs[1], *last.outputs[1:])
+        self.pieces.append(Piece(last.name, last.inputs, last.body, spoilt, last.about))
+        return places
+
+    monkeypatch.setattr(Outline, "_piece", wrong)
+    with pytest.raises(IllFormed, match="outlining changed the meaning"):
+        outline.run(roots, {})
+
+
+@pytest.mark.parametrize("method", LONGEST)
+def test_no_module_is_longer_than_two_thousand_lines(method):
+    """The longest of the library on the scene whose formulas are longest."""
+    for target in ("c", "python"):
+        files = emit_compiled(compiled("dipole", method), target).files
+        assert max(text.count("\n") for text in files.values()) <= 2000
+
+
+def test_single_precision_takes_pieces_too():
+    made = compiled("dipole", "vcg:gauss4")
+    emission = emit_compiled(made, "c", precision="single", prefix="single_gauss4_")
+    exact = load(emit_compiled(made, "c", prefix="double_gauss4_"))
+    start = emission.manifest["initial"]
+    assert load(emission).run(start, 0.01, 1) == pytest.approx(exact.run(start, 0.01, 1), abs=1e-5)
+    python = load(emit_compiled(made, "python", precision="single", prefix="python_gauss4_"))
+    assert python.run(start, 0.01, 1) == pytest.approx(exact.run(start, 0.01, 1), abs=1e-5)
