@@ -419,7 +419,7 @@ class Outline:
             values = {x: 0.3 + 0.2 * math.sin(7.0 * k + attempt) for k, x in enumerate(names)}
             try:
                 old = evaluate(before, FloatDomain(0.1), values)
-                new = evaluate(after, _Calls(self.pieces), values)
+                new = evaluate(after, WithPieces(FloatDomain(0.1), self.pieces), values)
             except (ArithmeticError, ValueError):
                 continue
             scale = max(1.0, *map(abs, old))
@@ -429,22 +429,26 @@ class Outline:
         raise IllFormed(f"outlining of {self.program.name} could not be verified")
 
 
-class _Calls(FloatDomain):
-    """Doubles, and calls of pieces."""
+class WithPieces:
+    """A domain in which a kernel's pieces can be called."""
 
-    def __init__(self, pieces: Sequence[Piece]) -> None:
-        super().__init__(0.1)
-        self.pieces = {piece.name: piece for piece in pieces}
+    def __init__(self, domain: Any, pieces: Sequence[Piece]) -> None:
+        self.domain, self.pieces = domain, {piece.name: piece for piece in pieces}
 
-    def call(self, function: str, *args: float) -> float:
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.domain, name)
+
+    def call(self, function: str, *args: Any) -> Any:
         """Return one result of a piece, or a function's value."""
         name, dot, k = function.partition(".")
         if not dot:
-            return super().call(function, *args)
+            return self.domain.call(function, *args)
         piece = self.pieces[name]
         values = dict(zip(piece.inputs, args, strict=True))
+        for let in piece.body:
+            (values[let.name],) = evaluate([let.value], self, values)
         (value,) = evaluate([piece.outputs[int(k)]], self, values)
-        return float(value)
+        return value
 
 
 def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]:

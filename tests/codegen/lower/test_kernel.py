@@ -10,6 +10,7 @@ from codegen.ir.interpret import interpret
 from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Let, Loop, Start
 from codegen.ir.program import Solve
 from codegen.lower.kernel import INLINE, to_kernel
+from codegen.lower.outline import WithPieces
 from codegen.passes import optimise
 from orderconds.ring import QQ
 from tests.strategies import field_scene, full, hamiltonian_scene, lowered, starting
@@ -17,6 +18,7 @@ from tests.strategies import field_scene, full, hamiltonian_scene, lowered, star
 
 def carried_out(kernel, scene, domain, inputs):
     """Run a kernel over a domain: assignments in order, loops until the domain says they stand still."""
+    domain = WithPieces(domain, kernel.pieces)
     known = {"h": domain.h, "t": inputs["t"]}
     for block in scene.state:
         known.update(zip(block.symbols, inputs[block.name], strict=True))
