@@ -408,13 +408,11 @@ def _advance(state, h, memory, statistics):
         w29 = X1_2 * w28
         w30 = X1_1 * c2_3
         Q1_5 = (
-            g02 * (w24 + w27)
-            + g12 * (1.0 - (X1_0 * w26 + w29))
+            g02 * (w24 + w27) + g12 * (1.0 - (X1_0 * w26 + w29))
             + g22 * (X1_2 * w30 - X1_0 * c1_1)
         )
         Q1_2 = (
-            g12 * (w27 - w24)
-            + g02 * (1.0 - (w29 + X1_1 * w30))
+            g12 * (w27 - w24) + g02 * (1.0 - (w29 + X1_1 * w30))
             + g22 * (X1_2 * w26 + X1_1 * c1_1)
         )
         c2_2, c3_2 = _stumpff_23(w9)
@@ -436,12 +434,8 @@ def _advance(state, h, memory, statistics):
         residual_n1_1 = Q1_2 - n1_1
         residual_n1_2 = next_n1_2 - n1_2
         total = (
-            residual_xi1_0
-            + residual_xi1_1
-            + residual_xi1_2
-            + residual_n1_0
-            + residual_n1_1
-            + residual_n1_2
+            residual_xi1_0 + residual_xi1_1 + residual_xi1_2 + residual_n1_0
+            + residual_n1_1 + residual_n1_2
         )
         if not isfinite(total):
             raise _failed(NOT_FINITE, "the equations of xi1, n1", 0, sweep, statistics)
@@ -525,53 +519,35 @@ def _advance(state, h, memory, statistics):
             w106 = w98 + g12 * X1_1
             w107 = g22 * X1_1 * w95 - g02 * w97 - w92 * w99 + w100 * w106 - g12 * w101
             row_1_1 = [
-                1.0 - w50,
-                w49 * w51 - (w55 + w43 * w56 - w46 * w57),
+                1.0 - w50, w49 * w51 - (w55 + w43 * w56 - w46 * w57),
                 -(w59 + w43 * w60 - w48 * w57 + w47 * w51),
-                z_2 * w48 - (w37 - z_1 * w46),
-                -(z_0 * w46 + z_2 * w51),
+                z_2 * w48 - (w37 - z_1 * w46), -(z_0 * w46 + z_2 * w51),
                 z_1 * w51 - z_0 * w48,
             ]
             row_1_2 = [
-                -(w67 + w44 * w68 - w47 * w69 + w49 * w70),
-                1.0 - w73,
-                w47 * w72 - (w74 + w60 * w68 - w57 * w70),
-                z_2 * w70 - z_1 * w69,
-                z_2 * w72 - (w62 - z_0 * w69),
-                -(z_0 * w70 + z_1 * w72),
+                -(w67 + w44 * w68 - w47 * w69 + w49 * w70), 1.0 - w73,
+                w47 * w72 - (w74 + w60 * w68 - w57 * w70), z_2 * w70 - z_1 * w69,
+                z_2 * w72 - (w62 - z_0 * w69), -(z_0 * w70 + z_1 * w72),
             ]
             row_1_3 = [
                 w49 * w77 - (w82 + w44 * w83 - w47 * w84),
-                w49 * w85 - (w87 + w56 * w83 + w57 * w84),
-                1.0 - w88,
-                -(z_1 * w84 + z_2 * w77),
-                z_0 * w84 - z_2 * w85,
+                w49 * w85 - (w87 + w56 * w83 + w57 * w84), 1.0 - w88,
+                -(z_1 * w84 + z_2 * w77), z_0 * w84 - z_2 * w85,
                 z_1 * w85 - (w75 - z_0 * w77),
             ]
             row_1_4 = [
                 -(w16 * (w89 + w90) + w91 * w93 + w94 * w102),
                 w16 * (g02 * w26 + w98 * c2_3) - w102 * w103,
-                -(w102 * w105 + w16 * (g12 * w104 - g22 * w30 - g02 * c1_1)),
-                1.0,
-                0.0,
+                -(w102 * w105 + w16 * (g12 * w104 - g22 * w30 - g02 * c1_1)), 1.0, 0.0,
                 0.0,
             ]
             row_1_5 = [
                 -(w91 * w106 + w94 * w107),
                 -(w103 * w107 + w16 * (w90 - g02 * w30 + w89 - w92 * c2_3)),
-                -(w16 * (g22 * w26 - g02 * w104 - g12 * c1_1) + w105 * w107),
-                0.0,
-                1.0,
+                -(w16 * (g22 * w26 - g02 * w104 - g12 * c1_1) + w105 * w107), 0.0, 1.0,
                 0.0,
             ]
-            row_1_6 = [
-                0.0,
-                0.0,
-                0.0,
-                0.0,
-                0.0,
-                1.0,
-            ]
+            row_1_6 = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
             memory.inverses[0] = invert([row_1_1, row_1_2, row_1_3, row_1_4, row_1_5, row_1_6])
             if statistics is not None:
                 statistics.matrices += 1
@@ -579,52 +555,34 @@ def _advance(state, h, memory, statistics):
                 raise _failed(NOT_CONVERGED, "the equations of xi1, n1", 0, sweep, statistics)
         row_1_1, row_1_2, row_1_3, row_1_4, row_1_5, row_1_6 = memory.inverses[0]
         change_xi1_0 = (
-            row_1_1[0] * residual_xi1_0
-            + row_1_1[1] * residual_xi1_1
-            + row_1_1[2] * residual_xi1_2
-            + row_1_1[3] * residual_n1_0
-            + row_1_1[4] * residual_n1_1
-            + row_1_1[5] * residual_n1_2
+            row_1_1[0] * residual_xi1_0 + row_1_1[1] * residual_xi1_1
+            + row_1_1[2] * residual_xi1_2 + row_1_1[3] * residual_n1_0
+            + row_1_1[4] * residual_n1_1 + row_1_1[5] * residual_n1_2
         )
         change_xi1_1 = (
-            row_1_2[0] * residual_xi1_0
-            + row_1_2[1] * residual_xi1_1
-            + row_1_2[2] * residual_xi1_2
-            + row_1_2[3] * residual_n1_0
-            + row_1_2[4] * residual_n1_1
-            + row_1_2[5] * residual_n1_2
+            row_1_2[0] * residual_xi1_0 + row_1_2[1] * residual_xi1_1
+            + row_1_2[2] * residual_xi1_2 + row_1_2[3] * residual_n1_0
+            + row_1_2[4] * residual_n1_1 + row_1_2[5] * residual_n1_2
         )
         change_xi1_2 = (
-            row_1_3[0] * residual_xi1_0
-            + row_1_3[1] * residual_xi1_1
-            + row_1_3[2] * residual_xi1_2
-            + row_1_3[3] * residual_n1_0
-            + row_1_3[4] * residual_n1_1
-            + row_1_3[5] * residual_n1_2
+            row_1_3[0] * residual_xi1_0 + row_1_3[1] * residual_xi1_1
+            + row_1_3[2] * residual_xi1_2 + row_1_3[3] * residual_n1_0
+            + row_1_3[4] * residual_n1_1 + row_1_3[5] * residual_n1_2
         )
         change_n1_0 = (
-            row_1_4[0] * residual_xi1_0
-            + row_1_4[1] * residual_xi1_1
-            + row_1_4[2] * residual_xi1_2
-            + row_1_4[3] * residual_n1_0
-            + row_1_4[4] * residual_n1_1
-            + row_1_4[5] * residual_n1_2
+            row_1_4[0] * residual_xi1_0 + row_1_4[1] * residual_xi1_1
+            + row_1_4[2] * residual_xi1_2 + row_1_4[3] * residual_n1_0
+            + row_1_4[4] * residual_n1_1 + row_1_4[5] * residual_n1_2
         )
         change_n1_1 = (
-            row_1_5[0] * residual_xi1_0
-            + row_1_5[1] * residual_xi1_1
-            + row_1_5[2] * residual_xi1_2
-            + row_1_5[3] * residual_n1_0
-            + row_1_5[4] * residual_n1_1
-            + row_1_5[5] * residual_n1_2
+            row_1_5[0] * residual_xi1_0 + row_1_5[1] * residual_xi1_1
+            + row_1_5[2] * residual_xi1_2 + row_1_5[3] * residual_n1_0
+            + row_1_5[4] * residual_n1_1 + row_1_5[5] * residual_n1_2
         )
         change_n1_2 = (
-            row_1_6[0] * residual_xi1_0
-            + row_1_6[1] * residual_xi1_1
-            + row_1_6[2] * residual_xi1_2
-            + row_1_6[3] * residual_n1_0
-            + row_1_6[4] * residual_n1_1
-            + row_1_6[5] * residual_n1_2
+            row_1_6[0] * residual_xi1_0 + row_1_6[1] * residual_xi1_1
+            + row_1_6[2] * residual_xi1_2 + row_1_6[3] * residual_n1_0
+            + row_1_6[4] * residual_n1_1 + row_1_6[5] * residual_n1_2
         )
         xi1_0 += change_xi1_0
         xi1_1 += change_xi1_1
@@ -633,21 +591,11 @@ def _advance(state, h, memory, statistics):
         n1_1 += change_n1_1
         n1_2 += change_n1_2
         change = max(
-            abs(change_xi1_0),
-            abs(change_xi1_1),
-            abs(change_xi1_2),
-            abs(change_n1_0),
-            abs(change_n1_1),
-            abs(change_n1_2),
+            abs(change_xi1_0), abs(change_xi1_1), abs(change_xi1_2), abs(change_n1_0),
+            abs(change_n1_1), abs(change_n1_2),
         )
         scale = max(
-            0.0,
-            abs(xi1_0),
-            abs(xi1_1),
-            abs(xi1_2),
-            abs(n1_0),
-            abs(n1_1),
-            abs(n1_2),
+            0.0, abs(xi1_0), abs(xi1_1), abs(xi1_2), abs(n1_0), abs(n1_1), abs(n1_2),
         )
         still = 0.0 < previous_1 <= change <= 5.684341886080802e-14 * max(1.0, scale)
         if sweep == 1:
@@ -694,15 +642,11 @@ def _advance(state, h, memory, statistics):
     w124 = z_0 * w10
     w125 = z_1 * w124
     mu1_0 = (
-        mu0 * g_0
-        + mu1 * g_1
-        + mu2 * g_2
+        mu0 * g_0 + mu1 * g_1 + mu2 * g_2
         + h * (n1_0 * (1.0 - (z_1 * w120 + w121)) + n1_1 * (w123 + w125))
     )
     mu1_1 = (
-        mu0 * g_3
-        + mu1 * g_4
-        + mu2 * g_5
+        mu0 * g_3 + mu1 * g_4 + mu2 * g_5
         + h * (n1_0 * (w125 - w123) + n1_1 * (1.0 - (w121 + z_0 * w124)))
     )
     w126 = h * (n1_0 * (z_2 * w124 + z_1 * c1_3) + n1_1 * (z_2 * w120 - z_0 * c1_3))
@@ -719,18 +663,8 @@ def _advance(state, h, memory, statistics):
     found = xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2
     memory.keep(found)
     return (
-        new_g00,
-        new_g01,
-        new_g02,
-        new_g10,
-        new_g11,
-        new_g12,
-        new_g20,
-        new_g21,
-        new_g22,
-        mu1_0,
-        mu1_1,
-        new_mu2,
+        new_g00, new_g01, new_g02, new_g10, new_g11, new_g12, new_g20, new_g21, new_g22,
+        mu1_0, mu1_1, new_mu2,
     )
 
 
