@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import click
 
+from orderconds.commands.processes import in_processes
 from orderconds.commands.screen import counting, print_json, print_table
 from orderconds.commands.variadic import Variadic
 
@@ -22,23 +25,44 @@ def command(scene: str | None, methods: tuple[str, ...], everything: bool, quick
     Each case reads accurate or a status of the emitted code. The exit status is 1 when an answer is neither.
     """
     from codegen import scenes
-    from codegen.lab.stability.study import Stability, study
+    from codegen.lab.stability.study import Stability
     from codegen.lab.study import methods_for
 
     if everything == (scene is not None):
         raise click.UsageError("name one SCENE, or give --all")
-    settings = [scenes.load(name) for name in (scenes.GALLERY if scene is None else (scene,))]
-    chosen = [(setting, methods_for(setting, methods)) for setting in settings]
+    names = scenes.GALLERY if scene is None else (scene,)
+    for name in names:
+        methods_for(scenes.load(name), methods)  # what is wrong with the input is found before the work
     found: list[Stability] = []
     with counting("stability") as done:
-        for setting, ms in chosen:
-            for result in study(setting, ms, done, long=not quick):
+        work = _alone if len(names) > 1 else partial(_studied, tell=done)
+        for name, results in zip(
+            names, in_processes(work, [(name, methods, not quick) for name in names]), strict=True
+        ):
+            done(name)
+            for result in results:
                 found.append(result)
                 if not as_json:
                     show(result)
     if as_json:
         print_json([result.as_json() for result in found])
     return 0 if all(result.held for result in found) else 1
+
+
+def _studied(job: tuple[str, tuple[str, ...], bool], tell: Callable[[str], object]) -> list[Any]:
+    """Return the stability of methods on a scene; the job is its name, theirs and whether runs are long."""
+    from codegen import scenes
+    from codegen.lab.stability.study import study
+    from codegen.lab.study import methods_for
+
+    name, methods, long = job
+    setting = scenes.load(name)
+    return list(study(setting, methods_for(setting, methods), tell, long=long))
+
+
+def _alone(job: tuple[str, tuple[str, ...], bool]) -> list[Any]:
+    """Do the job in a process of its own, where nobody listens."""
+    return _studied(job, str)
 
 
 def show(result: Any) -> None:

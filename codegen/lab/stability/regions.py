@@ -7,7 +7,7 @@ varies, so the tableau's region bounds what a step may do there.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,6 +17,19 @@ from orderconds.tableau.stability import stability_function
 
 FARTHEST = 100.0
 SLACK = 1e-9
+
+
+@dataclass(frozen=True)
+class Quotient:
+    """A rational function of complex numbers, by ascending coefficients."""
+
+    numerator: tuple[float, ...]
+    denominator: tuple[float, ...]
+
+    def __call__(self, z: complex) -> complex:
+        """Return the value at z, infinity at a pole."""
+        top, bottom = (_horner(row, z) for row in (self.numerator, self.denominator))
+        return top / bottom if bottom else complex("inf")
 
 
 @dataclass(frozen=True)
@@ -49,14 +62,11 @@ def region(method: Method) -> Region | None:
     except (InputError, TypeError, ValueError, ArithmeticError, AttributeError):
         return None
 
-    def value(z: complex) -> complex:
-        top, bottom = (_horner(row, z) for row in rows)
-        return top / bottom if bottom else complex("inf")
-
+    value = Quotient(*map(tuple, rows))
     return Region(method.label, value, reach(value, -1.0), reach(value, 1j))
 
 
-def _horner(row: list[float], z: complex) -> complex:
+def _horner(row: Sequence[float], z: complex) -> complex:
     total = 0j
     for c in reversed(row):
         total = total * z + c
