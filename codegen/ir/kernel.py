@@ -70,9 +70,9 @@ class Newton:
     def period(self) -> int:
         """How many steps an inverse for residuals serves, 0 for as long as it contracts.
 
-        It costs a small multiple of n^3, and a sweep some multiple of n.
+        It costs some multiple of n^3, a sweep one of n, and the older it is, the more sweeps there are.
         """
-        return max(1, len(self.matrix) * (len(self.matrix) + 1) // 14) if self.residuals else 0
+        return max(1, len(self.matrix) // 2) if self.residuals else 0
 
 
 @dataclass(frozen=True)

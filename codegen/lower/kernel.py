@@ -43,6 +43,7 @@ from codegen.ir.normal import NormalForms
 from codegen.ir.program import EMBEDDED, Assign, Kind, Program, Solve, Var
 from codegen.ir.tangent import tangents
 from codegen.lower import late, newton
+from codegen.lower.arguments import SharedArguments
 from codegen.lower.outline import LONG, WORTH, Outline
 from codegen.lower.variation import Variations
 from codegen.setting import TIME, Setting
@@ -98,7 +99,7 @@ def to_kernel(
     :class:`codegen.ir.differentiate.NotDifferentiable` where Newton's method has no matrix, ZeroDivisionError
     where it has none to first order.
     """
-    domain = ExprDomain()
+    domain = SharedArguments()
     space = domain.space
     env: dict[Var, Any] = {}
     hints: dict[int, str] = {}

@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 
 from codegen.ir.expr import Expr, walk
 from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Kernel, Let, Loop, Piece, Start
-from codegen.printers.narrow import narrowed
 
 METHODS = {
     FIXED_POINT: "fixed point",
@@ -192,23 +191,7 @@ def _iteration(
     if loop.newton is not None:
         entries = tuple(x for row in loop.newton.matrix for x in row)
         made, matrix = (scope if loop.newton.leading else inner).nested(loop.newton.body, entries)
-    after = _read([*images, *matrix, *(x for s in made for x in _values(s))]) | frozenset(kept)
-    order = narrowed([_made(s) for s in body], [_read(_values(s)) for s in body], after)
-    return Iteration(loop, number, starts, tuple(body[k] for k in order), images, kept, made, matrix)
-
-
-def _made(statement: Simple) -> tuple[str, ...]:
-    return (statement.name,) if isinstance(statement, Assignment) else statement.names
-
-
-def _values(statement: Simple) -> tuple[Expr, ...]:
-    if isinstance(statement, Invocation):
-        return statement.arguments
-    return (statement.argument if isinstance(statement, Joint) else statement.value,)
-
-
-def _read(expressions: Iterable[Expr]) -> frozenset[str]:
-    return frozenset(n.payload for n in walk(expressions) if n.op == "sym")
+    return Iteration(loop, number, starts, tuple(body), images, kept, made, matrix)
 
 
 def _taken(kernel: Kernel) -> dict[str, int]:

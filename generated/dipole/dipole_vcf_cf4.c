@@ -6,9 +6,9 @@
  * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
  * solved by:  the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: Newton's method, 12 unknowns
- *             (2.5 sweeps of 1334 operations and 0.05 matrices of 3910 a step; fixed point: 3.0
- *             sweeps of 1095 operations; Newton's method with the matrix to first order in h: 2.2
- *             sweeps of 1371 operations and 1.00 matrices of 3981)
+ *             (2.5 sweeps of 1254 operations and 0.05 matrices of 3910 a step; fixed point: 3.0
+ *             sweeps of 1015 operations; Newton's method with the matrix to first order in h: 2.2
+ *             sweeps of 1291 operations and 1.00 matrices of 3992)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
  * left out:   1 Adt, 23 Adtinv, 5 mul (zeros)
@@ -27,11 +27,11 @@
  *             3 Adinv, 4 legendre (sharing)
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
- * operations: 136 add, 208 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
+ * operations: 142 add, 217 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
  *             2 mul a start, in steps that follow no other
  *             150 add, 304 mul a matrix of the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
- *             465 add, 620 mul, 6 div, 6 sqrt, 4 stumpff_12, 5 stumpff_23 a sweep of the equations
- *             of xi1, xi2, xi3, xi4, n1, n2, n3, n4
+ *             457 add, 608 mul, 6 div, 6 sqrt, 4 stumpff_123, 1 stumpff_23 a sweep of the
+ *             equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
  * stack:      at most 10944 bytes, without what the mathematical library takes
  * made by:    orderconds emit dipole --method vcf:cf4 --target c -o .
  * version:    orderconds 0.1.0
@@ -198,6 +198,36 @@ static inline void stumpff_12_far(double z, double *c1, double *c2)
     *c2 = 0.5 * (ratio * ratio);
 }
 
+/* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
+static inline void stumpff_123_far(double z, double *c1, double *c2, double *c3)
+{
+    if (z <= 1.0) {
+        *c1 = stumpff_series_1(z);
+        *c2 = stumpff_series_2(z);
+        *c3 = stumpff_series_3(z);
+        return;
+    }
+    const double half = 0.5 * sqrt(z <= 4503599627370496.0 ? z : NAN);
+    const double sine = sin(half);
+    const double cosine = cos(half);
+    const double ratio = sine / half;
+    *c1 = ratio * cosine;
+    *c2 = 0.5 * (ratio * ratio);
+    *c3 = z <= 4.0 ? stumpff_series_3(z) : (1.0 - ratio * cosine) / z;
+}
+
+/* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
+static inline void stumpff_123(double z, double *c1, double *c2, double *c3)
+{
+    if (z <= 0.0625) {
+        *c1 = stumpff_small_1(z);
+        *c2 = stumpff_small_2(z);
+        *c3 = stumpff_small_3(z);
+    } else {
+        stumpff_123_far(z, c1, c2, c3);
+    }
+}
+
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
 static inline void stumpff_12(double z, double *c1, double *c2)
 {
@@ -233,17 +263,17 @@ static int invert(size_t n, double *restrict a, double *restrict row, size_t *or
             a[pivot * n + j] = kept;
         }
         const double factor = 1.0 / a[k * n + k];
-        a[k * n + k] = 1.0;
         for (size_t j = 0; j < n; j++) {
             row[j] = a[k * n + j] *= factor;
         }
+        a[k * n + k] = factor;
         for (size_t i = 0; i < n; i++) {
             if (i != k) {
                 const double multiple = a[i * n + k];
-                a[i * n + k] = 0.0;
                 for (size_t j = 0; j < n; j++) {
                     a[i * n + j] -= multiple * row[j];
                 }
+                a[i * n + k] = -(multiple * factor);
             }
         }
     }
@@ -311,8 +341,9 @@ static const double differences[17][18] = {
     {1, -16, 120, -560, 1820, -4368, 8008, -11440, 12870, -11440, 8008, -4368, 1820, -560, 120, -16, 1},
 };
 
-/* A backward difference of an order without its first terms, which were of later solutions. */
-static void difference(const struct memory *memory, size_t order, size_t first, double sum[static 12])
+/* A backward difference, times sign, of an order without its first terms, which were of later solutions. */
+static inline void difference(const struct memory *memory, size_t order, size_t first, double sign,
+    double sum[static 12])
 {
     double sum_0 = 0.0;
     double sum_1 = 0.0;
@@ -327,7 +358,7 @@ static void difference(const struct memory *memory, size_t order, size_t first, 
     double sum_10 = 0.0;
     double sum_11 = 0.0;
     for (size_t j = first; j <= order; j += 2) {
-        const double f = differences[order][j], g = differences[order][j + 1];
+        const double f = sign * differences[order][j], g = sign * differences[order][j + 1];
         const double *x = memory->values[memory->place + j - first], *y = x + 12;
         sum_0 += f * x[0] + g * y[0];
         sum_1 += f * x[1] + g * y[1];
@@ -360,7 +391,7 @@ static void difference(const struct memory *memory, size_t order, size_t first, 
 static double size_of(const struct memory *memory, size_t order)
 {
     double sum[12], size = 0.0;
-    difference(memory, order, 0, sum);
+    difference(memory, order, 0, 1.0, sum);
     for (size_t i = 0; i < 12; i++) {
         size += fabs(sum[i]);
     }
@@ -372,9 +403,18 @@ static inline void remember(struct memory *memory, const double solution[static 
 {
     if (memory->known > 2) { /* the guess was no mere copy */
         double moved = 0.0;
-        for (size_t i = 0; i < 12; i++) {
-            moved += fabs(solution[i] - memory->values[memory->place][i]);
-        }
+        moved += fabs(solution[0] - memory->values[memory->place][0]);
+        moved += fabs(solution[1] - memory->values[memory->place][1]);
+        moved += fabs(solution[2] - memory->values[memory->place][2]);
+        moved += fabs(solution[3] - memory->values[memory->place][3]);
+        moved += fabs(solution[4] - memory->values[memory->place][4]);
+        moved += fabs(solution[5] - memory->values[memory->place][5]);
+        moved += fabs(solution[6] - memory->values[memory->place][6]);
+        moved += fabs(solution[7] - memory->values[memory->place][7]);
+        moved += fabs(solution[8] - memory->values[memory->place][8]);
+        moved += fabs(solution[9] - memory->values[memory->place][9]);
+        moved += fabs(solution[10] - memory->values[memory->place][10]);
+        moved += fabs(solution[11] - memory->values[memory->place][11]);
         if (memory->first > 0.5 * moved) {
             memory->known = memory->degree = 0;
         }
@@ -382,9 +422,18 @@ static inline void remember(struct memory *memory, const double solution[static 
     memory->first = 0.0;
     const size_t place = memory->place > 0 ? memory->place - 1 : 15;
     memory->place = place;
-    for (size_t i = 0; i < 12; i++) {
-        memory->values[place][i] = memory->values[place + 16][i] = solution[i];
-    }
+    memory->values[place][0] = memory->values[place + 16][0] = solution[0];
+    memory->values[place][1] = memory->values[place + 16][1] = solution[1];
+    memory->values[place][2] = memory->values[place + 16][2] = solution[2];
+    memory->values[place][3] = memory->values[place + 16][3] = solution[3];
+    memory->values[place][4] = memory->values[place + 16][4] = solution[4];
+    memory->values[place][5] = memory->values[place + 16][5] = solution[5];
+    memory->values[place][6] = memory->values[place + 16][6] = solution[6];
+    memory->values[place][7] = memory->values[place + 16][7] = solution[7];
+    memory->values[place][8] = memory->values[place + 16][8] = solution[8];
+    memory->values[place][9] = memory->values[place + 16][9] = solution[9];
+    memory->values[place][10] = memory->values[place + 16][10] = solution[10];
+    memory->values[place][11] = memory->values[place + 16][11] = solution[11];
     memory->known += memory->known < 16;
     /* the degree grows while the differences fall: of many solutions it is looked at in every eighth step */
     size_t degree = memory->degree;
@@ -398,10 +447,7 @@ static inline void remember(struct memory *memory, const double solution[static 
         memory->degree = degree;
     }
     /* so that the next difference vanishes */
-    difference(memory, degree + 1, 1, memory->guess);
-    for (size_t i = 0; i < 12; i++) {
-        memory->guess[i] = -memory->guess[i];
-    }
+    difference(memory, degree + 1, 1, -1.0, memory->guess);
 }
 
 static inline int advance(double state[static 12], double h, struct memory *memory,
@@ -457,46 +503,46 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     }
     const double w1 = -0.5 * h;
     const double w2 = 0.5 * h;
-    const double w63 = 0.16666666666666666 * h;
-    const double w64 = -2.0 * g22;
-    const double w65 = 1.5 + w64;
-    const double w66 = -0.2 * g21;
-    const double w67 = w65 + w66;
-    const double w68 = 1.5 * w67;
-    const double w69 = 1.01 + w68;
-    const double w70 = sqrt(w69);
-    const double w71 = 1.0 / w70;
-    const double w72 = w71 * w71;
-    const double w73 = 0.5 * w71;
-    const double w74 = w72 * w73;
-    const double w75 = 1.5 * w74;
-    const double w76 = 0.2 * g21;
-    const double w77 = w65 + w76;
-    const double w78 = 1.5 * w77;
-    const double w79 = 1.01 + w78;
-    const double w80 = sqrt(w79);
-    const double w81 = 1.0 / w80;
-    const double w82 = w81 * w81;
-    const double w83 = 0.5 * w81;
-    const double w84 = w82 * w83;
-    const double w85 = 1.5 * w84;
-    const double w86 = w75 - w85;
-    const double w87 = -2.0 * w86;
-    const double w88 = w87 - 1.0;
-    const double w89 = g21 * w88;
-    const double w90 = -0.3 * w74;
-    const double w91 = -0.3 * w84;
-    const double w92 = w90 + w91;
-    const double w93 = g22 * w92;
-    const double w94 = w89 - w93;
-    const double w119 = 0.3333333333333333 * h;
-    const double w120 = -0.25 * h;
-    const double w122 = -0.16666666666666666 * h;
-    const double w124 = 0.08333333333333333 * h;
-    const double w131 = g20 * w92;
-    const double w132 = g20 * w88;
-    const double w137 = 0.25 * h;
-    const double w139 = -0.08333333333333333 * h;
+    const double w59 = 0.16666666666666666 * h;
+    const double w60 = -2.0 * g22;
+    const double w61 = 1.5 + w60;
+    const double w62 = -0.2 * g21;
+    const double w63 = w61 + w62;
+    const double w64 = 1.5 * w63;
+    const double w65 = 1.01 + w64;
+    const double w66 = sqrt(w65);
+    const double w67 = 1.0 / w66;
+    const double w68 = w67 * w67;
+    const double w69 = 0.5 * w67;
+    const double w70 = w68 * w69;
+    const double w71 = 1.5 * w70;
+    const double w72 = 0.2 * g21;
+    const double w73 = w61 + w72;
+    const double w74 = 1.5 * w73;
+    const double w75 = 1.01 + w74;
+    const double w76 = sqrt(w75);
+    const double w77 = 1.0 / w76;
+    const double w78 = w77 * w77;
+    const double w79 = 0.5 * w77;
+    const double w80 = w78 * w79;
+    const double w81 = 1.5 * w80;
+    const double w82 = w71 - w81;
+    const double w83 = -2.0 * w82;
+    const double w84 = w83 - 1.0;
+    const double w85 = g21 * w84;
+    const double w86 = -0.3 * w70;
+    const double w87 = -0.3 * w80;
+    const double w88 = w86 + w87;
+    const double w89 = g22 * w88;
+    const double w90 = w85 - w89;
+    const double w115 = 0.3333333333333333 * h;
+    const double w116 = 0.25 * h;
+    const double w119 = -0.08333333333333333 * h;
+    const double w126 = -0.25 * h;
+    const double w127 = -0.16666666666666666 * h;
+    const double w129 = 0.08333333333333333 * h;
+    const double w130 = g20 * w88;
+    const double w132 = g20 * w84;
     /* the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: Newton's method in xi1_0, xi1_1, xi1_2, xi2_0, xi2_1, xi2_2, xi3_0, xi3_1, xi3_2, xi4_0, xi4_1, xi4_2 */
     double s_p1_0_seen, s_p1_1_seen, s_p1_2_seen, d_xi1_0, d_xi1_1, d_xi1_2, d_xi2_0, d_xi2_1,
         d_xi2_2, d_xi3_0, d_xi3_1, d_xi3_2, d_xi4_0, d_xi4_1, d_xi4_2;
@@ -506,109 +552,71 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     for (size_t sweep = 1;; sweep++) {
         const double xE2_1_1 = xi1_1 * w2;
         const double xE2_1_0 = xi1_0 * w2;
-        const double w42 = g20 * xE2_1_1 - g21 * xE2_1_0;
         const double xE2_1_2 = xi1_2 * w2;
         const double w3 = xE2_1_0 * xE2_1_0 + xE2_1_1 * xE2_1_1 + xE2_1_2 * xE2_1_2;
-        double c1_1, c2_1;
-        stumpff_12(w3, &c1_1, &c2_1);
+        double c1_1, c2_1, c3_1;
+        stumpff_123(w3, &c1_1, &c2_1, &c3_1);
         const double w5 = xE2_1_1 * c1_1;
         const double w7 = xE2_1_0 * c2_1;
         const double w8 = xE2_1_2 * w7;
         const double gE2_1_2 = w5 + w8;
-        const double gE2_1_6 = w8 - w5;
-        const double w24 = xE2_1_0 * w7;
-        const double w31 = xE2_1_1 * w7;
-        const double w17 = xE2_1_1 * c2_1;
-        const double w18 = xE2_1_2 * w17;
-        const double w25 = xE2_1_1 * w17;
-        const double gE2_1_8 = 1.0 - (w24 + w25);
-        const double w19 = xE2_1_0 * c1_1;
-        const double gE2_1_5 = w18 - w19;
-        const double gE2_1_7 = w18 + w19;
-        const double p_2_2 = 0.01 * (xi2_0 * gE2_1_2 + xi2_1 * gE2_1_5 + xi2_2 * gE2_1_8);
-        const double w32 = xE2_1_2 * c1_1;
-        const double gE2_1_1 = w31 - w32;
-        const double gE2_1_3 = w31 + w32;
-        const double w33 = xE2_1_2 * c2_1 * xE2_1_2;
-        const double gE2_1_4 = 1.0 - (w24 + w33);
-        const double gE2_1_0 = 1.0 - (w25 + w33);
-        const double a_0 = xi2_0 * gE2_1_0 + xi2_1 * gE2_1_3 + xi2_2 * gE2_1_6;
-        const double p_2_0 = 1.01 * a_0;
-        const double a_1 = xi2_0 * gE2_1_1 + xi2_1 * gE2_1_4 + xi2_2 * gE2_1_7;
-        const double a_4_0 = gE2_1_0 * p_2_0 + gE2_1_1 * a_1 + gE2_1_2 * p_2_2;
-        const double a_4_1 = gE2_1_3 * p_2_0 + gE2_1_4 * a_1 + gE2_1_5 * p_2_2;
-        const double a_4_2 = gE2_1_6 * p_2_0 + gE2_1_7 * a_1 + gE2_1_8 * p_2_2;
-        const double w41 = g22 * xE2_1_0 - g20 * xE2_1_2;
-        const double w43 = g21 * xE2_1_2 - g22 * xE2_1_1;
-        const double Q2_7 = g21 + w41 * c1_1 + (xE2_1_0 * w42 - xE2_1_2 * w43) * c2_1;
-        const double Q2_8 = g22 + w42 * c1_1 + (xE2_1_1 * w43 - xE2_1_0 * w41) * c2_1;
-        const double Q2_6 = g20 + w43 * c1_1 + (xE2_1_2 * w41 - xE2_1_1 * w42) * c2_1;
-        const double w44 = 1.5 - 2.0 * Q2_8;
-        const double w45 = 1.0 / sqrt(1.01 + 1.5 * (w44 - 0.2 * Q2_7));
-        const double w46 = w45 * w45 * (0.5 * w45);
-        const double w47 = 1.0 / sqrt(1.01 + 1.5 * (w44 + 0.2 * Q2_7));
-        const double w48 = w47 * w47 * (0.5 * w47);
-        const double w49 = -1.0 - 2.0 * (1.5 * w46 - 1.5 * w48);
-        const double w50 = -0.3 * w46 - 0.3 * w48;
         const double yE2_1_1 = xi1_1 * w1;
         const double w9 = h * xi3_1;
-        const double yE4_2_1 = xE2_1_1 - w9;
         const double xE4_2_1 = yE2_1_1 + w9;
         const double yE2_1_0 = xi1_0 * w1;
         const double w10 = h * xi3_0;
-        const double yE4_2_0 = xE2_1_0 - w10;
         const double xE4_2_0 = yE2_1_0 + w10;
         const double yE2_1_2 = xi1_2 * w1;
-        const double w51 = yE2_1_0 * yE2_1_0 + yE2_1_1 * yE2_1_1 + yE2_1_2 * yE2_1_2;
-        double c2_3, c3_1;
-        stumpff_23(w51, &c2_3, &c3_1);
         const double w11 = h * xi3_2;
-        const double yE4_2_2 = xE2_1_2 - w11;
         const double xE4_2_2 = yE2_1_2 + w11;
         const double w12 = xE4_2_0 * xE4_2_0 + xE4_2_1 * xE4_2_1 + xE4_2_2 * xE4_2_2;
-        double c1_2, c2_2;
-        stumpff_12(w12, &c1_2, &c2_2);
+        double c1_2, c2_2, c3_2;
+        stumpff_123(w12, &c1_2, &c2_2, &c3_2);
         const double w14 = xE4_2_1 * c2_2;
         const double w15 = xE4_2_1 * w14;
-        const double w29 = xE4_2_2 * w14;
         const double w16 = xE4_2_2 * c2_2 * xE4_2_2;
         const double gE4_2_0 = 1.0 - (w15 + w16);
+        const double w17 = xE2_1_1 * c2_1;
+        const double w18 = xE2_1_2 * w17;
+        const double w19 = xE2_1_0 * c1_1;
+        const double gE2_1_5 = w18 - w19;
         const double w20 = xE4_2_0 * c2_2;
         const double w21 = xE4_2_1 * w20;
+        const double w23 = xE4_2_2 * c1_2;
+        const double gE4_2_1 = w21 - w23;
+        const double w24 = xE2_1_0 * w7;
+        const double w25 = xE2_1_1 * w17;
+        const double gE2_1_8 = 1.0 - (w24 + w25);
         const double w26 = xE4_2_1 * c1_2;
         const double w27 = xE4_2_2 * w20;
+        const double gE4_2_2 = w26 + w27;
+        const double E4_2_2 = gE2_1_2 * gE4_2_0 + gE2_1_5 * gE4_2_1 + gE2_1_8 * gE4_2_2;
+        const double gE4_2_3 = w21 + w23;
         const double w28 = xE4_2_0 * w20;
         const double gE4_2_4 = 1.0 - (w16 + w28);
-        const double gE4_2_8 = 1.0 - (w15 + w28);
-        const double w23 = xE4_2_2 * c1_2;
+        const double w29 = xE4_2_2 * w14;
         const double w30 = xE4_2_0 * c1_2;
         const double gE4_2_5 = w29 - w30;
-        const double gE4_2_7 = w29 + w30;
-        const double gE4_2_1 = w21 - w23;
-        const double gE4_2_3 = w21 + w23;
         const double E4_2_5 = gE2_1_2 * gE4_2_3 + gE2_1_5 * gE4_2_4 + gE2_1_8 * gE4_2_5;
-        const double E4_2_4 = gE4_2_3 * gE2_1_1 + gE4_2_4 * gE2_1_4 + gE4_2_5 * gE2_1_7;
-        const double E4_2_3 = gE4_2_3 * gE2_1_0 + gE4_2_4 * gE2_1_3 + gE4_2_5 * gE2_1_6;
-        const double gE4_2_2 = w26 + w27;
         const double gE4_2_6 = w27 - w26;
+        const double gE4_2_7 = w29 + w30;
+        const double gE4_2_8 = 1.0 - (w15 + w28);
         const double E4_2_8 = gE2_1_2 * gE4_2_6 + gE2_1_5 * gE4_2_7 + gE2_1_8 * gE4_2_8;
-        const double E4_2_7 = gE4_2_6 * gE2_1_1 + gE4_2_7 * gE2_1_4 + gE4_2_8 * gE2_1_7;
-        const double E4_2_6 = gE4_2_6 * gE2_1_0 + gE4_2_7 * gE2_1_3 + gE4_2_8 * gE2_1_6;
-        const double E4_2_2 = gE2_1_2 * gE4_2_0 + gE2_1_5 * gE4_2_1 + gE2_1_8 * gE4_2_2;
         const double a_5_2 = xi4_0 * E4_2_2 + xi4_1 * E4_2_5 + xi4_2 * E4_2_8;
         const double p_4_2 = 0.01 * a_5_2;
+        const double w31 = xE2_1_1 * w7;
+        const double w32 = xE2_1_2 * c1_1;
+        const double gE2_1_1 = w31 - w32;
+        const double w33 = xE2_1_2 * c2_1 * xE2_1_2;
+        const double gE2_1_4 = 1.0 - (w24 + w33);
+        const double gE2_1_7 = w18 + w19;
+        const double E4_2_1 = gE4_2_0 * gE2_1_1 + gE4_2_1 * gE2_1_4 + gE4_2_2 * gE2_1_7;
+        const double E4_2_4 = gE4_2_3 * gE2_1_1 + gE4_2_4 * gE2_1_4 + gE4_2_5 * gE2_1_7;
+        const double E4_2_7 = gE4_2_6 * gE2_1_1 + gE4_2_7 * gE2_1_4 + gE4_2_8 * gE2_1_7;
+        const double a_5_1 = xi4_0 * E4_2_1 + xi4_1 * E4_2_4 + xi4_2 * E4_2_7;
+        const double Q4_7 = g20 * E4_2_1 + g21 * E4_2_4 + g22 * E4_2_7;
         const double Q4_8 = g20 * E4_2_2 + g21 * E4_2_5 + g22 * E4_2_8;
         const double w34 = 1.5 - 2.0 * Q4_8;
-        const double E4_2_1 = gE4_2_0 * gE2_1_1 + gE4_2_1 * gE2_1_4 + gE4_2_2 * gE2_1_7;
-        const double E4_2_0 = gE4_2_0 * gE2_1_0 + gE4_2_1 * gE2_1_3 + gE4_2_2 * gE2_1_6;
-        const double a_5_0 = xi4_0 * E4_2_0 + xi4_1 * E4_2_3 + xi4_2 * E4_2_6;
-        const double p_4_0 = 1.01 * a_5_0;
-        const double Q4_6 = g20 * E4_2_0 + g21 * E4_2_3 + g22 * E4_2_6;
-        const double a_5_1 = xi4_0 * E4_2_1 + xi4_1 * E4_2_4 + xi4_2 * E4_2_7;
-        const double a_9_0 = E4_2_0 * p_4_0 + E4_2_1 * a_5_1 + E4_2_2 * p_4_2;
-        const double a_9_1 = E4_2_3 * p_4_0 + E4_2_4 * a_5_1 + E4_2_5 * p_4_2;
-        const double a_9_2 = E4_2_6 * p_4_0 + E4_2_7 * a_5_1 + E4_2_8 * p_4_2;
-        const double Q4_7 = g20 * E4_2_1 + g21 * E4_2_4 + g22 * E4_2_7;
         const double w35 = 1.0 / sqrt(1.01 + 1.5 * (w34 - 0.2 * Q4_7));
         const double w36 = w35 * w35 * (0.5 * w35);
         const double w37 = 1.0 / sqrt(1.01 + 1.5 * (w34 + 0.2 * Q4_7));
@@ -616,438 +624,464 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double w39 = -1.0 - 2.0 * (1.5 * w36 - 1.5 * w38);
         const double w40 = -0.3 * w36 - 0.3 * w38;
         const double Nr4_0 = Q4_7 * w39 - Q4_8 * w40 + 99.0 * a_5_1 * p_4_2;
+        const double p_2_2 = 0.01 * (xi2_0 * gE2_1_2 + xi2_1 * gE2_1_5 + xi2_2 * gE2_1_8);
+        const double a_1 = xi2_0 * gE2_1_1 + xi2_1 * gE2_1_4 + xi2_2 * gE2_1_7;
+        const double w41 = g22 * xE2_1_0 - g20 * xE2_1_2;
+        const double w42 = g20 * xE2_1_1 - g21 * xE2_1_0;
+        const double w43 = g21 * xE2_1_2 - g22 * xE2_1_1;
+        const double Q2_7 = g21 + w41 * c1_1 + (xE2_1_0 * w42 - xE2_1_2 * w43) * c2_1;
+        const double Q2_8 = g22 + w42 * c1_1 + (xE2_1_1 * w43 - xE2_1_0 * w41) * c2_1;
+        const double w44 = 1.5 - 2.0 * Q2_8;
+        const double w45 = 1.0 / sqrt(1.01 + 1.5 * (w44 - 0.2 * Q2_7));
+        const double w46 = w45 * w45 * (0.5 * w45);
+        const double w47 = 1.0 / sqrt(1.01 + 1.5 * (w44 + 0.2 * Q2_7));
+        const double w48 = w47 * w47 * (0.5 * w47);
+        const double w49 = -1.0 - 2.0 * (1.5 * w46 - 1.5 * w48);
+        const double w50 = -0.3 * w46 - 0.3 * w48;
         const double sum_Nr4_0 = Nr4_0 + 2.0 * (Q2_7 * w49 - Q2_8 * w50 + 99.0 * a_1 * p_2_2);
+        const double s_nu2_0 = w1 * sum_Nr4_0;
+        const double gE2_1_0 = 1.0 - (w25 + w33);
+        const double gE2_1_3 = w31 + w32;
+        const double gE2_1_6 = w8 - w5;
+        const double E4_2_0 = gE4_2_0 * gE2_1_0 + gE4_2_1 * gE2_1_3 + gE4_2_2 * gE2_1_6;
+        const double E4_2_3 = gE4_2_3 * gE2_1_0 + gE4_2_4 * gE2_1_3 + gE4_2_5 * gE2_1_6;
+        const double E4_2_6 = gE4_2_6 * gE2_1_0 + gE4_2_7 * gE2_1_3 + gE4_2_8 * gE2_1_6;
+        const double a_5_0 = xi4_0 * E4_2_0 + xi4_1 * E4_2_3 + xi4_2 * E4_2_6;
+        const double Q4_6 = g20 * E4_2_0 + g21 * E4_2_3 + g22 * E4_2_6;
         const double Nr4_2 = 0.01 * a_5_0 * a_5_1 + w40 * Q4_6;
-        const double Nr4_1 = -100.0 * a_5_0 * p_4_2 - w39 * Q4_6;
-        const double m1_13_0 = gE2_1_1 * Nr4_1 + Nr4_0 * gE2_1_0 + gE2_1_2 * Nr4_2;
-        const double m1_13_2 = gE2_1_7 * Nr4_1 + Nr4_0 * gE2_1_6 + gE2_1_8 * Nr4_2;
-        const double m1_13_1 = gE2_1_4 * Nr4_1 + Nr4_0 * gE2_1_3 + gE2_1_5 * Nr4_2;
-        const double sum_Nr4_1 = Nr4_1 + 2.0 * (-100.0 * a_0 * p_2_2 - w49 * Q2_6);
+        const double a_0 = xi2_0 * gE2_1_0 + xi2_1 * gE2_1_3 + xi2_2 * gE2_1_6;
+        const double Q2_6 = g20 + w43 * c1_1 + (xE2_1_2 * w41 - xE2_1_1 * w42) * c2_1;
         const double sum_Nr4_2 = Nr4_2 + 2.0 * (0.01 * a_0 * a_1 + w50 * Q2_6);
         const double s_nu2_2 = w1 * sum_Nr4_2;
+        const double Nr4_1 = -100.0 * a_5_0 * p_4_2 - w39 * Q4_6;
+        const double sum_Nr4_1 = Nr4_1 + 2.0 * (-100.0 * a_0 * p_2_2 - w49 * Q2_6);
         const double s_nu2_1 = w1 * sum_Nr4_1;
-        const double w53 = yE2_1_1 * s_nu2_2 - yE2_1_2 * s_nu2_1;
-        const double w59 = yE4_2_1 * m1_13_2 - yE4_2_2 * m1_13_1;
-        const double w61 = yE4_2_0 * m1_13_1 - m1_13_0 * yE4_2_1;
-        const double w62 = m1_13_0 * yE4_2_2 - yE4_2_0 * m1_13_2;
-        const double s_nu2_0 = w1 * sum_Nr4_0;
-        const double w55 = yE2_1_0 * s_nu2_1 - yE2_1_1 * s_nu2_0;
-        const double w56 = yE2_1_2 * s_nu2_0 - yE2_1_0 * s_nu2_2;
-        const double p1_11_2_0 = s_nu2_0 - w53 * c2_3 + (yE2_1_1 * w55 - yE2_1_2 * w56) * c3_1;
-        const double p1_11_2_1 = s_nu2_1 - w56 * c2_3 + (yE2_1_2 * w53 - yE2_1_0 * w55) * c3_1;
-        const double p1_11_2_2 = s_nu2_2 - w55 * c2_3 + (yE2_1_0 * w56 - yE2_1_1 * w53) * c3_1;
-        const double w57 = yE4_2_0 * yE4_2_0 + yE4_2_1 * yE4_2_1 + yE4_2_2 * yE4_2_2;
-        double c2_4, c3_2;
-        stumpff_23(w57, &c2_4, &c3_2);
-        const double p1_13_0 = m1_13_0 - w59 * c2_4 + (yE4_2_1 * w61 - yE4_2_2 * w62) * c3_2;
-        const double p1_13_1 = m1_13_1 - w62 * c2_4 + (yE4_2_2 * w59 - yE4_2_0 * w61) * c3_2;
-        const double p1_13_2 = m1_13_2 - w61 * c2_4 + (yE4_2_0 * w62 - yE4_2_1 * w59) * c3_2;
+        const double w51 = yE2_1_1 * s_nu2_2 - yE2_1_2 * s_nu2_1;
+        const double w53 = yE2_1_0 * s_nu2_1 - yE2_1_1 * s_nu2_0;
+        const double w54 = yE2_1_2 * s_nu2_0 - yE2_1_0 * s_nu2_2;
+        const double p1_11_2_0 = s_nu2_0 - w51 * c2_1 + (yE2_1_1 * w53 - yE2_1_2 * w54) * c3_1;
+        const double m1_13_0 = gE2_1_1 * Nr4_1 + Nr4_0 * gE2_1_0 + gE2_1_2 * Nr4_2;
+        const double yE4_2_1 = xE2_1_1 - w9;
+        const double m1_13_2 = gE2_1_7 * Nr4_1 + Nr4_0 * gE2_1_6 + gE2_1_8 * Nr4_2;
+        const double yE4_2_2 = xE2_1_2 - w11;
+        const double m1_13_1 = gE2_1_4 * Nr4_1 + Nr4_0 * gE2_1_3 + gE2_1_5 * Nr4_2;
+        const double w55 = yE4_2_1 * m1_13_2 - yE4_2_2 * m1_13_1;
+        const double yE4_2_0 = xE2_1_0 - w10;
+        const double w57 = m1_13_1 * yE4_2_0 - m1_13_0 * yE4_2_1;
+        const double w58 = m1_13_0 * yE4_2_2 - m1_13_2 * yE4_2_0;
+        const double p1_13_0 = m1_13_0 - w55 * c2_2 + (yE4_2_1 * w57 - yE4_2_2 * w58) * c3_2;
         const double p_2 = 0.01 * xi1_2;
-        const double Nr1_0 = w94 + 99.0 * xi1_1 * p_2;
-        const double Nr1_1 = -100.0 * xi1_0 * p_2 - w132;
+        const double Nr1_0 = w90 + 99.0 * xi1_1 * p_2;
         const double xE3_1_1 = xi2_1 * w2;
         const double xE3_1_0 = xi2_0 * w2;
-        const double w110 = g20 * xE3_1_1 - g21 * xE3_1_0;
         const double xE3_1_2 = xi2_2 * w2;
-        const double w95 = xE3_1_0 * xE3_1_0 + xE3_1_1 * xE3_1_1 + xE3_1_2 * xE3_1_2;
-        double c1_3, c2_5;
-        stumpff_12(w95, &c1_3, &c2_5);
-        const double w97 = xE3_1_1 * c1_3;
-        const double w99 = xE3_1_0 * c2_5;
-        const double w100 = xE3_1_2 * w99;
-        const double gE3_1_2 = w97 + w100;
-        const double gE3_1_6 = w100 - w97;
-        const double w104 = xE3_1_0 * w99;
-        const double w106 = xE3_1_1 * w99;
-        const double w101 = xE3_1_1 * c2_5;
-        const double w102 = xE3_1_2 * w101;
-        const double w105 = xE3_1_1 * w101;
-        const double gE3_1_8 = 1.0 - (w104 + w105);
-        const double w103 = xE3_1_0 * c1_3;
-        const double gE3_1_5 = w102 - w103;
-        const double gE3_1_7 = w102 + w103;
+        const double w91 = xE3_1_0 * xE3_1_0 + xE3_1_1 * xE3_1_1 + xE3_1_2 * xE3_1_2;
+        double c1_3, c2_3, c3_3;
+        stumpff_123(w91, &c1_3, &c2_3, &c3_3);
+        const double w93 = xE3_1_1 * c1_3;
+        const double w95 = xE3_1_0 * c2_3;
+        const double w96 = xE3_1_2 * w95;
+        const double gE3_1_2 = w93 + w96;
+        const double w97 = xE3_1_1 * c2_3;
+        const double w98 = xE3_1_2 * w97;
+        const double w99 = xE3_1_0 * c1_3;
+        const double gE3_1_5 = w98 - w99;
+        const double w100 = xE3_1_0 * w95;
+        const double w101 = xE3_1_1 * w97;
+        const double gE3_1_8 = 1.0 - (w100 + w101);
         const double p_3_2 = 0.01 * (xi3_0 * gE3_1_2 + xi3_1 * gE3_1_5 + xi3_2 * gE3_1_8);
-        const double w107 = xE3_1_2 * c1_3;
-        const double gE3_1_1 = w106 - w107;
-        const double gE3_1_3 = w106 + w107;
-        const double w108 = xE3_1_2 * c2_5 * xE3_1_2;
-        const double gE3_1_4 = 1.0 - (w104 + w108);
-        const double gE3_1_0 = 1.0 - (w105 + w108);
-        const double a_3_0 = xi3_0 * gE3_1_0 + xi3_1 * gE3_1_3 + xi3_2 * gE3_1_6;
-        const double p_3_0 = 1.01 * a_3_0;
+        const double w102 = xE3_1_1 * w95;
+        const double w103 = xE3_1_2 * c1_3;
+        const double gE3_1_1 = w102 - w103;
+        const double w104 = xE3_1_2 * c2_3 * xE3_1_2;
+        const double gE3_1_4 = 1.0 - (w100 + w104);
+        const double gE3_1_7 = w98 + w99;
         const double a_3_1 = xi3_0 * gE3_1_1 + xi3_1 * gE3_1_4 + xi3_2 * gE3_1_7;
-        const double a_7_0 = gE3_1_0 * p_3_0 + gE3_1_1 * a_3_1 + gE3_1_2 * p_3_2;
-        const double a_7_1 = gE3_1_3 * p_3_0 + gE3_1_4 * a_3_1 + gE3_1_5 * p_3_2;
-        const double a_7_2 = gE3_1_6 * p_3_0 + gE3_1_7 * a_3_1 + gE3_1_8 * p_3_2;
-        const double w109 = g22 * xE3_1_0 - g20 * xE3_1_2;
-        const double w111 = g21 * xE3_1_2 - g22 * xE3_1_1;
-        const double Q3_7 = g21 + w109 * c1_3 + (xE3_1_0 * w110 - xE3_1_2 * w111) * c2_5;
-        const double Q3_8 = g22 + w110 * c1_3 + (xE3_1_1 * w111 - xE3_1_0 * w109) * c2_5;
-        const double Q3_6 = g20 + w111 * c1_3 + (xE3_1_2 * w109 - xE3_1_1 * w110) * c2_5;
-        const double w112 = 1.5 - 2.0 * Q3_8;
-        const double w113 = 1.0 / sqrt(1.01 + 1.5 * (w112 - 0.2 * Q3_7));
-        const double w114 = w113 * w113 * (0.5 * w113);
-        const double w115 = 1.0 / sqrt(1.01 + 1.5 * (w112 + 0.2 * Q3_7));
-        const double w116 = w115 * w115 * (0.5 * w115);
-        const double w117 = -1.0 - 2.0 * (1.5 * w114 - 1.5 * w116);
-        const double w118 = -0.3 * w114 - 0.3 * w116;
-        const double Nr3_0 = Q3_7 * w117 - Q3_8 * w118 + 99.0 * a_3_1 * p_3_2;
-        const double s_p1_0 = m_0 + w63 * (sum_Nr4_0 + Nr1_0) + Nr3_0 * w119;
-        const double Nr3_2 = 0.01 * a_3_0 * a_3_1 + w118 * Q3_6;
-        const double Nr3_1 = -100.0 * a_3_0 * p_3_2 - w117 * Q3_6;
-        const double s_p1_1 = m_1 + w63 * (sum_Nr4_1 + Nr1_1) + w119 * Nr3_1;
-        s_p1_1_seen = s_p1_1;
-        s_p1_0_seen = s_p1_0;
-        const double w121 = xi2_0 + xi3_0;
-        const double w123 = w121 * w122;
-        const double w140 = w63 * w121;
-        const double xe1_0 = xi1_0 * w137 + w140 + xi4_0 * w139;
-        const double ye1_0 = xi1_0 * w120 + w123 + xi4_0 * w124;
-        const double ye2_0 = w123 + xi1_0 * w124 + xi4_0 * w120;
-        const double w125 = xi2_1 + xi3_1;
-        const double w126 = w122 * w125;
-        const double w138 = w63 * w125;
-        const double xe1_1 = xi1_1 * w137 + w138 + xi4_1 * w139;
-        const double ye1_1 = xi1_1 * w120 + w126 + xi4_1 * w124;
-        const double ye2_1 = w126 + xi1_1 * w124 + xi4_1 * w120;
-        const double w135 = ye1_0 * s_p1_1 - s_p1_0 * ye1_1;
-        const double w127 = xi2_2 + xi3_2;
-        const double w128 = w122 * w127;
-        const double w141 = w63 * w127;
-        const double xe1_2 = xi1_2 * w137 + w141 + xi4_2 * w139;
-        const double w142 = xe1_0 * xe1_0 + xe1_1 * xe1_1 + xe1_2 * xe1_2;
-        double c1_4, c2_7;
-        stumpff_12(w142, &c1_4, &c2_7);
-        const double w144 = xe1_1 * c2_7;
-        const double w145 = xe1_1 * w144;
-        const double w156 = xe1_2 * w144;
-        const double w146 = xe1_2 * c2_7 * xe1_2;
-        const double ge1_0 = 1.0 - (w145 + w146);
-        const double w147 = xe1_0 * c2_7;
-        const double w148 = xe1_1 * w147;
-        const double w151 = xe1_1 * c1_4;
-        const double w152 = xe1_2 * w147;
-        const double w157 = xe1_0 * w147;
-        const double ge1_8 = 1.0 - (w145 + w157);
-        const double ge1_4 = 1.0 - (w146 + w157);
-        const double w150 = xe1_2 * c1_4;
-        const double w155 = xe1_0 * c1_4;
-        const double ge1_7 = w155 + w156;
-        const double ge1_5 = w156 - w155;
-        const double ge1_1 = w148 - w150;
-        const double ge1_3 = w148 + w150;
-        const double ge1_2 = w151 + w152;
-        const double ge1_6 = w152 - w151;
-        const double ye1_2 = xi1_2 * w120 + w128 + xi4_2 * w124;
-        const double ye2_2 = w128 + xi1_2 * w124 + xi4_2 * w120;
-        const double w153 = ye2_0 * ye2_0 + ye2_1 * ye2_1 + ye2_2 * ye2_2;
-        double c2_8, c3_4;
-        stumpff_23(w153, &c2_8, &c3_4);
-        const double w129 = ye1_0 * ye1_0 + ye1_1 * ye1_1 + ye1_2 * ye1_2;
-        double c2_6, c3_3;
-        stumpff_23(w129, &c2_6, &c3_3);
-        const double Nr1_2 = 0.01 * xi1_0 * xi1_1 + w131;
-        const double s_p1_2 = m_2 + w63 * (sum_Nr4_2 + Nr1_2) + w119 * Nr3_2;
-        const double m1_6_2_0 = s_p1_0 * ge1_0 + s_p1_1 * ge1_1 + s_p1_2 * ge1_2;
-        const double m1_6_2_2 = s_p1_0 * ge1_6 + s_p1_1 * ge1_7 + s_p1_2 * ge1_8;
-        const double m1_6_2_1 = s_p1_0 * ge1_3 + s_p1_1 * ge1_4 + s_p1_2 * ge1_5;
-        const double w158 = ye2_1 * m1_6_2_2 - ye2_2 * m1_6_2_1;
-        const double w160 = ye2_0 * m1_6_2_1 - m1_6_2_0 * ye2_1;
-        const double w161 = m1_6_2_0 * ye2_2 - ye2_0 * m1_6_2_2;
-        const double p1_6_2_0 = m1_6_2_0 - w158 * c2_8 + (ye2_1 * w160 - ye2_2 * w161) * c3_4;
-        const double p1_6_2_1 = m1_6_2_1 - w161 * c2_8 + (ye2_2 * w158 - ye2_0 * w160) * c3_4;
-        const double p1_6_2_2 = m1_6_2_2 - w160 * c2_8 + (ye2_0 * w161 - ye2_1 * w158) * c3_4;
+        const double w105 = g22 * xE3_1_0 - g20 * xE3_1_2;
+        const double w106 = g20 * xE3_1_1 - g21 * xE3_1_0;
+        const double w107 = g21 * xE3_1_2 - g22 * xE3_1_1;
+        const double Q3_7 = g21 + w105 * c1_3 + (xE3_1_0 * w106 - xE3_1_2 * w107) * c2_3;
+        const double Q3_8 = g22 + w106 * c1_3 + (xE3_1_1 * w107 - xE3_1_0 * w105) * c2_3;
+        const double w108 = 1.5 - 2.0 * Q3_8;
+        const double w109 = 1.0 / sqrt(1.01 + 1.5 * (w108 - 0.2 * Q3_7));
+        const double w110 = w109 * w109 * (0.5 * w109);
+        const double w111 = 1.0 / sqrt(1.01 + 1.5 * (w108 + 0.2 * Q3_7));
+        const double w112 = w111 * w111 * (0.5 * w111);
+        const double w113 = -1.0 - 2.0 * (1.5 * w110 - 1.5 * w112);
+        const double w114 = -0.3 * w110 - 0.3 * w112;
+        const double Nr3_0 = Q3_7 * w113 - Q3_8 * w114 + 99.0 * a_3_1 * p_3_2;
+        const double s_p1_0 = m_0 + w59 * (sum_Nr4_0 + Nr1_0) + Nr3_0 * w115;
+        const double w117 = xi2_0 + xi3_0;
+        const double w118 = w59 * w117;
+        const double xe1_0 = xi1_0 * w116 + w118 + xi4_0 * w119;
+        const double w120 = xi2_1 + xi3_1;
+        const double w121 = w59 * w120;
+        const double xe1_1 = xi1_1 * w116 + w121 + xi4_1 * w119;
+        const double w122 = xi2_2 + xi3_2;
+        const double w123 = w59 * w122;
+        const double xe1_2 = xi1_2 * w116 + w123 + xi4_2 * w119;
+        const double w124 = xe1_0 * xe1_0 + xe1_1 * xe1_1 + xe1_2 * xe1_2;
+        double c1_4, c2_4, c3_4;
+        stumpff_123(w124, &c1_4, &c2_4, &c3_4);
+        const double w128 = w120 * w127;
+        const double ye1_1 = xi1_1 * w126 + w128 + xi4_1 * w129;
+        const double Nr1_2 = 0.01 * xi1_0 * xi1_1 + w130;
+        const double gE3_1_0 = 1.0 - (w101 + w104);
+        const double gE3_1_3 = w102 + w103;
+        const double gE3_1_6 = w96 - w93;
+        const double a_3_0 = xi3_0 * gE3_1_0 + xi3_1 * gE3_1_3 + xi3_2 * gE3_1_6;
+        const double Q3_6 = g20 + w107 * c1_3 + (xE3_1_2 * w105 - xE3_1_1 * w106) * c2_3;
+        const double Nr3_2 = 0.01 * a_3_0 * a_3_1 + w114 * Q3_6;
+        const double s_p1_2 = m_2 + w59 * (sum_Nr4_2 + Nr1_2) + w115 * Nr3_2;
+        const double w131 = w122 * w127;
+        const double ye1_2 = xi1_2 * w126 + w131 + xi4_2 * w129;
+        const double Nr1_1 = -100.0 * xi1_0 * p_2 - w132;
+        const double Nr3_1 = -100.0 * a_3_0 * p_3_2 - w113 * Q3_6;
+        const double s_p1_1 = m_1 + w59 * (sum_Nr4_1 + Nr1_1) + w115 * Nr3_1;
         const double w133 = ye1_1 * s_p1_2 - ye1_2 * s_p1_1;
-        const double w136 = s_p1_0 * ye1_2 - ye1_0 * s_p1_2;
-        const double p1_11_0 = s_p1_0 - w133 * c2_6 + (ye1_1 * w135 - ye1_2 * w136) * c3_3;
-        const double p1_11_1 = s_p1_1 - w136 * c2_6 + (ye1_2 * w133 - ye1_0 * w135) * c3_3;
-        const double p1_11_2 = s_p1_2 - w135 * c2_6 + (ye1_0 * w136 - ye1_1 * w133) * c3_3;
-        const double M1_2 = p1_11_2_2 + w2 * p1_13_2 + 1.5 * p1_11_2 - 0.5 * p1_6_2_2;
-        const double residual_2 = M1_2 - p_2;
-        const double M1_1 = p1_11_2_1 + w2 * p1_13_1 + 1.5 * p1_11_1 - 0.5 * p1_6_2_1;
-        const double residual_1 = M1_1 - xi1_1;
+        const double w135 = w117 * w127;
+        const double ye1_0 = xi1_0 * w126 + w135 + xi4_0 * w129;
+        const double w136 = s_p1_1 * ye1_0 - s_p1_0 * ye1_1;
+        const double w137 = s_p1_0 * ye1_2 - s_p1_2 * ye1_0;
+        const double p1_11_0 = s_p1_0 - w133 * c2_4 + (ye1_1 * w136 - ye1_2 * w137) * c3_4;
+        const double w138 = xe1_1 * c2_4;
+        const double w139 = xe1_1 * w138;
+        const double w140 = xe1_2 * c2_4 * xe1_2;
+        const double ge1_0 = 1.0 - (w139 + w140);
+        const double w141 = xe1_0 * c2_4;
+        const double w142 = xe1_1 * w141;
+        const double w144 = xe1_2 * c1_4;
+        const double ge1_1 = w142 - w144;
+        const double w145 = xe1_1 * c1_4;
+        const double w146 = xe1_2 * w141;
+        const double ge1_2 = w145 + w146;
+        const double m1_6_2_0 = s_p1_0 * ge1_0 + s_p1_1 * ge1_1 + s_p1_2 * ge1_2;
+        const double ye2_0 = w135 + xi1_0 * w129 + xi4_0 * w126;
+        const double ye2_1 = w128 + xi1_1 * w129 + xi4_1 * w126;
+        const double ye2_2 = w131 + xi1_2 * w129 + xi4_2 * w126;
+        const double w147 = ye2_0 * ye2_0 + ye2_1 * ye2_1 + ye2_2 * ye2_2;
+        double c2_5, c3_5;
+        stumpff_23(w147, &c2_5, &c3_5);
+        const double ge1_6 = w146 - w145;
+        const double w149 = xe1_0 * c1_4;
+        const double w150 = xe1_2 * w138;
+        const double ge1_7 = w149 + w150;
+        const double w151 = xe1_0 * w141;
+        const double ge1_8 = 1.0 - (w139 + w151);
+        const double m1_6_2_2 = s_p1_0 * ge1_6 + s_p1_1 * ge1_7 + s_p1_2 * ge1_8;
+        const double ge1_3 = w142 + w144;
+        const double ge1_4 = 1.0 - (w140 + w151);
+        const double ge1_5 = w150 - w149;
+        const double m1_6_2_1 = s_p1_0 * ge1_3 + s_p1_1 * ge1_4 + s_p1_2 * ge1_5;
+        const double w152 = ye2_1 * m1_6_2_2 - ye2_2 * m1_6_2_1;
+        const double w154 = ye2_0 * m1_6_2_1 - m1_6_2_0 * ye2_1;
+        const double w155 = m1_6_2_0 * ye2_2 - ye2_0 * m1_6_2_2;
+        const double p1_6_2_0 = m1_6_2_0 - w152 * c2_5 + (ye2_1 * w154 - ye2_2 * w155) * c3_5;
         const double M1_0 = p1_11_2_0 + w2 * p1_13_0 + 1.5 * p1_11_0 - 0.5 * p1_6_2_0;
         const double residual_0 = M1_0 - 1.01 * xi1_0;
-        s_p1_2_seen = s_p1_2;
-        const double w170 = 0.5 * (p1_11_2 + p1_6_2_2);
-        const double M4_2 = 1.5 * p1_6_2_2 - 0.5 * p1_11_2;
-        const double residual_4_2 = M4_2 - a_9_2;
-        const double M3_2 = w170 + w1 * p1_13_2;
-        const double residual_3_2 = M3_2 - a_7_2;
-        const double w169 = 0.5 * (p1_11_1 + p1_6_2_1);
-        const double M4_1 = 1.5 * p1_6_2_1 - 0.5 * p1_11_1;
-        const double residual_4_1 = M4_1 - a_9_1;
-        const double M3_1 = w169 + w1 * p1_13_1;
-        const double residual_3_1 = M3_1 - a_7_1;
-        const double w162 = 0.5 * (p1_11_0 + p1_6_2_0);
-        const double M4_0 = 1.5 * p1_6_2_0 - 0.5 * p1_11_0;
-        const double residual_4_0 = M4_0 - a_9_0;
-        const double M3_0 = w162 + w1 * p1_13_0;
-        const double residual_3_0 = M3_0 - a_7_0;
-        const double yE3_1_0 = xi2_0 * w1;
+        const double p1_11_2_1 = s_nu2_1 - w54 * c2_1 + (yE2_1_2 * w51 - yE2_1_0 * w53) * c3_1;
+        const double p1_13_1 = m1_13_1 - w58 * c2_2 + (yE4_2_2 * w55 - yE4_2_0 * w57) * c3_2;
+        const double p1_11_1 = s_p1_1 - w137 * c2_4 + (ye1_2 * w133 - ye1_0 * w136) * c3_4;
+        const double p1_6_2_1 = m1_6_2_1 - w155 * c2_5 + (ye2_2 * w152 - ye2_0 * w154) * c3_5;
+        const double M1_1 = p1_11_2_1 + w2 * p1_13_1 + 1.5 * p1_11_1 - 0.5 * p1_6_2_1;
+        const double residual_1 = M1_1 - xi1_1;
+        const double p1_11_2_2 = s_nu2_2 - w53 * c2_1 + (yE2_1_0 * w54 - yE2_1_1 * w51) * c3_1;
+        const double p1_13_2 = m1_13_2 - w57 * c2_2 + (yE4_2_0 * w58 - yE4_2_1 * w55) * c3_2;
+        const double p1_11_2 = s_p1_2 - w136 * c2_4 + (ye1_0 * w137 - ye1_1 * w133) * c3_4;
+        const double p1_6_2_2 = m1_6_2_2 - w154 * c2_5 + (ye2_0 * w155 - ye2_1 * w152) * c3_5;
+        const double M1_2 = p1_11_2_2 + w2 * p1_13_2 + 1.5 * p1_11_2 - 0.5 * p1_6_2_2;
+        const double residual_2 = M1_2 - p_2;
+        const double w156 = 0.5 * (p1_11_0 + p1_6_2_0);
         const double yE3_1_1 = xi2_1 * w1;
-        const double w167 = Nr3_1 * yE3_1_0 - Nr3_0 * yE3_1_1;
         const double yE3_1_2 = xi2_2 * w1;
-        const double w163 = yE3_1_0 * yE3_1_0 + yE3_1_1 * yE3_1_1 + yE3_1_2 * yE3_1_2;
-        double c2_9, c3_5;
-        stumpff_23(w163, &c2_9, &c3_5);
-        const double w165 = Nr3_2 * yE3_1_1 - Nr3_1 * yE3_1_2;
-        const double w168 = Nr3_0 * yE3_1_2 - Nr3_2 * yE3_1_0;
-        const double M2_0 = w162
-            + w1 * (Nr3_0 - w165 * c2_9 + (yE3_1_1 * w167 - yE3_1_2 * w168) * c3_5);
-        const double M2_1 = w169
-            + w1 * (Nr3_1 - w168 * c2_9 + (yE3_1_2 * w165 - yE3_1_0 * w167) * c3_5);
-        const double M2_2 = w170
-            + w1 * (Nr3_2 - w167 * c2_9 + (yE3_1_0 * w168 - yE3_1_1 * w165) * c3_5);
-        const double residual_2_2 = M2_2 - a_4_2;
-        const double residual_2_1 = M2_1 - a_4_1;
+        const double w157 = Nr3_2 * yE3_1_1 - Nr3_1 * yE3_1_2;
+        const double yE3_1_0 = xi2_0 * w1;
+        const double w159 = Nr3_1 * yE3_1_0 - Nr3_0 * yE3_1_1;
+        const double w160 = Nr3_0 * yE3_1_2 - Nr3_2 * yE3_1_0;
+        const double M2_0 = w156
+            + w1 * (Nr3_0 - w157 * c2_3 + (yE3_1_1 * w159 - yE3_1_2 * w160) * c3_3);
+        const double p_2_0 = 1.01 * a_0;
+        const double a_4_0 = gE2_1_0 * p_2_0 + gE2_1_1 * a_1 + gE2_1_2 * p_2_2;
         const double residual_2_0 = M2_0 - a_4_0;
+        const double w161 = 0.5 * (p1_11_1 + p1_6_2_1);
+        const double M2_1 = w161
+            + w1 * (Nr3_1 - w160 * c2_3 + (yE3_1_2 * w157 - yE3_1_0 * w159) * c3_3);
+        const double a_4_1 = gE2_1_3 * p_2_0 + gE2_1_4 * a_1 + gE2_1_5 * p_2_2;
+        const double residual_2_1 = M2_1 - a_4_1;
+        const double w162 = 0.5 * (p1_11_2 + p1_6_2_2);
+        const double M2_2 = w162
+            + w1 * (Nr3_2 - w159 * c2_3 + (yE3_1_0 * w160 - yE3_1_1 * w157) * c3_3);
+        const double a_4_2 = gE2_1_6 * p_2_0 + gE2_1_7 * a_1 + gE2_1_8 * p_2_2;
+        const double residual_2_2 = M2_2 - a_4_2;
+        const double M3_0 = w156 + w1 * p1_13_0;
+        const double p_3_0 = 1.01 * a_3_0;
+        const double a_7_0 = gE3_1_0 * p_3_0 + gE3_1_1 * a_3_1 + gE3_1_2 * p_3_2;
+        const double residual_3_0 = M3_0 - a_7_0;
+        const double M3_1 = w161 + w1 * p1_13_1;
+        const double a_7_1 = gE3_1_3 * p_3_0 + gE3_1_4 * a_3_1 + gE3_1_5 * p_3_2;
+        const double residual_3_1 = M3_1 - a_7_1;
+        const double M3_2 = w162 + w1 * p1_13_2;
+        const double a_7_2 = gE3_1_6 * p_3_0 + gE3_1_7 * a_3_1 + gE3_1_8 * p_3_2;
+        const double residual_3_2 = M3_2 - a_7_2;
+        const double M4_0 = 1.5 * p1_6_2_0 - 0.5 * p1_11_0;
+        const double p_4_0 = 1.01 * a_5_0;
+        const double a_9_0 = E4_2_0 * p_4_0 + E4_2_1 * a_5_1 + E4_2_2 * p_4_2;
+        const double residual_4_0 = M4_0 - a_9_0;
+        const double M4_1 = 1.5 * p1_6_2_1 - 0.5 * p1_11_1;
+        const double a_9_1 = E4_2_3 * p_4_0 + E4_2_4 * a_5_1 + E4_2_5 * p_4_2;
+        const double residual_4_1 = M4_1 - a_9_1;
+        const double M4_2 = 1.5 * p1_6_2_2 - 0.5 * p1_11_2;
+        const double a_9_2 = E4_2_6 * p_4_0 + E4_2_7 * a_5_1 + E4_2_8 * p_4_2;
+        const double residual_4_2 = M4_2 - a_9_2;
+        s_p1_0_seen = s_p1_0;
+        s_p1_1_seen = s_p1_1;
+        s_p1_2_seen = s_p1_2;
         if (make_1) {
-            const double w171 = 0.165 * xi1_2;
-            const double w172 = 0.08333333333333333 * g02 * mu0 + 0.08333333333333333 * g12 * mu1
+            const double w163 = 0.165 * xi1_2;
+            const double w164 = 0.08333333333333333 * g02 * mu0 + 0.08333333333333333 * g12 * mu1
                 + 0.08333333333333333 * g22 * mu2;
-            const double w173 = 0.165 * xi1_1;
-            const double w174 = -0.08333333333333333 * g01 * mu0 - 0.08333333333333333 * g11 * mu1
+            const double w165 = 0.165 * xi1_1;
+            const double w166 = -0.08333333333333333 * g01 * mu0 - 0.08333333333333333 * g11 * mu1
                 - 0.08333333333333333 * g21 * mu2;
-            const double w175 = -0.66 * h;
-            const double w176 = 0.33 * h;
-            const double w177 = xi3_2 * w176;
-            const double w178 = xi3_1 * w176;
-            const double w179 = 0.165 * xi4_2;
-            const double w180 = -0.08333333333333333 * g02 * mu0 - 0.08333333333333333 * g12 * mu1
+            const double w167 = -0.66 * h;
+            const double w168 = 0.33 * h;
+            const double w169 = xi3_2 * w168;
+            const double w170 = xi3_1 * w168;
+            const double w171 = 0.165 * xi4_2;
+            const double w172 = -0.08333333333333333 * g02 * mu0 - 0.08333333333333333 * g12 * mu1
                 - 0.08333333333333333 * g22 * mu2;
-            const double w181 = 0.165 * xi4_1;
-            const double w182 = 0.08333333333333333 * g01 * mu0 + 0.08333333333333333 * g11 * mu1
+            const double w173 = 0.165 * xi4_1;
+            const double w174 = 0.08333333333333333 * g01 * mu0 + 0.08333333333333333 * g11 * mu1
                 + 0.08333333333333333 * g21 * mu2;
-            const double w183 = -0.16666666666666666 * xi1_2;
-            const double w184 = -0.16666666666666666 * xi1_0;
-            const double w185 = 0.08333333333333333 * g00 * mu0 + 0.08333333333333333 * g10 * mu1
+            const double w175 = -0.16666666666666666 * xi1_2;
+            const double w176 = -0.16666666666666666 * xi1_0;
+            const double w177 = 0.08333333333333333 * g00 * mu0 + 0.08333333333333333 * g10 * mu1
                 + 0.08333333333333333 * g20 * mu2;
-            const double w186 = 0.6666666666666666 * h;
-            const double w187 = -0.3333333333333333 * h;
-            const double w188 = xi3_2 * w187;
-            const double w189 = xi3_0 * w187;
-            const double w190 = -0.16666666666666666 * xi4_2;
-            const double w191 = -0.16666666666666666 * xi4_0;
-            const double w192 = -0.08333333333333333 * g00 * mu0 - 0.08333333333333333 * g10 * mu1
+            const double w178 = 0.6666666666666666 * h;
+            const double w179 = -0.3333333333333333 * h;
+            const double w180 = xi3_2 * w179;
+            const double w181 = xi3_0 * w179;
+            const double w182 = -0.16666666666666666 * xi4_2;
+            const double w183 = -0.16666666666666666 * xi4_0;
+            const double w184 = -0.08333333333333333 * g00 * mu0 - 0.08333333333333333 * g10 * mu1
                 - 0.08333333333333333 * g20 * mu2;
-            const double w193 = 0.0016666666666666668 * xi1_1;
-            const double w194 = 0.0016666666666666668 * xi1_0;
-            const double w195 = -0.006666666666666667 * h;
-            const double w196 = 0.0033333333333333335 * h;
-            const double w197 = xi3_1 * w196;
-            const double w198 = xi3_0 * w196;
-            const double w199 = 0.0016666666666666668 * xi4_1;
-            const double w200 = 0.0016666666666666668 * xi4_0;
-            const double w201 = 0.16666666666666666 * g02 * mu0 + 0.16666666666666666 * g12 * mu1
+            const double w185 = 0.0016666666666666668 * xi1_1;
+            const double w186 = 0.0016666666666666668 * xi1_0;
+            const double w187 = -0.006666666666666667 * h;
+            const double w188 = 0.0033333333333333335 * h;
+            const double w189 = xi3_1 * w188;
+            const double w190 = xi3_0 * w188;
+            const double w191 = 0.0016666666666666668 * xi4_1;
+            const double w192 = 0.0016666666666666668 * xi4_0;
+            const double w193 = 0.16666666666666666 * g02 * mu0 + 0.16666666666666666 * g12 * mu1
                 + 0.16666666666666666 * g22 * mu2;
-            const double w202 = w171 + w201;
-            const double w203 = -0.16666666666666666 * g01 * mu0 - 0.16666666666666666 * g11 * mu1
+            const double w194 = w163 + w193;
+            const double w195 = -0.16666666666666666 * g01 * mu0 - 0.16666666666666666 * g11 * mu1
                 - 0.16666666666666666 * g21 * mu2;
-            const double w204 = w173 + w203;
-            const double w205 = 0.33 * xi2_2;
-            const double w206 = -0.005 * xi1_2;
-            const double w207 = 0.33 * xi2_1;
-            const double w208 = 0.5 * xi1_1;
-            const double w209 = 0.165 * h;
-            const double w210 = xi4_2 * w209;
-            const double w211 = xi4_1 * w209;
-            const double w212 = -0.16666666666666666 * g02 * mu0 - 0.16666666666666666 * g12 * mu1
+            const double w196 = w165 + w195;
+            const double w197 = 0.33 * xi2_2;
+            const double w198 = -0.005 * xi1_2;
+            const double w199 = 0.33 * xi2_1;
+            const double w200 = 0.5 * xi1_1;
+            const double w201 = 0.165 * h;
+            const double w202 = xi4_2 * w201;
+            const double w203 = xi4_1 * w201;
+            const double w204 = -0.16666666666666666 * g02 * mu0 - 0.16666666666666666 * g12 * mu1
                 - 0.16666666666666666 * g22 * mu2;
-            const double w213 = w183 + w212;
-            const double w214 = 0.16666666666666666 * g00 * mu0 + 0.16666666666666666 * g10 * mu1
+            const double w205 = w175 + w204;
+            const double w206 = 0.16666666666666666 * g00 * mu0 + 0.16666666666666666 * g10 * mu1
                 + 0.16666666666666666 * g20 * mu2;
-            const double w215 = w184 + w214;
-            const double w216 = -0.3333333333333333 * xi2_2;
-            const double w217 = -0.3333333333333333 * xi2_0;
-            const double w218 = -0.495 * xi1_0;
-            const double w219 = xi4_2 * w122;
-            const double w220 = xi4_0 * w122;
-            const double w221 = 0.16666666666666666 * g01 * mu0 + 0.16666666666666666 * g11 * mu1
+            const double w207 = w176 + w206;
+            const double w208 = -0.3333333333333333 * xi2_2;
+            const double w209 = -0.3333333333333333 * xi2_0;
+            const double w210 = -0.495 * xi1_0;
+            const double w211 = xi4_2 * w127;
+            const double w212 = xi4_0 * w127;
+            const double w213 = 0.16666666666666666 * g01 * mu0 + 0.16666666666666666 * g11 * mu1
                 + 0.16666666666666666 * g21 * mu2;
-            const double w222 = w193 + w221;
-            const double w223 = -0.16666666666666666 * g00 * mu0 - 0.16666666666666666 * g10 * mu1
+            const double w214 = w185 + w213;
+            const double w215 = -0.16666666666666666 * g00 * mu0 - 0.16666666666666666 * g10 * mu1
                 - 0.16666666666666666 * g20 * mu2;
-            const double w224 = w194 + w223;
-            const double w225 = 0.0033333333333333335 * xi2_1;
-            const double w226 = 0.0033333333333333335 * xi2_0;
-            const double w227 = 0.0016666666666666668 * h;
-            const double w228 = xi4_1 * w227;
-            const double w229 = xi4_0 * w227;
-            const double w230 = 0.33 * xi3_2;
-            const double w231 = -0.005 * xi2_2;
-            const double w232 = 0.33 * xi3_1;
-            const double w233 = 0.5 * xi2_1;
-            const double w234 = -0.33 * h;
-            const double w235 = -0.3333333333333333 * xi3_2;
-            const double w236 = -0.3333333333333333 * xi3_0;
-            const double w237 = -0.495 * xi2_0;
-            const double w238 = 0.0033333333333333335 * xi3_1;
-            const double w239 = 0.0033333333333333335 * xi3_0;
-            const double w240 = -0.0033333333333333335 * h;
-            const double w241 = h * (0.25 * g02 * mu0 + 0.25 * g12 * mu1 + 0.25 * g22 * mu2 + w171);
-            const double w242 = h * (-0.25 * g01 * mu0 - 0.25 * g11 * mu1 - 0.25 * g21 * mu2 + w173);
-            const double w243 = 0.3333333333333333 * g02 * mu0 + 0.3333333333333333 * g12 * mu1
+            const double w216 = w186 + w215;
+            const double w217 = 0.0033333333333333335 * xi2_1;
+            const double w218 = 0.0033333333333333335 * xi2_0;
+            const double w219 = 0.0016666666666666668 * h;
+            const double w220 = xi4_1 * w219;
+            const double w221 = xi4_0 * w219;
+            const double w222 = 0.33 * xi3_2;
+            const double w223 = -0.005 * xi2_2;
+            const double w224 = 0.33 * xi3_1;
+            const double w225 = 0.5 * xi2_1;
+            const double w226 = -0.33 * h;
+            const double w227 = -0.3333333333333333 * xi3_2;
+            const double w228 = -0.3333333333333333 * xi3_0;
+            const double w229 = -0.495 * xi2_0;
+            const double w230 = 0.0033333333333333335 * xi3_1;
+            const double w231 = 0.0033333333333333335 * xi3_0;
+            const double w232 = -0.0033333333333333335 * h;
+            const double w233 = h * (0.25 * g02 * mu0 + 0.25 * g12 * mu1 + 0.25 * g22 * mu2 + w163);
+            const double w234 = h * (-0.25 * g01 * mu0 - 0.25 * g11 * mu1 - 0.25 * g21 * mu2 + w165);
+            const double w235 = 0.3333333333333333 * g02 * mu0 + 0.3333333333333333 * g12 * mu1
                 + 0.3333333333333333 * g22 * mu2;
-            const double w244 = -0.3333333333333333 * g01 * mu0 - 0.3333333333333333 * g11 * mu1
+            const double w236 = -0.3333333333333333 * g01 * mu0 - 0.3333333333333333 * g11 * mu1
                 - 0.3333333333333333 * g21 * mu2;
-            const double w245 = -0.01 * xi3_2;
-            const double w246 = h * (-0.25 * g02 * mu0 - 0.25 * g12 * mu1 - 0.25 * g22 * mu2 + w183);
-            const double w247 = h * (0.25 * g00 * mu0 + 0.25 * g10 * mu1 + 0.25 * g20 * mu2 + w184);
-            const double w248 = -0.3333333333333333 * g02 * mu0 - 0.3333333333333333 * g12 * mu1
+            const double w237 = -0.01 * xi3_2;
+            const double w238 = h * (-0.25 * g02 * mu0 - 0.25 * g12 * mu1 - 0.25 * g22 * mu2 + w175);
+            const double w239 = h * (0.25 * g00 * mu0 + 0.25 * g10 * mu1 + 0.25 * g20 * mu2 + w176);
+            const double w240 = -0.3333333333333333 * g02 * mu0 - 0.3333333333333333 * g12 * mu1
                 - 0.3333333333333333 * g22 * mu2;
-            const double w249 = 0.3333333333333333 * g00 * mu0 + 0.3333333333333333 * g10 * mu1
+            const double w241 = 0.3333333333333333 * g00 * mu0 + 0.3333333333333333 * g10 * mu1
                 + 0.3333333333333333 * g20 * mu2;
-            const double w250 = -0.99 * xi3_0;
-            const double w251 = h * (0.25 * g01 * mu0 + 0.25 * g11 * mu1 + 0.25 * g21 * mu2 + w193);
-            const double w252 = h * (-0.25 * g00 * mu0 - 0.25 * g10 * mu1 - 0.25 * g20 * mu2 + w194);
-            const double w253 = 0.3333333333333333 * g01 * mu0 + 0.3333333333333333 * g11 * mu1
+            const double w242 = -0.99 * xi3_0;
+            const double w243 = h * (0.25 * g01 * mu0 + 0.25 * g11 * mu1 + 0.25 * g21 * mu2 + w185);
+            const double w244 = h * (-0.25 * g00 * mu0 - 0.25 * g10 * mu1 - 0.25 * g20 * mu2 + w186);
+            const double w245 = 0.3333333333333333 * g01 * mu0 + 0.3333333333333333 * g11 * mu1
                 + 0.3333333333333333 * g21 * mu2;
-            const double w254 = -0.3333333333333333 * g00 * mu0 - 0.3333333333333333 * g10 * mu1
+            const double w246 = -0.3333333333333333 * g00 * mu0 - 0.3333333333333333 * g10 * mu1
                 - 0.3333333333333333 * g20 * mu2;
             memory->inverse_1[0] = 1.01;
-            memory->inverse_1[1] = -h * (w171 + w172);
-            memory->inverse_1[2] = -h * (w173 + w174);
+            memory->inverse_1[1] = -h * (w163 + w164);
+            memory->inverse_1[2] = -h * (w165 + w166);
             memory->inverse_1[3] = 0.0;
-            memory->inverse_1[4] = -xi2_2 * w175;
-            memory->inverse_1[5] = -xi2_1 * w175;
+            memory->inverse_1[4] = -xi2_2 * w167;
+            memory->inverse_1[5] = -xi2_1 * w167;
             memory->inverse_1[6] = 0.0;
-            memory->inverse_1[7] = -w177;
-            memory->inverse_1[8] = -w178;
+            memory->inverse_1[7] = -w169;
+            memory->inverse_1[8] = -w170;
             memory->inverse_1[9] = 0.0;
-            memory->inverse_1[10] = -h * (w179 + w180);
-            memory->inverse_1[11] = -h * (w181 + w182);
-            memory->inverse_1[12] = -h * (w180 + w183);
+            memory->inverse_1[10] = -h * (w171 + w172);
+            memory->inverse_1[11] = -h * (w173 + w174);
+            memory->inverse_1[12] = -h * (w172 + w175);
             memory->inverse_1[13] = 1.0;
-            memory->inverse_1[14] = -h * (w184 + w185);
-            memory->inverse_1[15] = -xi2_2 * w186;
+            memory->inverse_1[14] = -h * (w176 + w177);
+            memory->inverse_1[15] = -xi2_2 * w178;
             memory->inverse_1[16] = 0.0;
-            memory->inverse_1[17] = -xi2_0 * w186;
-            memory->inverse_1[18] = -w188;
+            memory->inverse_1[17] = -xi2_0 * w178;
+            memory->inverse_1[18] = -w180;
             memory->inverse_1[19] = 0.0;
-            memory->inverse_1[20] = -w189;
-            memory->inverse_1[21] = -h * (w172 + w190);
+            memory->inverse_1[20] = -w181;
+            memory->inverse_1[21] = -h * (w164 + w182);
             memory->inverse_1[22] = 0.0;
-            memory->inverse_1[23] = -h * (w191 + w192);
-            memory->inverse_1[24] = -h * (w182 + w193);
-            memory->inverse_1[25] = -h * (w192 + w194);
+            memory->inverse_1[23] = -h * (w183 + w184);
+            memory->inverse_1[24] = -h * (w174 + w185);
+            memory->inverse_1[25] = -h * (w184 + w186);
             memory->inverse_1[26] = 0.01;
-            memory->inverse_1[27] = -xi2_1 * w195;
-            memory->inverse_1[28] = -xi2_0 * w195;
+            memory->inverse_1[27] = -xi2_1 * w187;
+            memory->inverse_1[28] = -xi2_0 * w187;
             memory->inverse_1[29] = 0.0;
-            memory->inverse_1[30] = -w197;
-            memory->inverse_1[31] = -w198;
+            memory->inverse_1[30] = -w189;
+            memory->inverse_1[31] = -w190;
             memory->inverse_1[32] = 0.0;
-            memory->inverse_1[33] = -h * (w174 + w199);
-            memory->inverse_1[34] = -h * (w185 + w200);
+            memory->inverse_1[33] = -h * (w166 + w191);
+            memory->inverse_1[34] = -h * (w177 + w192);
             memory->inverse_1[35] = 0.0;
             memory->inverse_1[36] = 0.0;
-            memory->inverse_1[37] = -h * (0.5 * xi2_2 + w202);
-            memory->inverse_1[38] = -h * (w204 - 0.005 * xi2_1);
+            memory->inverse_1[37] = -h * (0.5 * xi2_2 + w194);
+            memory->inverse_1[38] = -h * (w196 - 0.005 * xi2_1);
             memory->inverse_1[39] = 1.01;
-            memory->inverse_1[40] = -h * (w201 + w206 + w205);
-            memory->inverse_1[41] = -h * (w203 + w208 + w207);
+            memory->inverse_1[40] = -h * (w193 + w198 + w197);
+            memory->inverse_1[41] = -h * (w195 + w200 + w199);
             memory->inverse_1[42] = 0.0;
-            memory->inverse_1[43] = -h * (w201 - 0.165 * xi3_2);
-            memory->inverse_1[44] = -h * (w203 - 0.165 * xi3_1);
+            memory->inverse_1[43] = -h * (w193 - 0.165 * xi3_2);
+            memory->inverse_1[44] = -h * (w195 - 0.165 * xi3_1);
             memory->inverse_1[45] = 0.0;
-            memory->inverse_1[46] = -w210;
-            memory->inverse_1[47] = -w211;
-            memory->inverse_1[48] = -h * (w213 - 0.495 * xi2_2);
+            memory->inverse_1[46] = -w202;
+            memory->inverse_1[47] = -w203;
+            memory->inverse_1[48] = -h * (w205 - 0.495 * xi2_2);
             memory->inverse_1[49] = 0.0;
-            memory->inverse_1[50] = -h * (w215 - 0.005 * xi2_0);
-            memory->inverse_1[51] = -h * (w206 + w212 + w216);
+            memory->inverse_1[50] = -h * (w207 - 0.005 * xi2_0);
+            memory->inverse_1[51] = -h * (w198 + w204 + w208);
             memory->inverse_1[52] = 1.0;
-            memory->inverse_1[53] = -h * (w214 + w218 + w217);
-            memory->inverse_1[54] = -h * (0.16666666666666666 * xi3_2 + w212);
+            memory->inverse_1[53] = -h * (w206 + w210 + w209);
+            memory->inverse_1[54] = -h * (0.16666666666666666 * xi3_2 + w204);
             memory->inverse_1[55] = 0.0;
-            memory->inverse_1[56] = -h * (0.16666666666666666 * xi3_0 + w214);
-            memory->inverse_1[57] = -w219;
+            memory->inverse_1[56] = -h * (0.16666666666666666 * xi3_0 + w206);
+            memory->inverse_1[57] = -w211;
             memory->inverse_1[58] = 0.0;
-            memory->inverse_1[59] = -w220;
-            memory->inverse_1[60] = -h * (w222 - 0.495 * xi2_1);
-            memory->inverse_1[61] = -h * (0.5 * xi2_0 + w224);
+            memory->inverse_1[59] = -w212;
+            memory->inverse_1[60] = -h * (w214 - 0.495 * xi2_1);
+            memory->inverse_1[61] = -h * (0.5 * xi2_0 + w216);
             memory->inverse_1[62] = 0.0;
-            memory->inverse_1[63] = -h * (w208 + w221 + w225);
-            memory->inverse_1[64] = -h * (w218 + w223 + w226);
+            memory->inverse_1[63] = -h * (w200 + w213 + w217);
+            memory->inverse_1[64] = -h * (w210 + w215 + w218);
             memory->inverse_1[65] = 0.01;
-            memory->inverse_1[66] = -h * (w221 - 0.0016666666666666668 * xi3_1);
-            memory->inverse_1[67] = -h * (w223 - 0.0016666666666666668 * xi3_0);
+            memory->inverse_1[66] = -h * (w213 - 0.0016666666666666668 * xi3_1);
+            memory->inverse_1[67] = -h * (w215 - 0.0016666666666666668 * xi3_0);
             memory->inverse_1[68] = 0.0;
-            memory->inverse_1[69] = -w228;
-            memory->inverse_1[70] = -w229;
+            memory->inverse_1[69] = -w220;
+            memory->inverse_1[70] = -w221;
             memory->inverse_1[71] = 0.0;
             memory->inverse_1[72] = 0.0;
-            memory->inverse_1[73] = -h * w202;
-            memory->inverse_1[74] = -h * w204;
+            memory->inverse_1[73] = -h * w194;
+            memory->inverse_1[74] = -h * w196;
             memory->inverse_1[75] = 0.0;
-            memory->inverse_1[76] = -h * (w201 + w205 + 0.5 * xi3_2);
-            memory->inverse_1[77] = -h * (w203 + w207 - 0.005 * xi3_1);
+            memory->inverse_1[76] = -h * (w193 + w197 + 0.5 * xi3_2);
+            memory->inverse_1[77] = -h * (w195 + w199 - 0.005 * xi3_1);
             memory->inverse_1[78] = 1.01;
-            memory->inverse_1[79] = -h * (w201 + w231 + w230);
-            memory->inverse_1[80] = -h * (w203 + w233 + w232);
+            memory->inverse_1[79] = -h * (w193 + w223 + w222);
+            memory->inverse_1[80] = -h * (w195 + w225 + w224);
             memory->inverse_1[81] = 0.0;
-            memory->inverse_1[82] = -xi4_2 * w234;
-            memory->inverse_1[83] = -xi4_1 * w234;
-            memory->inverse_1[84] = -h * w213;
+            memory->inverse_1[82] = -xi4_2 * w226;
+            memory->inverse_1[83] = -xi4_1 * w226;
+            memory->inverse_1[84] = -h * w205;
             memory->inverse_1[85] = 0.0;
-            memory->inverse_1[86] = -h * w215;
-            memory->inverse_1[87] = -h * (w212 + w216 - 0.495 * xi3_2);
+            memory->inverse_1[86] = -h * w207;
+            memory->inverse_1[87] = -h * (w204 + w208 - 0.495 * xi3_2);
             memory->inverse_1[88] = 0.0;
-            memory->inverse_1[89] = -h * (w214 + w217 - 0.005 * xi3_0);
-            memory->inverse_1[90] = -h * (w212 + w231 + w235);
+            memory->inverse_1[89] = -h * (w206 + w209 - 0.005 * xi3_0);
+            memory->inverse_1[90] = -h * (w204 + w223 + w227);
             memory->inverse_1[91] = 1.0;
-            memory->inverse_1[92] = -h * (w214 + w237 + w236);
-            memory->inverse_1[93] = -xi4_2 * w119;
+            memory->inverse_1[92] = -h * (w206 + w229 + w228);
+            memory->inverse_1[93] = -xi4_2 * w115;
             memory->inverse_1[94] = 0.0;
-            memory->inverse_1[95] = -xi4_0 * w119;
-            memory->inverse_1[96] = -h * w222;
-            memory->inverse_1[97] = -h * w224;
+            memory->inverse_1[95] = -xi4_0 * w115;
+            memory->inverse_1[96] = -h * w214;
+            memory->inverse_1[97] = -h * w216;
             memory->inverse_1[98] = 0.0;
-            memory->inverse_1[99] = -h * (w221 + w225 - 0.495 * xi3_1);
-            memory->inverse_1[100] = -h * (w223 + w226 + 0.5 * xi3_0);
+            memory->inverse_1[99] = -h * (w213 + w217 - 0.495 * xi3_1);
+            memory->inverse_1[100] = -h * (w215 + w218 + 0.5 * xi3_0);
             memory->inverse_1[101] = 0.0;
-            memory->inverse_1[102] = -h * (w221 + w233 + w238);
-            memory->inverse_1[103] = -h * (w223 + w237 + w239);
+            memory->inverse_1[102] = -h * (w213 + w225 + w230);
+            memory->inverse_1[103] = -h * (w215 + w229 + w231);
             memory->inverse_1[104] = 0.01;
-            memory->inverse_1[105] = -xi4_1 * w240;
-            memory->inverse_1[106] = -xi4_0 * w240;
+            memory->inverse_1[105] = -xi4_1 * w232;
+            memory->inverse_1[106] = -xi4_0 * w232;
             memory->inverse_1[107] = 0.0;
             memory->inverse_1[108] = 0.0;
-            memory->inverse_1[109] = -w241;
-            memory->inverse_1[110] = -w242;
+            memory->inverse_1[109] = -w233;
+            memory->inverse_1[110] = -w234;
             memory->inverse_1[111] = 0.0;
-            memory->inverse_1[112] = -h * (w205 + w243);
-            memory->inverse_1[113] = -h * (w207 + w244);
+            memory->inverse_1[112] = -h * (w197 + w235);
+            memory->inverse_1[113] = -h * (w199 + w236);
             memory->inverse_1[114] = 0.0;
-            memory->inverse_1[115] = -h * (w230 + w243 + xi4_2);
-            memory->inverse_1[116] = -h * (w232 + w244 - 0.01 * xi4_1);
+            memory->inverse_1[115] = -h * (w222 + w235 + xi4_2);
+            memory->inverse_1[116] = -h * (w224 + w236 - 0.01 * xi4_1);
             memory->inverse_1[117] = 1.01;
-            memory->inverse_1[118] = -h * (w172 + w245 + w179);
-            memory->inverse_1[119] = -h * (xi3_1 + w174 + w181);
-            memory->inverse_1[120] = -w246;
+            memory->inverse_1[118] = -h * (w164 + w237 + w171);
+            memory->inverse_1[119] = -h * (xi3_1 + w166 + w173);
+            memory->inverse_1[120] = -w238;
             memory->inverse_1[121] = 0.0;
-            memory->inverse_1[122] = -w247;
-            memory->inverse_1[123] = -h * (w216 + w248);
+            memory->inverse_1[122] = -w239;
+            memory->inverse_1[123] = -h * (w208 + w240);
             memory->inverse_1[124] = 0.0;
-            memory->inverse_1[125] = -h * (w217 + w249);
-            memory->inverse_1[126] = -h * (w235 + w248 - 0.99 * xi4_2);
+            memory->inverse_1[125] = -h * (w209 + w241);
+            memory->inverse_1[126] = -h * (w227 + w240 - 0.99 * xi4_2);
             memory->inverse_1[127] = 0.0;
-            memory->inverse_1[128] = -h * (w236 + w249 - 0.01 * xi4_0);
-            memory->inverse_1[129] = -h * (w180 + w245 + w190);
+            memory->inverse_1[128] = -h * (w228 + w241 - 0.01 * xi4_0);
+            memory->inverse_1[129] = -h * (w172 + w237 + w182);
             memory->inverse_1[130] = 1.0;
-            memory->inverse_1[131] = -h * (w185 + w250 + w191);
-            memory->inverse_1[132] = -w251;
-            memory->inverse_1[133] = -w252;
+            memory->inverse_1[131] = -h * (w177 + w242 + w183);
+            memory->inverse_1[132] = -w243;
+            memory->inverse_1[133] = -w244;
             memory->inverse_1[134] = 0.0;
-            memory->inverse_1[135] = -h * (w225 + w253);
-            memory->inverse_1[136] = -h * (w226 + w254);
+            memory->inverse_1[135] = -h * (w217 + w245);
+            memory->inverse_1[136] = -h * (w218 + w246);
             memory->inverse_1[137] = 0.0;
-            memory->inverse_1[138] = -h * (w238 + w253 - 0.99 * xi4_1);
-            memory->inverse_1[139] = -h * (w239 + w254 + xi4_0);
+            memory->inverse_1[138] = -h * (w230 + w245 - 0.99 * xi4_1);
+            memory->inverse_1[139] = -h * (w231 + w246 + xi4_0);
             memory->inverse_1[140] = 0.0;
-            memory->inverse_1[141] = -h * (xi3_1 + w182 + w199);
-            memory->inverse_1[142] = -h * (w192 + w250 + w200);
+            memory->inverse_1[141] = -h * (xi3_1 + w174 + w191);
+            memory->inverse_1[142] = -h * (w184 + w242 + w192);
             memory->inverse_1[143] = 0.01;
             double row_1[12];
             size_t order_1[12];
@@ -1171,105 +1205,111 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         make_1 = 0;
         previous_1 = change;
     }
-    const double w255 = xi2_1 + xi3_1;
-    const double w256 = w63 * w255;
-    const double xe1_1_ = xi1_1 * w137 + w256 + xi4_1 * w139;
-    const double w257 = xi2_0 + xi3_0;
-    const double w258 = w63 * w257;
-    const double xe1_0_ = xi1_0 * w137 + w258 + xi4_0 * w139;
-    const double w259 = xi2_2 + xi3_2;
-    const double w260 = w63 * w259;
-    const double xe1_2_ = xi1_2 * w137 + w260 + xi4_2 * w139;
-    const double w261 = xe1_0_ * xe1_0_ + xe1_1_ * xe1_1_ + xe1_2_ * xe1_2_;
-    double c1_5, c2_10;
-    stumpff_12(w261, &c1_5, &c2_10);
-    const double w263 = xe1_1_ * c2_10;
-    const double w264 = xe1_1_ * w263;
-    const double w265 = xe1_2_ * c2_10 * xe1_2_;
-    const double ge1_0_ = 1.0 - (w264 + w265);
-    const double xe2_1 = w256 + xi1_1 * w139 + xi4_1 * w137;
-    const double xe2_0 = w258 + xi1_0 * w139 + xi4_0 * w137;
-    const double xe2_2 = w260 + xi1_2 * w139 + xi4_2 * w137;
-    const double w266 = xe2_0 * xe2_0 + xe2_1 * xe2_1 + xe2_2 * xe2_2;
-    double c1_6, c2_11;
-    stumpff_12(w266, &c1_6, &c2_11);
-    const double w268 = xe2_1 * c2_11;
-    const double w269 = xe2_1 * w268;
-    const double w270 = xe2_2 * c2_11 * xe2_2;
-    const double ge2_0 = 1.0 - (w269 + w270);
-    const double w272 = xe1_2_ * c1_5;
-    const double w273 = xe1_0_ * c2_10;
-    const double w274 = xe1_1_ * w273;
-    const double ge1_3_ = w272 + w274;
-    const double w275 = xe2_0 * c2_11;
-    const double w276 = xe2_1 * w275;
-    const double w278 = xe2_2 * c1_6;
-    const double ge2_1 = w276 - w278;
-    const double w279 = xe1_2_ * w273;
-    const double w280 = xe1_1_ * c1_5;
-    const double ge1_6_ = w279 - w280;
-    const double w281 = xe2_1 * c1_6;
-    const double w282 = xe2_2 * w275;
-    const double ge2_2 = w281 + w282;
+    const double w247 = xi2_1 + xi3_1;
+    const double w248 = w59 * w247;
+    const double xe1_1_ = xi1_1 * w116 + w248 + xi4_1 * w119;
+    const double w249 = xi2_0 + xi3_0;
+    const double w250 = w59 * w249;
+    const double xe1_0_ = xi1_0 * w116 + w250 + xi4_0 * w119;
+    const double w251 = xi2_2 + xi3_2;
+    const double w252 = w59 * w251;
+    const double xe1_2_ = xi1_2 * w116 + w252 + xi4_2 * w119;
+    const double w253 = xe1_0_ * xe1_0_ + xe1_1_ * xe1_1_ + xe1_2_ * xe1_2_;
+    double c1_5, c2_6;
+    stumpff_12(w253, &c1_5, &c2_6);
+    const double w255 = xe1_1_ * c2_6;
+    const double w256 = xe1_1_ * w255;
+    const double w257 = xe1_2_ * c2_6 * xe1_2_;
+    const double ge1_0_ = 1.0 - (w256 + w257);
+    const double xe2_1 = w248 + xi1_1 * w119 + xi4_1 * w116;
+    const double w258 = w127 * w249;
+    const double ye2_0_ = xi1_0 * w129 + w258 + xi4_0 * w126;
+    const double w259 = w127 * w247;
+    const double ye2_1_ = xi1_1 * w129 + w259 + xi4_1 * w126;
+    const double w260 = w127 * w251;
+    const double ye2_2_ = xi1_2 * w129 + w260 + xi4_2 * w126;
+    const double w261 = ye2_0_ * ye2_0_ + ye2_1_ * ye2_1_ + ye2_2_ * ye2_2_;
+    double c1_6, c2_7;
+    stumpff_12(w261, &c1_6, &c2_7);
+    const double w263 = xe2_1 * c2_7;
+    const double w264 = xe2_1 * w263;
+    const double xe2_2 = w252 + xi1_2 * w119 + xi4_2 * w116;
+    const double w265 = xe2_2 * c2_7 * xe2_2;
+    const double ge2_0 = 1.0 - (w264 + w265);
+    const double w267 = xe1_2_ * c1_5;
+    const double w268 = xe1_0_ * c2_6;
+    const double w269 = xe1_1_ * w268;
+    const double ge1_3_ = w267 + w269;
+    const double xe2_0 = w250 + xi1_0 * w119 + xi4_0 * w116;
+    const double w270 = xe2_0 * c2_7;
+    const double w271 = xe2_1 * w270;
+    const double w273 = xe2_2 * c1_6;
+    const double ge2_1 = w271 - w273;
+    const double w274 = xe1_2_ * w268;
+    const double w275 = xe1_1_ * c1_5;
+    const double ge1_6_ = w274 - w275;
+    const double w276 = xe2_1 * c1_6;
+    const double w277 = xe2_2 * w270;
+    const double ge2_2 = w276 + w277;
     const double e2_0 = ge1_0_ * ge2_0 + ge1_3_ * ge2_1 + ge1_6_ * ge2_2;
-    const double ge2_3 = w276 + w278;
-    const double w283 = xe2_0 * w275;
-    const double ge2_4 = 1.0 - (w270 + w283);
-    const double w284 = xe2_2 * w268;
-    const double w285 = xe2_0 * c1_6;
-    const double ge2_5 = w284 - w285;
+    const double ge2_3 = w271 + w273;
+    const double w278 = xe2_0 * w270;
+    const double ge2_4 = 1.0 - (w265 + w278);
+    const double w279 = w263 * xe2_2;
+    const double w280 = xe2_0 * c1_6;
+    const double ge2_5 = w279 - w280;
     const double e2_3 = ge1_0_ * ge2_3 + ge1_3_ * ge2_4 + ge1_6_ * ge2_5;
-    const double ge2_6 = w282 - w281;
-    const double ge2_7 = w284 + w285;
-    const double ge2_8 = 1.0 - (w269 + w283);
+    const double ge2_6 = w277 - w276;
+    const double ge2_7 = w279 + w280;
+    const double ge2_8 = 1.0 - (w264 + w278);
     const double e2_6 = ge1_0_ * ge2_6 + ge1_3_ * ge2_7 + ge1_6_ * ge2_8;
-    const double ge1_1_ = w274 - w272;
-    const double w286 = xe1_0_ * w273;
-    const double ge1_4_ = 1.0 - (w265 + w286);
-    const double w287 = xe1_0_ * c1_5;
-    const double w288 = xe1_2_ * w263;
-    const double ge1_7_ = w287 + w288;
+    const double ge1_1_ = w269 - w267;
+    const double w281 = xe1_0_ * w268;
+    const double ge1_4_ = 1.0 - (w257 + w281);
+    const double w282 = xe1_0_ * c1_5;
+    const double w283 = xe1_2_ * w255;
+    const double ge1_7_ = w282 + w283;
     const double e2_1 = ge2_0 * ge1_1_ + ge2_1 * ge1_4_ + ge2_2 * ge1_7_;
     const double e2_4 = ge2_3 * ge1_1_ + ge2_4 * ge1_4_ + ge2_5 * ge1_7_;
     const double e2_7 = ge2_6 * ge1_1_ + ge2_7 * ge1_4_ + ge2_8 * ge1_7_;
-    const double ge1_2_ = w279 + w280;
-    const double ge1_5_ = w288 - w287;
-    const double ge1_8_ = 1.0 - (w264 + w286);
+    const double ge1_2_ = w274 + w275;
+    const double ge1_5_ = w283 - w282;
+    const double ge1_8_ = 1.0 - (w256 + w281);
     const double e2_2 = ge2_0 * ge1_2_ + ge2_1 * ge1_5_ + ge2_2 * ge1_8_;
     const double e2_5 = ge2_3 * ge1_2_ + ge2_4 * ge1_5_ + ge2_5 * ge1_8_;
     const double e2_8 = ge2_6 * ge1_2_ + ge2_7 * ge1_5_ + ge2_8 * ge1_8_;
-    const double w289 = 0.165 * h;
-    const double w290 = 0.33 * h;
-    const double w291 = s_p1_0_seen + xi1_2 * w289 * d_xi1_1 + xi1_1 * w289 * d_xi1_2
-        + xi2_2 * w290 * d_xi2_1 + xi2_1 * w290 * d_xi2_2;
-    const double w292 = xi3_2 * w290;
-    const double w293 = xi3_1 * w290;
-    const double w294 = xi4_2 * w289;
-    const double w295 = xi4_1 * w289;
-    const double w296 = w291 + d_xi3_1 * w292 + d_xi3_2 * w293 + d_xi4_1 * w294
-        + d_xi4_2 * w295;
-    const double w297 = -0.3333333333333333 * h;
-    const double w298 = s_p1_1_seen + xi1_2 * w122 * d_xi1_0 + xi1_0 * w122 * d_xi1_2
-        + xi2_2 * w297 * d_xi2_0 + xi2_0 * w297 * d_xi2_2;
-    const double w299 = xi3_2 * w297;
-    const double w300 = xi3_0 * w297;
-    const double w301 = xi4_2 * w122;
-    const double w302 = xi4_0 * w122;
-    const double w303 = w298 + d_xi3_0 * w299 + d_xi3_2 * w300 + d_xi4_0 * w301
-        + d_xi4_2 * w302;
-    const double w304 = 0.0016666666666666668 * h;
-    const double w305 = 0.0033333333333333335 * h;
-    const double w306 = s_p1_2_seen + xi1_1 * w304 * d_xi1_0 + xi1_0 * w304 * d_xi1_1
-        + xi2_1 * w305 * d_xi2_0 + xi2_0 * w305 * d_xi2_1;
-    const double w307 = xi3_1 * w305;
-    const double w308 = xi3_0 * w305;
-    const double w309 = xi4_1 * w304;
-    const double w310 = xi4_0 * w304;
-    const double w311 = w306 + d_xi3_0 * w307 + d_xi3_1 * w308 + d_xi4_0 * w309
-        + d_xi4_1 * w310;
-    const double change_0 = e2_0 * w296 + e2_1 * w303 + e2_2 * w311 - m_0;
-    const double change_1 = e2_3 * w296 + e2_4 * w303 + e2_5 * w311 - m_1;
-    const double change_2 = e2_6 * w296 + e2_7 * w303 + e2_8 * w311 - m_2;
+    const double w284 = 0.165 * h;
+    const double w285 = 0.33 * h;
+    const double w286 = s_p1_0_seen + xi1_2 * w284 * d_xi1_1 + xi1_1 * w284 * d_xi1_2
+        + xi2_2 * w285 * d_xi2_1 + xi2_1 * w285 * d_xi2_2;
+    const double w287 = xi3_2 * w285;
+    const double w288 = xi3_1 * w285;
+    const double w289 = xi4_2 * w284;
+    const double w290 = xi4_1 * w284;
+    const double w291 = w286 + d_xi3_1 * w287 + d_xi3_2 * w288 + d_xi4_1 * w289
+        + d_xi4_2 * w290;
+    const double w292 = -0.3333333333333333 * h;
+    const double w293 = s_p1_1_seen + xi1_2 * w127 * d_xi1_0 + xi1_0 * w127 * d_xi1_2
+        + xi2_2 * w292 * d_xi2_0 + xi2_0 * w292 * d_xi2_2;
+    const double w294 = xi3_2 * w292;
+    const double w295 = xi3_0 * w292;
+    const double w296 = xi4_2 * w127;
+    const double w297 = xi4_0 * w127;
+    const double w298 = w293 + d_xi3_0 * w294 + d_xi3_2 * w295 + d_xi4_0 * w296
+        + d_xi4_2 * w297;
+    const double w299 = 0.0016666666666666668 * h;
+    const double w300 = 0.0033333333333333335 * h;
+    const double w301 = s_p1_2_seen + xi1_1 * w299 * d_xi1_0 + xi1_0 * w299 * d_xi1_1
+        + xi2_1 * w300 * d_xi2_0 + xi2_0 * w300 * d_xi2_1;
+    const double w302 = xi3_1 * w300;
+    const double w303 = xi3_0 * w300;
+    const double w304 = xi4_1 * w299;
+    const double w305 = xi4_0 * w299;
+    const double w306 = w301 + d_xi3_0 * w302 + d_xi3_1 * w303 + d_xi4_0 * w304
+        + d_xi4_1 * w305;
+    const double change_0 = e2_0 * w291 + e2_1 * w298 + e2_2 * w306 - m_0;
+    const double change_1 = e2_3 * w291 + e2_4 * w298 + e2_5 * w306 - m_1;
+    const double change_2 = e2_6 * w291 + e2_7 * w298 + e2_8 * w306 - m_2;
     const double new_g00 = g00 * e2_0 + g01 * e2_3 + g02 * e2_6;
     const double new_g01 = g00 * e2_1 + g01 * e2_4 + g02 * e2_7;
     const double new_g02 = g00 * e2_2 + g01 * e2_5 + g02 * e2_8;
@@ -1294,7 +1334,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double solution[12] = {xi1_0, xi1_1, xi1_2, xi2_0, xi2_1, xi2_2, xi3_0, xi3_1, xi3_2,
         xi4_0, xi4_1, xi4_2};
     remember(memory, solution);
-    memory->made_1 = memory->made_1 % 11 > 0 ? memory->made_1 + 1 : 0;
+    memory->made_1 = memory->made_1 % 6 > 0 ? memory->made_1 + 1 : 0;
     state[0] = new_g00;
     state[1] = new_g01;
     state[2] = new_g02;

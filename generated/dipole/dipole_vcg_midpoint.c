@@ -5,9 +5,9 @@
  * source:     Table 3.2a of Bogfjellmo and Marthinsen
  * order:      2, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
- * solved by:  the equations of xi1, n1: Newton's method, 3 unknowns (2.1 sweeps of 263 operations
- *             and 0.05 matrices of 46 a step; fixed point: 3.1 sweeps of 276 operations; Newton's
- *             method with the matrix to first order in h: 2.0 sweeps of 291 operations and 1.00
+ * solved by:  the equations of xi1, n1: Newton's method, 3 unknowns (2.1 sweeps of 222 operations
+ *             and 0.05 matrices of 46 a step; fixed point: 3.1 sweeps of 235 operations; Newton's
+ *             method with the matrix to first order in h: 2.0 sweeps of 250 operations and 1.00
  *             matrices of 68)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
@@ -31,8 +31,7 @@
  * operations: 62 add, 86 mul, 1 stumpff_12 a step
  *             2 mul a start, in steps that follow no other
  *             11 add, 31 mul, 1 div a matrix of the equations of xi1, n1
- *             66 add, 114 mul, 2 div, 2 sqrt, 1 stumpff_12, 1 stumpff_23, 1 stumpff_3 a sweep of
- *             the equations of xi1, n1
+ *             62 add, 107 mul, 2 div, 2 sqrt, 1 stumpff_123 a sweep of the equations of xi1, n1
  * stack:      at most 3328 bytes, without what the mathematical library takes
  * made by:    orderconds emit dipole --method vcg:midpoint --target c -o .
  * version:    orderconds 0.1.0
@@ -63,14 +62,6 @@
 #if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
 #error "compile without -ffast-math (-ffinite-math-only): it removes the checks for infinities and NaNs"
 #endif
-
-/* c_3(z) for z <= 1/256 */
-static inline double stumpff_tiny_3(double z)
-{
-    const double w = z * z;
-    return (0.16666666666666666 + z * -0.008333333333333059)
-        + w * (0.00019841269798705593 + z * -2.7555439466688165e-06);
-}
 
 /* c_2(z) for z <= 1/256 */
 static inline double stumpff_tiny_2(double z)
@@ -153,55 +144,6 @@ static inline double stumpff_series_1(double z)
     return 1.0 + z * (even + z * odd);
 }
 
-/* For z > 1/16 and s = sqrt(z): c_3 = (s - sin(s))/s^3 */
-static inline double stumpff_3_far(double z)
-{
-    if (z <= 4.0) {
-        return stumpff_series_3(z);
-    }
-    const double s = sqrt(z <= 4503599627370496.0 ? z : NAN);
-    return (1.0 - sin(s) / s) / z;
-}
-
-/* For z >= 0 and s = sqrt(z): c_3 = (s - sin(s))/s^3 */
-static inline double stumpff_3(double z)
-{
-    if (z <= 0.00390625) {
-        return stumpff_tiny_3(z);
-    }
-    return z <= 0.0625 ? stumpff_small_3(z) : stumpff_3_far(z);
-}
-
-/* For z > 1/16 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
-static inline void stumpff_23_far(double z, double *c2, double *c3)
-{
-    if (z <= 1.0) {
-        *c2 = stumpff_series_2(z);
-        *c3 = stumpff_series_3(z);
-        return;
-    }
-    const double half = 0.5 * sqrt(z <= 4503599627370496.0 ? z : NAN);
-    const double sine = sin(half);
-    const double cosine = cos(half);
-    const double ratio = sine / half;
-    *c2 = 0.5 * (ratio * ratio);
-    *c3 = z <= 4.0 ? stumpff_series_3(z) : (1.0 - ratio * cosine) / z;
-}
-
-/* For z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
-static inline void stumpff_23(double z, double *c2, double *c3)
-{
-    if (z <= 0.00390625) {
-        *c2 = stumpff_tiny_2(z);
-        *c3 = stumpff_tiny_3(z);
-    } else if (z <= 0.0625) {
-        *c2 = stumpff_small_2(z);
-        *c3 = stumpff_small_3(z);
-    } else {
-        stumpff_23_far(z, c2, c3);
-    }
-}
-
 /* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
 static inline void stumpff_12_far(double z, double *c1, double *c2)
 {
@@ -216,6 +158,36 @@ static inline void stumpff_12_far(double z, double *c1, double *c2)
     const double ratio = sine / half;
     *c1 = ratio * cosine;
     *c2 = 0.5 * (ratio * ratio);
+}
+
+/* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
+static inline void stumpff_123_far(double z, double *c1, double *c2, double *c3)
+{
+    if (z <= 1.0) {
+        *c1 = stumpff_series_1(z);
+        *c2 = stumpff_series_2(z);
+        *c3 = stumpff_series_3(z);
+        return;
+    }
+    const double half = 0.5 * sqrt(z <= 4503599627370496.0 ? z : NAN);
+    const double sine = sin(half);
+    const double cosine = cos(half);
+    const double ratio = sine / half;
+    *c1 = ratio * cosine;
+    *c2 = 0.5 * (ratio * ratio);
+    *c3 = z <= 4.0 ? stumpff_series_3(z) : (1.0 - ratio * cosine) / z;
+}
+
+/* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
+static inline void stumpff_123(double z, double *c1, double *c2, double *c3)
+{
+    if (z <= 0.0625) {
+        *c1 = stumpff_small_1(z);
+        *c2 = stumpff_small_2(z);
+        *c3 = stumpff_small_3(z);
+    } else {
+        stumpff_123_far(z, c1, c2, c3);
+    }
 }
 
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
@@ -286,14 +258,15 @@ static const double differences[17][18] = {
     {1, -16, 120, -560, 1820, -4368, 8008, -11440, 12870, -11440, 8008, -4368, 1820, -560, 120, -16, 1},
 };
 
-/* A backward difference of an order without its first terms, which were of later solutions. */
-static void difference(const struct memory *memory, size_t order, size_t first, double sum[static 3])
+/* A backward difference, times sign, of an order without its first terms, which were of later solutions. */
+static inline void difference(const struct memory *memory, size_t order, size_t first, double sign,
+    double sum[static 3])
 {
     double sum_0 = 0.0;
     double sum_1 = 0.0;
     double sum_2 = 0.0;
     for (size_t j = first; j <= order; j += 2) {
-        const double f = differences[order][j], g = differences[order][j + 1];
+        const double f = sign * differences[order][j], g = sign * differences[order][j + 1];
         const double *x = memory->values[memory->place + j - first], *y = x + 3;
         sum_0 += f * x[0] + g * y[0];
         sum_1 += f * x[1] + g * y[1];
@@ -308,7 +281,7 @@ static void difference(const struct memory *memory, size_t order, size_t first, 
 static double size_of(const struct memory *memory, size_t order)
 {
     double sum[3], size = 0.0;
-    difference(memory, order, 0, sum);
+    difference(memory, order, 0, 1.0, sum);
     for (size_t i = 0; i < 3; i++) {
         size += fabs(sum[i]);
     }
@@ -320,9 +293,9 @@ static inline void remember(struct memory *memory, const double solution[static 
 {
     if (memory->known > 2) { /* the guess was no mere copy */
         double moved = 0.0;
-        for (size_t i = 0; i < 3; i++) {
-            moved += fabs(solution[i] - memory->values[memory->place][i]);
-        }
+        moved += fabs(solution[0] - memory->values[memory->place][0]);
+        moved += fabs(solution[1] - memory->values[memory->place][1]);
+        moved += fabs(solution[2] - memory->values[memory->place][2]);
         if (memory->first > 0.5 * moved) {
             memory->known = memory->degree = 0;
         }
@@ -330,9 +303,9 @@ static inline void remember(struct memory *memory, const double solution[static 
     memory->first = 0.0;
     const size_t place = memory->place > 0 ? memory->place - 1 : 15;
     memory->place = place;
-    for (size_t i = 0; i < 3; i++) {
-        memory->values[place][i] = memory->values[place + 16][i] = solution[i];
-    }
+    memory->values[place][0] = memory->values[place + 16][0] = solution[0];
+    memory->values[place][1] = memory->values[place + 16][1] = solution[1];
+    memory->values[place][2] = memory->values[place + 16][2] = solution[2];
     memory->known += memory->known < 16;
     /* the degree grows while the differences fall: of many solutions it is looked at in every eighth step */
     size_t degree = memory->degree;
@@ -346,10 +319,7 @@ static inline void remember(struct memory *memory, const double solution[static 
         memory->degree = degree;
     }
     /* so that the next difference vanishes */
-    difference(memory, degree + 1, 1, memory->guess);
-    for (size_t i = 0; i < 3; i++) {
-        memory->guess[i] = -memory->guess[i];
-    }
+    difference(memory, degree + 1, 1, -1.0, memory->guess);
 }
 
 static inline int advance(double state[static 12], double h, struct memory *memory,
@@ -394,16 +364,15 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double p_2 = 0.01 * xi1_2;
         const double xE1_1_0 = xi1_0 * w1;
         const double xE1_1_1 = xi1_1 * w1;
-        const double w6 = g20 * xE1_1_1 - g21 * xE1_1_0;
         const double xE1_1_2 = xi1_2 * w1;
         const double w2 = xE1_1_0 * xE1_1_0 + xE1_1_1 * xE1_1_1 + xE1_1_2 * xE1_1_2;
-        double c1_1, c2_1;
-        stumpff_12(w2, &c1_1, &c2_1);
+        double c1_1, c2_1, c3_1;
+        stumpff_123(w2, &c1_1, &c2_1, &c3_1);
         const double w4 = g22 * xE1_1_0 - g20 * xE1_1_2;
+        const double w6 = g20 * xE1_1_1 - g21 * xE1_1_0;
         const double w7 = g21 * xE1_1_2 - g22 * xE1_1_1;
         const double Q1_7 = g21 + w4 * c1_1 + (xE1_1_0 * w6 - xE1_1_2 * w7) * c2_1;
         const double Q1_8 = g22 + w6 * c1_1 + (xE1_1_1 * w7 - xE1_1_0 * w4) * c2_1;
-        const double Q1_6 = g20 + w7 * c1_1 + (xE1_1_2 * w4 - xE1_1_1 * w6) * c2_1;
         const double w8 = 1.5 - 2.0 * Q1_8;
         const double w9 = 1.0 / sqrt(1.01 + 1.5 * (w8 - 0.2 * Q1_7));
         const double w10 = w9 * w9 * (0.5 * w9);
@@ -412,64 +381,60 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double w13 = -1.0 - 2.0 * (1.5 * w10 - 1.5 * w12);
         const double w14 = -0.3 * w10 - 0.3 * w12;
         const double Nr1_0 = Q1_7 * w13 - Q1_8 * w14 + 99.0 * xi1_1 * p_2;
+        const double s_mu_0 = m_0 + h * Nr1_0;
+        const double w16 = 0.25 * c3_1;
+        const double xe1_2 = h * xi1_2;
+        const double xe1_0 = h * xi1_0;
+        const double Q1_6 = g20 + w7 * c1_1 + (xE1_1_2 * w4 - xE1_1_1 * w6) * c2_1;
         const double Nr1_2 = 0.01 * xi1_0 * xi1_1 + w14 * Q1_6;
+        const double s_mu_2 = m_2 + h * Nr1_2;
+        const double w17 = xe1_0 * s_mu_2 - s_mu_0 * xe1_2;
+        const double xe1_1 = h * xi1_1;
         const double Nr1_1 = -100.0 * xi1_0 * p_2 - w13 * Q1_6;
         const double s_mu_1 = m_1 + h * Nr1_1;
-        s_mu_1_seen = s_mu_1;
-        const double s_mu_2 = m_2 + h * Nr1_2;
-        s_mu_2_seen = s_mu_2;
-        const double s_mu_0 = m_0 + h * Nr1_0;
-        s_mu_0_seen = s_mu_0;
-        const double xe1_0 = h * xi1_0;
-        const double xe1_1 = h * xi1_1;
         const double w18 = s_mu_0 * xe1_1 - xe1_0 * s_mu_1;
-        const double xe1_2 = h * xi1_2;
-        const double w15 = xe1_0 * xe1_0 + xe1_1 * xe1_1 + xe1_2 * xe1_2;
-        const double c3_1 = stumpff_3(0.25 * w15);
-        const double w16 = 0.25 * c3_1;
-        const double w17 = xe1_0 * s_mu_2 - s_mu_0 * xe1_2;
         const double s_mu_2_0 = s_mu_0 + w16 * (xe1_2 * w17 - xe1_1 * w18);
-        const double w26 = xe1_2 * s_mu_1 - xe1_1 * s_mu_2;
-        const double s_mu_2_1 = s_mu_1 + w16 * (xe1_0 * w18 - xe1_2 * w26);
-        const double s_mu_2_2 = s_mu_2 + w16 * (xe1_1 * w26 - xe1_0 * w17);
-        const double y1_2_0 = xi1_0 * w19;
         const double y1_2_1 = xi1_1 * w19;
-        const double w24 = Nr1_1 * y1_2_0 - Nr1_0 * y1_2_1;
         const double y1_2_2 = xi1_2 * w19;
-        const double w20 = y1_2_0 * y1_2_0 + y1_2_1 * y1_2_1 + y1_2_2 * y1_2_2;
-        double c2_2, c3_2;
-        stumpff_23(w20, &c2_2, &c3_2);
-        const double w22 = Nr1_2 * y1_2_1 - Nr1_1 * y1_2_2;
-        const double w25 = Nr1_0 * y1_2_2 - Nr1_2 * y1_2_0;
+        const double w20 = Nr1_2 * y1_2_1 - Nr1_1 * y1_2_2;
+        const double y1_2_0 = xi1_0 * w19;
+        const double w21 = Nr1_1 * y1_2_0 - Nr1_0 * y1_2_1;
+        const double w22 = Nr1_0 * y1_2_2 - Nr1_2 * y1_2_0;
         const double M1_2_0 = s_mu_2_0
-            + w19 * (Nr1_0 + w22 * c2_2 + (y1_2_1 * w24 - y1_2_2 * w25) * c3_2);
-        const double M1_2_2 = s_mu_2_2
-            + w19 * (Nr1_2 + w24 * c2_2 + (y1_2_0 * w25 - y1_2_1 * w22) * c3_2);
-        const double M1_2_1 = s_mu_2_1
-            + w19 * (Nr1_1 + w25 * c2_2 + (y1_2_2 * w22 - y1_2_0 * w24) * c3_2);
-        const double residual_2 = M1_2_2 - p_2;
-        const double residual_1 = M1_2_1 - xi1_1;
+            + w19 * (Nr1_0 + w20 * c2_1 + (y1_2_1 * w21 - y1_2_2 * w22) * c3_1);
         const double residual_0 = M1_2_0 - 1.01 * xi1_0;
+        const double w23 = xe1_2 * s_mu_1 - s_mu_2 * xe1_1;
+        const double s_mu_2_1 = s_mu_1 + w16 * (xe1_0 * w18 - xe1_2 * w23);
+        const double M1_2_1 = s_mu_2_1
+            + w19 * (Nr1_1 + w22 * c2_1 + (y1_2_2 * w20 - y1_2_0 * w21) * c3_1);
+        const double residual_1 = M1_2_1 - xi1_1;
+        const double s_mu_2_2 = s_mu_2 + w16 * (xe1_1 * w23 - xe1_0 * w17);
+        const double M1_2_2 = s_mu_2_2
+            + w19 * (Nr1_2 + w21 * c2_1 + (y1_2_0 * w22 - y1_2_1 * w20) * c3_1);
+        const double residual_2 = M1_2_2 - p_2;
+        s_mu_0_seen = s_mu_0;
+        s_mu_1_seen = s_mu_1;
+        s_mu_2_seen = s_mu_2;
         if (make_1) {
-            const double w27 = 0.005 * h;
-            const double w28 = xi1_0 * w27;
-            const double w29 = 0.01 - y1_2_0 * w28;
-            const double w30 = 0.495 * h;
-            const double w31 = xi1_2 * w30;
-            const double w32 = xi1_1 * w27;
-            const double w33 = y1_2_0 * w32 + 0.01 * y1_2_2;
-            const double w34 = xi1_1 * w30;
-            const double w35 = w32 + y1_2_2 * w28;
-            const double w36 = 1.0 / (1.01 * w29 - w31 * w33 - w34 * w35);
-            memory->inverse_1[0] = w29 * w36;
-            memory->inverse_1[1] = w36 * (w28 * w34 + 0.01 * w31);
-            memory->inverse_1[2] = w36 * (w34 + y1_2_0 * w31);
-            memory->inverse_1[3] = w33 * w36;
-            memory->inverse_1[4] = w36 * (0.0101 - w32 * w34);
-            memory->inverse_1[5] = w36 * (y1_2_2 * w34 + 1.01 * y1_2_0);
-            memory->inverse_1[6] = w35 * w36;
-            memory->inverse_1[7] = w36 * (w31 * w32 + 1.01 * w28);
-            memory->inverse_1[8] = w36 * (1.01 - y1_2_2 * w31);
+            const double w24 = 0.005 * h;
+            const double w25 = xi1_0 * w24;
+            const double w26 = 0.01 - y1_2_0 * w25;
+            const double w27 = 0.495 * h;
+            const double w28 = xi1_2 * w27;
+            const double w29 = xi1_1 * w24;
+            const double w30 = y1_2_0 * w29 + 0.01 * y1_2_2;
+            const double w31 = xi1_1 * w27;
+            const double w32 = w29 + y1_2_2 * w25;
+            const double w33 = 1.0 / (1.01 * w26 - w28 * w30 - w31 * w32);
+            memory->inverse_1[0] = w26 * w33;
+            memory->inverse_1[1] = w33 * (w25 * w31 + 0.01 * w28);
+            memory->inverse_1[2] = w33 * (w31 + y1_2_0 * w28);
+            memory->inverse_1[3] = w30 * w33;
+            memory->inverse_1[4] = w33 * (0.0101 - w29 * w31);
+            memory->inverse_1[5] = w33 * (y1_2_2 * w31 + 1.01 * y1_2_0);
+            memory->inverse_1[6] = w32 * w33;
+            memory->inverse_1[7] = w33 * (w28 * w29 + 1.01 * w25);
+            memory->inverse_1[8] = w33 * (1.01 - y1_2_2 * w28);
             memory->made_1 = 1;
             count_matrix(statistics);
         }
@@ -510,37 +475,37 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double xe1_1_ = h * xi1_1;
     const double xe1_0_ = h * xi1_0;
     const double xe1_2_ = h * xi1_2;
-    const double w37 = xe1_0_ * xe1_0_ + xe1_1_ * xe1_1_ + xe1_2_ * xe1_2_;
-    double c1_2, c2_3;
-    stumpff_12(w37, &c1_2, &c2_3);
-    const double w39 = xe1_1_ * c2_3;
-    const double w40 = xe1_1_ * w39;
-    const double w41 = xe1_2_ * c2_3 * xe1_2_;
-    const double ge1_0 = 1.0 - (w40 + w41);
-    const double w43 = xe1_2_ * c1_2;
-    const double w44 = xe1_0_ * c2_3;
-    const double w45 = xe1_1_ * w44;
-    const double ge1_3 = w43 + w45;
-    const double w46 = xe1_2_ * w44;
-    const double w47 = xe1_1_ * c1_2;
-    const double ge1_6 = w46 - w47;
-    const double ge1_1 = w45 - w43;
-    const double w48 = xe1_0_ * w44;
-    const double ge1_4 = 1.0 - (w41 + w48);
-    const double w49 = xe1_0_ * c1_2;
-    const double w50 = xe1_2_ * w39;
-    const double ge1_7 = w49 + w50;
-    const double ge1_2 = w46 + w47;
-    const double ge1_5 = w50 - w49;
-    const double ge1_8 = 1.0 - (w40 + w48);
-    const double w51 = 0.99 * h;
-    const double w52 = s_mu_0_seen + xi1_2 * w51 * d_xi1_1 + xi1_1 * w51 * d_xi1_2;
-    const double w53 = s_mu_1_seen - d_xi1_0 * xe1_2_ - d_xi1_2 * xe1_0_;
-    const double w54 = 0.01 * h;
-    const double w55 = s_mu_2_seen + xi1_1 * w54 * d_xi1_0 + xi1_0 * w54 * d_xi1_1;
-    const double change_0 = ge1_0 * w52 + ge1_1 * w53 + ge1_2 * w55 - m_0;
-    const double change_1 = ge1_3 * w52 + ge1_4 * w53 + ge1_5 * w55 - m_1;
-    const double change_2 = ge1_6 * w52 + ge1_7 * w53 + ge1_8 * w55 - m_2;
+    const double w34 = xe1_0_ * xe1_0_ + xe1_1_ * xe1_1_ + xe1_2_ * xe1_2_;
+    double c1_2, c2_2;
+    stumpff_12(w34, &c1_2, &c2_2);
+    const double w36 = xe1_1_ * c2_2;
+    const double w37 = xe1_1_ * w36;
+    const double w38 = xe1_2_ * c2_2 * xe1_2_;
+    const double ge1_0 = 1.0 - (w37 + w38);
+    const double w40 = xe1_2_ * c1_2;
+    const double w41 = xe1_0_ * c2_2;
+    const double w42 = xe1_1_ * w41;
+    const double ge1_3 = w40 + w42;
+    const double w43 = xe1_2_ * w41;
+    const double w44 = xe1_1_ * c1_2;
+    const double ge1_6 = w43 - w44;
+    const double ge1_1 = w42 - w40;
+    const double w45 = xe1_0_ * w41;
+    const double ge1_4 = 1.0 - (w38 + w45);
+    const double w46 = xe1_0_ * c1_2;
+    const double w47 = xe1_2_ * w36;
+    const double ge1_7 = w46 + w47;
+    const double ge1_2 = w43 + w44;
+    const double ge1_5 = w47 - w46;
+    const double ge1_8 = 1.0 - (w37 + w45);
+    const double w48 = 0.99 * h;
+    const double w49 = s_mu_0_seen + xi1_2 * w48 * d_xi1_1 + xi1_1 * w48 * d_xi1_2;
+    const double w50 = s_mu_1_seen - d_xi1_0 * xe1_2_ - d_xi1_2 * xe1_0_;
+    const double w51 = 0.01 * h;
+    const double w52 = s_mu_2_seen + xi1_1 * w51 * d_xi1_0 + xi1_0 * w51 * d_xi1_1;
+    const double change_0 = ge1_0 * w49 + ge1_1 * w50 + ge1_2 * w52 - m_0;
+    const double change_1 = ge1_3 * w49 + ge1_4 * w50 + ge1_5 * w52 - m_1;
+    const double change_2 = ge1_6 * w49 + ge1_7 * w50 + ge1_8 * w52 - m_2;
     const double new_g00 = g00 * ge1_0 + g01 * ge1_3 + g02 * ge1_6;
     const double new_g01 = g00 * ge1_1 + g01 * ge1_4 + g02 * ge1_7;
     const double new_g02 = g00 * ge1_2 + g01 * ge1_5 + g02 * ge1_8;

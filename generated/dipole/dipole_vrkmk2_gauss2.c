@@ -262,17 +262,17 @@ static int invert(size_t n, double *restrict a, double *restrict row, size_t *or
             a[pivot * n + j] = kept;
         }
         const double factor = 1.0 / a[k * n + k];
-        a[k * n + k] = 1.0;
         for (size_t j = 0; j < n; j++) {
             row[j] = a[k * n + j] *= factor;
         }
+        a[k * n + k] = factor;
         for (size_t i = 0; i < n; i++) {
             if (i != k) {
                 const double multiple = a[i * n + k];
-                a[i * n + k] = 0.0;
                 for (size_t j = 0; j < n; j++) {
                     a[i * n + j] -= multiple * row[j];
                 }
+                a[i * n + k] = -(multiple * factor);
             }
         }
     }
@@ -340,8 +340,9 @@ static const double differences[17][18] = {
     {1, -16, 120, -560, 1820, -4368, 8008, -11440, 12870, -11440, 8008, -4368, 1820, -560, 120, -16, 1},
 };
 
-/* A backward difference of an order without its first terms, which were of later solutions. */
-static void difference(const struct memory *memory, size_t order, size_t first, double sum[static 6])
+/* A backward difference, times sign, of an order without its first terms, which were of later solutions. */
+static inline void difference(const struct memory *memory, size_t order, size_t first, double sign,
+    double sum[static 6])
 {
     double sum_0 = 0.0;
     double sum_1 = 0.0;
@@ -350,7 +351,7 @@ static void difference(const struct memory *memory, size_t order, size_t first, 
     double sum_4 = 0.0;
     double sum_5 = 0.0;
     for (size_t j = first; j <= order; j += 2) {
-        const double f = differences[order][j], g = differences[order][j + 1];
+        const double f = sign * differences[order][j], g = sign * differences[order][j + 1];
         const double *x = memory->values[memory->place + j - first], *y = x + 6;
         sum_0 += f * x[0] + g * y[0];
         sum_1 += f * x[1] + g * y[1];
@@ -371,7 +372,7 @@ static void difference(const struct memory *memory, size_t order, size_t first, 
 static double size_of(const struct memory *memory, size_t order)
 {
     double sum[6], size = 0.0;
-    difference(memory, order, 0, sum);
+    difference(memory, order, 0, 1.0, sum);
     for (size_t i = 0; i < 6; i++) {
         size += fabs(sum[i]);
     }
@@ -383,9 +384,12 @@ static inline void remember(struct memory *memory, const double solution[static 
 {
     if (memory->known > 2) { /* the guess was no mere copy */
         double moved = 0.0;
-        for (size_t i = 0; i < 6; i++) {
-            moved += fabs(solution[i] - memory->values[memory->place][i]);
-        }
+        moved += fabs(solution[0] - memory->values[memory->place][0]);
+        moved += fabs(solution[1] - memory->values[memory->place][1]);
+        moved += fabs(solution[2] - memory->values[memory->place][2]);
+        moved += fabs(solution[3] - memory->values[memory->place][3]);
+        moved += fabs(solution[4] - memory->values[memory->place][4]);
+        moved += fabs(solution[5] - memory->values[memory->place][5]);
         if (memory->first > 0.5 * moved) {
             memory->known = memory->degree = 0;
         }
@@ -393,9 +397,12 @@ static inline void remember(struct memory *memory, const double solution[static 
     memory->first = 0.0;
     const size_t place = memory->place > 0 ? memory->place - 1 : 15;
     memory->place = place;
-    for (size_t i = 0; i < 6; i++) {
-        memory->values[place][i] = memory->values[place + 16][i] = solution[i];
-    }
+    memory->values[place][0] = memory->values[place + 16][0] = solution[0];
+    memory->values[place][1] = memory->values[place + 16][1] = solution[1];
+    memory->values[place][2] = memory->values[place + 16][2] = solution[2];
+    memory->values[place][3] = memory->values[place + 16][3] = solution[3];
+    memory->values[place][4] = memory->values[place + 16][4] = solution[4];
+    memory->values[place][5] = memory->values[place + 16][5] = solution[5];
     memory->known += memory->known < 16;
     /* the degree grows while the differences fall: of many solutions it is looked at in every eighth step */
     size_t degree = memory->degree;
@@ -409,10 +416,7 @@ static inline void remember(struct memory *memory, const double solution[static 
         memory->degree = degree;
     }
     /* so that the next difference vanishes */
-    difference(memory, degree + 1, 1, memory->guess);
-    for (size_t i = 0; i < 6; i++) {
-        memory->guess[i] = -memory->guess[i];
-    }
+    difference(memory, degree + 1, 1, -1.0, memory->guess);
 }
 
 static inline int advance(double state[static 12], double h, struct memory *memory,
@@ -471,122 +475,28 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double X2_0 = v1_0 * w2 + v2_0 * w3;
         const double X2_1 = v1_1 * w2 + v2_1 * w3;
         const double w4 = v2_1 * X2_0 - v2_0 * X2_1;
-        const double w19 = g20 * X2_1 - g21 * X2_0;
         const double X2_2 = v1_2 * w2 + v2_2 * w3;
         const double w5 = X2_0 * X2_0 + X2_1 * X2_1 + X2_2 * X2_2;
+        double c1_1, c2_1, c3_1;
+        stumpff_123(w5, &c1_1, &c2_1, &c3_1);
         const double w7 = 1.0 - 0.08333333333333333 * w5;
         const double w8 = 1.0 / (w7 * w7 + 0.25 * w5);
         const double w9 = w8 * (0.25 - 0.08333333333333333 * w7);
         const double w11 = -0.5 * w8;
+        const double w12 = w5 * (w9 * c1_1 + w11 * c2_1) - (w11 + c1_1);
         const double w13 = v2_0 * X2_2 - v2_2 * X2_0;
-        const double w55 = X2_1 * w4 - X2_2 * w13;
         const double w14 = v2_2 * X2_1 - v2_1 * X2_2;
         const double w15 = X2_0 * w13 - X2_1 * w14;
-        const double a_5_2 = v2_2 - w4 * w11 + w9 * w15;
-        const double w71 = -0.08333333333333333 * a_5_2;
-        const double w17 = X2_2 * w14 - X2_0 * w4;
-        const double a_5_1 = v2_1 - w11 * w13 + w9 * w17;
-        const double w73 = -0.08333333333333333 * a_5_1;
-        const double a_5_0 = v2_0 - w11 * w14 + w9 * w55;
-        const double w68 = 0.5 * a_5_2 - 0.08333333333333333 * (X2_0 * a_5_1 - X2_1 * a_5_0);
-        const double w69 = 0.5 * a_5_1 - 0.08333333333333333 * (X2_2 * a_5_0 - X2_0 * a_5_2);
-        const double w89 = 0.5 * a_5_0 - 0.08333333333333333 * (X2_1 * a_5_2 - X2_2 * a_5_1);
-        const double w90 = -0.08333333333333333 * a_5_0;
-        const double w18 = g22 * X2_0 - g20 * X2_2;
-        const double w20 = g21 * X2_2 - g22 * X2_1;
-        const double X1_0 = v1_0 * w3 + v2_0 * w28;
-        const double X1_1 = v1_1 * w3 + v2_1 * w28;
-        const double w29 = v1_1 * X1_0 - v1_0 * X1_1;
-        const double w44 = g20 * X1_1 - g21 * X1_0;
-        const double X1_2 = v1_2 * w3 + v2_2 * w28;
-        const double w30 = X1_0 * X1_0 + X1_1 * X1_1 + X1_2 * X1_2;
-        const double w32 = 1.0 - 0.08333333333333333 * w30;
-        const double w33 = 1.0 / (w32 * w32 + 0.25 * w30);
-        const double w34 = w33 * (0.25 - 0.08333333333333333 * w32);
-        const double w36 = -0.5 * w33;
-        const double w38 = v1_0 * X1_2 - v1_2 * X1_0;
-        const double w56 = X1_1 * w29 - X1_2 * w38;
-        const double w39 = v1_2 * X1_1 - v1_1 * X1_2;
-        const double w40 = X1_0 * w38 - X1_1 * w39;
-        const double a_2 = v1_2 - w29 * w36 + w34 * w40;
-        const double w85 = -0.08333333333333333 * a_2;
-        const double w42 = X1_2 * w39 - X1_0 * w29;
-        const double a_1 = v1_1 - w36 * w38 + w34 * w42;
-        const double w87 = -0.08333333333333333 * a_1;
-        const double a_0 = v1_0 - w36 * w39 + w34 * w56;
-        const double w82 = 0.5 * a_2 - 0.08333333333333333 * (X1_0 * a_1 - X1_1 * a_0);
-        const double w83 = 0.5 * a_1 - 0.08333333333333333 * (X1_2 * a_0 - X1_0 * a_2);
-        const double w92 = 0.5 * a_0 - 0.08333333333333333 * (X1_1 * a_2 - X1_2 * a_1);
-        const double w93 = -0.08333333333333333 * a_0;
-        const double w43 = g22 * X1_0 - g20 * X1_2;
-        const double w45 = g21 * X1_2 - g22 * X1_1;
-        const double Y_0 = (v1_0 + v2_0) * w1;
-        const double Y_1 = (v1_1 + v2_1) * w1;
-        const double Y_2 = (v1_2 + v2_2) * w1;
-        const double w53 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2;
-        double c2_3, c3_3;
-        stumpff_23(w53, &c2_3, &c3_3);
-        double c1_2, c2_2, c3_2;
-        stumpff_123(w30, &c1_2, &c2_2, &c3_2);
-        const double w37 = w30 * (w34 * c1_2 + w36 * c2_2) - (w36 + c1_2);
-        const double w41 = w34 + c2_2 + w36 * c1_2 - w34 * c2_2 * w30;
-        const double a_2_2 = v1_2 + w29 * w37 + w40 * w41;
-        const double a_2_1 = v1_1 + w37 * w38 + w41 * w42;
-        const double a_2_0 = v1_0 + w37 * w39 + w41 * w56;
-        const double p_2 = 0.01 * a_2_2;
-        const double w80 = X1_1 * p_2 - X1_2 * a_2_1;
-        const double p_0 = 1.01 * a_2_0;
-        const double w79 = X1_2 * p_0 - X1_0 * p_2;
-        const double w81 = X1_0 * a_2_1 - X1_1 * p_0;
-        const double a_4_0 = p_0 - w37 * w80 + w41 * (X1_1 * w81 - X1_2 * w79);
-        const double a_4_1 = a_2_1 - w37 * w79 + w41 * (X1_2 * w80 - X1_0 * w81);
-        const double a_4_2 = p_2 - w37 * w81 + w41 * (X1_0 * w79 - X1_1 * w80);
-        const double w84 = X1_0 * a_4_2 - X1_2 * a_4_0;
-        const double w94 = X1_2 * a_4_1 - X1_1 * a_4_2;
-        const double w86 = X1_1 * a_4_0 - X1_0 * a_4_1;
-        const double Q1_7 = g21 + w43 * c1_2 + (X1_0 * w44 - X1_2 * w45) * c2_2;
-        const double Q1_8 = g22 + w44 * c1_2 + (X1_1 * w45 - X1_0 * w43) * c2_2;
-        const double Q1_6 = g20 + w45 * c1_2 + (X1_2 * w43 - X1_1 * w44) * c2_2;
-        const double w46 = 1.5 - 2.0 * Q1_8;
-        const double w47 = 1.0 / sqrt(1.01 + 1.5 * (w46 - 0.2 * Q1_7));
-        const double w48 = w47 * w47 * (0.5 * w47);
-        const double w49 = 1.0 / sqrt(1.01 + 1.5 * (w46 + 0.2 * Q1_7));
-        const double w50 = w49 * w49 * (0.5 * w49);
-        const double w51 = -1.0 - 2.0 * (1.5 * w48 - 1.5 * w50);
-        const double w52 = -0.3 * w48 - 0.3 * w50;
-        const double Nn1_0 = Q1_7 * w51 - Q1_8 * w52 + 99.0 * a_2_1 * p_2;
-        const double Nn1_2 = 0.01 * a_2_0 * a_2_1 + w52 * Q1_6;
-        const double Nn1_1 = -100.0 * a_2_0 * p_2 - w51 * Q1_6;
-        const double w75 = X1_1 * Nn1_2 - X1_2 * Nn1_1;
-        const double w77 = X1_0 * Nn1_1 - X1_1 * Nn1_0;
-        const double w78 = X1_2 * Nn1_0 - X1_0 * Nn1_2;
-        const double sum_d1_0 = Nn1_0 + w75 * c2_2 + (X1_1 * w77 - X1_2 * w78) * c3_2
-            - (a_4_1 * w82 - a_4_2 * w83 + (w84 * w85 - w86 * w87));
-        const double sum_d1_1 = Nn1_1 + w78 * c2_2 + (X1_2 * w75 - X1_0 * w77) * c3_2
-            - (a_4_2 * w92 - w82 * a_4_0 + (w86 * w93 - w85 * w94));
-        const double sum_d1_2 = Nn1_2 + w77 * c2_2 + (X1_0 * w78 - X1_1 * w75) * c3_2
-            - (w83 * a_4_0 - a_4_1 * w92 + (w87 * w94 - w84 * w93));
-        double c1_1, c2_1, c3_1;
-        stumpff_123(w5, &c1_1, &c2_1, &c3_1);
-        const double w12 = w5 * (w9 * c1_1 + w11 * c2_1) - (w11 + c1_1);
         const double w16 = w9 + c2_1 + w11 * c1_1 - w9 * c2_1 * w5;
         const double a_6_2 = v2_2 + w4 * w12 + w15 * w16;
-        const double a_6_1 = v2_1 + w12 * w13 + w16 * w17;
-        const double a_6_0 = v2_0 + w12 * w14 + w16 * w55;
         const double p_2_2 = 0.01 * a_6_2;
-        const double w66 = X2_1 * p_2_2 - X2_2 * a_6_1;
-        const double p_2_0 = 1.01 * a_6_0;
-        const double w65 = X2_2 * p_2_0 - X2_0 * p_2_2;
-        const double w67 = X2_0 * a_6_1 - X2_1 * p_2_0;
-        const double a_8_0 = p_2_0 - w12 * w66 + w16 * (X2_1 * w67 - X2_2 * w65);
-        const double a_8_1 = a_6_1 - w12 * w65 + w16 * (X2_2 * w66 - X2_0 * w67);
-        const double a_8_2 = p_2_2 - w12 * w67 + w16 * (X2_0 * w65 - X2_1 * w66);
-        const double w70 = X2_0 * a_8_2 - X2_2 * a_8_0;
-        const double w91 = X2_2 * a_8_1 - X2_1 * a_8_2;
-        const double w72 = X2_1 * a_8_0 - X2_0 * a_8_1;
+        const double w17 = X2_2 * w14 - X2_0 * w4;
+        const double a_6_1 = v2_1 + w12 * w13 + w16 * w17;
+        const double w18 = g22 * X2_0 - g20 * X2_2;
+        const double w19 = g20 * X2_1 - g21 * X2_0;
+        const double w20 = g21 * X2_2 - g22 * X2_1;
         const double Q2_7 = g21 + w18 * c1_1 + (X2_0 * w19 - X2_2 * w20) * c2_1;
         const double Q2_8 = g22 + w19 * c1_1 + (X2_1 * w20 - X2_0 * w18) * c2_1;
-        const double Q2_6 = g20 + w20 * c1_1 + (X2_2 * w18 - X2_1 * w19) * c2_1;
         const double w21 = 1.5 - 2.0 * Q2_8;
         const double w22 = 1.0 / sqrt(1.01 + 1.5 * (w21 - 0.2 * Q2_7));
         const double w23 = w22 * w22 * (0.5 * w22);
@@ -595,41 +505,135 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double w26 = -1.0 - 2.0 * (1.5 * w23 - 1.5 * w25);
         const double w27 = -0.3 * w23 - 0.3 * w25;
         const double Nn2_0 = Q2_7 * w26 - Q2_8 * w27 + 99.0 * a_6_1 * p_2_2;
-        const double Nn2_2 = 0.01 * a_6_0 * a_6_1 + w27 * Q2_6;
-        const double Nn2_1 = -100.0 * a_6_0 * p_2_2 - w26 * Q2_6;
-        const double s_L_1 = m_1 + w1 * (Nn2_1 + Nn1_1);
-        const double s_L_2 = m_2 + w1 * (Nn2_2 + Nn1_2);
+        const double X1_0 = v1_0 * w3 + v2_0 * w28;
+        const double X1_1 = v1_1 * w3 + v2_1 * w28;
+        const double w29 = v1_1 * X1_0 - v1_0 * X1_1;
+        const double X1_2 = v1_2 * w3 + v2_2 * w28;
+        const double w30 = X1_0 * X1_0 + X1_1 * X1_1 + X1_2 * X1_2;
+        double c1_2, c2_2, c3_2;
+        stumpff_123(w30, &c1_2, &c2_2, &c3_2);
+        const double w32 = 1.0 - 0.08333333333333333 * w30;
+        const double w33 = 1.0 / (w32 * w32 + 0.25 * w30);
+        const double w34 = w33 * (0.25 - 0.08333333333333333 * w32);
+        const double w36 = -0.5 * w33;
+        const double w37 = w30 * (w34 * c1_2 + w36 * c2_2) - (w36 + c1_2);
+        const double w38 = v1_0 * X1_2 - v1_2 * X1_0;
+        const double w39 = v1_2 * X1_1 - v1_1 * X1_2;
+        const double w40 = X1_0 * w38 - X1_1 * w39;
+        const double w41 = w34 + c2_2 + w36 * c1_2 - w34 * c2_2 * w30;
+        const double a_2_2 = v1_2 + w29 * w37 + w40 * w41;
+        const double p_2 = 0.01 * a_2_2;
+        const double w42 = X1_2 * w39 - X1_0 * w29;
+        const double a_2_1 = v1_1 + w37 * w38 + w41 * w42;
+        const double w43 = g22 * X1_0 - g20 * X1_2;
+        const double w44 = g20 * X1_1 - g21 * X1_0;
+        const double w45 = g21 * X1_2 - g22 * X1_1;
+        const double Q1_7 = g21 + w43 * c1_2 + (X1_0 * w44 - X1_2 * w45) * c2_2;
+        const double Q1_8 = g22 + w44 * c1_2 + (X1_1 * w45 - X1_0 * w43) * c2_2;
+        const double w46 = 1.5 - 2.0 * Q1_8;
+        const double w47 = 1.0 / sqrt(1.01 + 1.5 * (w46 - 0.2 * Q1_7));
+        const double w48 = w47 * w47 * (0.5 * w47);
+        const double w49 = 1.0 / sqrt(1.01 + 1.5 * (w46 + 0.2 * Q1_7));
+        const double w50 = w49 * w49 * (0.5 * w49);
+        const double w51 = -1.0 - 2.0 * (1.5 * w48 - 1.5 * w50);
+        const double w52 = -0.3 * w48 - 0.3 * w50;
+        const double Nn1_0 = Q1_7 * w51 - Q1_8 * w52 + 99.0 * a_2_1 * p_2;
         const double s_L_0 = m_0 + w1 * (Nn2_0 + Nn1_0);
+        const double Y_0 = (v1_0 + v2_0) * w1;
+        const double Y_1 = (v1_1 + v2_1) * w1;
+        const double Y_2 = (v1_2 + v2_2) * w1;
+        const double w53 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2;
+        double c2_3, c3_3;
+        stumpff_23(w53, &c2_3, &c3_3);
+        const double w55 = X2_1 * w4 - X2_2 * w13;
+        const double a_6_0 = v2_0 + w12 * w14 + w16 * w55;
+        const double Q2_6 = g20 + w20 * c1_1 + (X2_2 * w18 - X2_1 * w19) * c2_1;
+        const double Nn2_1 = -100.0 * a_6_0 * p_2_2 - w26 * Q2_6;
+        const double w56 = X1_1 * w29 - X1_2 * w38;
+        const double a_2_0 = v1_0 + w37 * w39 + w41 * w56;
+        const double Q1_6 = g20 + w45 * c1_2 + (X1_2 * w43 - X1_1 * w44) * c2_2;
+        const double Nn1_1 = -100.0 * a_2_0 * p_2 - w51 * Q1_6;
+        const double s_L_1 = m_1 + w1 * (Nn2_1 + Nn1_1);
+        const double Nn2_2 = 0.01 * a_6_0 * a_6_1 + w27 * Q2_6;
+        const double Nn1_2 = 0.01 * a_2_0 * a_2_1 + w52 * Q1_6;
+        const double s_L_2 = m_2 + w1 * (Nn2_2 + Nn1_2);
+        const double w57 = Y_2 * s_L_1 - Y_1 * s_L_2;
         const double w59 = Y_0 * s_L_2 - s_L_0 * Y_2;
         const double w60 = s_L_0 * Y_1 - Y_0 * s_L_1;
-        s_L_0_seen = s_L_0;
-        const double w57 = Y_2 * s_L_1 - Y_1 * s_L_2;
         const double L_4_0 = s_L_0 - w57 * c2_3 + (Y_2 * w59 - Y_1 * w60) * c3_3;
-        const double L_4_1 = s_L_1 - w59 * c2_3 + (Y_0 * w60 - Y_2 * w57) * c3_3;
-        const double L_4_2 = s_L_2 - w60 * c2_3 + (Y_1 * w57 - Y_0 * w59) * c3_3;
-        s_L_2_seen = s_L_2;
-        s_L_1_seen = s_L_1;
         const double w61 = X2_1 * Nn2_2 - X2_2 * Nn2_1;
         const double w63 = X2_0 * Nn2_1 - X2_1 * Nn2_0;
         const double w64 = X2_2 * Nn2_0 - X2_0 * Nn2_2;
+        const double p_2_0 = 1.01 * a_6_0;
+        const double w65 = X2_2 * p_2_0 - X2_0 * p_2_2;
+        const double w66 = X2_1 * p_2_2 - X2_2 * a_6_1;
+        const double w67 = X2_0 * a_6_1 - X2_1 * p_2_0;
+        const double a_8_1 = a_6_1 - w12 * w65 + w16 * (X2_2 * w66 - X2_0 * w67);
+        const double a_5_2 = v2_2 - w4 * w11 + w9 * w15;
+        const double a_5_1 = v2_1 - w11 * w13 + w9 * w17;
+        const double a_5_0 = v2_0 - w11 * w14 + w9 * w55;
+        const double w68 = 0.5 * a_5_2 - 0.08333333333333333 * (X2_0 * a_5_1 - X2_1 * a_5_0);
+        const double a_8_2 = p_2_2 - w12 * w67 + w16 * (X2_0 * w65 - X2_1 * w66);
+        const double w69 = 0.5 * a_5_1 - 0.08333333333333333 * (X2_2 * a_5_0 - X2_0 * a_5_2);
+        const double a_8_0 = p_2_0 - w12 * w66 + w16 * (X2_1 * w67 - X2_2 * w65);
+        const double w70 = X2_0 * a_8_2 - X2_2 * a_8_0;
+        const double w71 = -0.08333333333333333 * a_5_2;
+        const double w72 = X2_1 * a_8_0 - X2_0 * a_8_1;
+        const double w73 = -0.08333333333333333 * a_5_1;
         const double sum_d2_0 = Nn2_0 + w61 * c2_1 + (X2_1 * w63 - X2_2 * w64) * c3_1
             - (a_8_1 * w68 - a_8_2 * w69 + (w70 * w71 - w72 * w73));
+        const double w75 = X1_1 * Nn1_2 - X1_2 * Nn1_1;
+        const double w77 = X1_0 * Nn1_1 - X1_1 * Nn1_0;
+        const double w78 = X1_2 * Nn1_0 - X1_0 * Nn1_2;
+        const double p_0 = 1.01 * a_2_0;
+        const double w79 = X1_2 * p_0 - X1_0 * p_2;
+        const double w80 = X1_1 * p_2 - X1_2 * a_2_1;
+        const double w81 = X1_0 * a_2_1 - X1_1 * p_0;
+        const double a_4_1 = a_2_1 - w37 * w79 + w41 * (X1_2 * w80 - X1_0 * w81);
+        const double a_2 = v1_2 - w29 * w36 + w34 * w40;
+        const double a_1 = v1_1 - w36 * w38 + w34 * w42;
+        const double a_0 = v1_0 - w36 * w39 + w34 * w56;
+        const double w82 = 0.5 * a_2 - 0.08333333333333333 * (X1_0 * a_1 - X1_1 * a_0);
+        const double a_4_2 = p_2 - w37 * w81 + w41 * (X1_0 * w79 - X1_1 * w80);
+        const double w83 = 0.5 * a_1 - 0.08333333333333333 * (X1_2 * a_0 - X1_0 * a_2);
+        const double a_4_0 = p_0 - w37 * w80 + w41 * (X1_1 * w81 - X1_2 * w79);
+        const double w84 = X1_0 * a_4_2 - X1_2 * a_4_0;
+        const double w85 = -0.08333333333333333 * a_2;
+        const double w86 = X1_1 * a_4_0 - X1_0 * a_4_1;
+        const double w87 = -0.08333333333333333 * a_1;
+        const double sum_d1_0 = Nn1_0 + w75 * c2_2 + (X1_1 * w77 - X1_2 * w78) * c3_2
+            - (a_4_1 * w82 - a_4_2 * w83 + (w84 * w85 - w86 * w87));
+        const double w1_0 = L_4_0 + sum_d2_0 * w74 + sum_d1_0 * w88;
+        const double residual_0 = w1_0 - a_4_0;
+        const double L_4_1 = s_L_1 - w59 * c2_3 + (Y_0 * w60 - Y_2 * w57) * c3_3;
+        const double w89 = 0.5 * a_5_0 - 0.08333333333333333 * (X2_1 * a_5_2 - X2_2 * a_5_1);
+        const double w90 = -0.08333333333333333 * a_5_0;
+        const double w91 = X2_2 * a_8_1 - X2_1 * a_8_2;
         const double sum_d2_1 = Nn2_1 + w64 * c2_1 + (X2_2 * w61 - X2_0 * w63) * c3_1
             - (a_8_2 * w89 - w68 * a_8_0 + (w72 * w90 - w71 * w91));
+        const double w92 = 0.5 * a_0 - 0.08333333333333333 * (X1_1 * a_2 - X1_2 * a_1);
+        const double w93 = -0.08333333333333333 * a_0;
+        const double w94 = X1_2 * a_4_1 - X1_1 * a_4_2;
+        const double sum_d1_1 = Nn1_1 + w78 * c2_2 + (X1_2 * w75 - X1_0 * w77) * c3_2
+            - (a_4_2 * w92 - w82 * a_4_0 + (w86 * w93 - w85 * w94));
+        const double w1_1 = L_4_1 + w74 * sum_d2_1 + w88 * sum_d1_1;
+        const double residual_1 = w1_1 - a_4_1;
+        const double L_4_2 = s_L_2 - w60 * c2_3 + (Y_1 * w57 - Y_0 * w59) * c3_3;
         const double sum_d2_2 = Nn2_2 + w63 * c2_1 + (X2_0 * w64 - X2_1 * w61) * c3_1
             - (w69 * a_8_0 - a_8_1 * w89 + (w73 * w91 - w70 * w90));
+        const double sum_d1_2 = Nn1_2 + w77 * c2_2 + (X1_0 * w78 - X1_1 * w75) * c3_2
+            - (w83 * a_4_0 - a_4_1 * w92 + (w87 * w94 - w84 * w93));
         const double w1_2 = L_4_2 + w74 * sum_d2_2 + w88 * sum_d1_2;
-        const double w2_2 = L_4_2 + sum_d2_2 * w95 + sum_d1_2 * w96;
-        const double residual_2_2 = w2_2 - a_8_2;
         const double residual_2 = w1_2 - a_4_2;
-        const double w1_1 = L_4_1 + w74 * sum_d2_1 + w88 * sum_d1_1;
-        const double w2_1 = L_4_1 + sum_d2_1 * w95 + sum_d1_1 * w96;
-        const double residual_2_1 = w2_1 - a_8_1;
-        const double residual_1 = w1_1 - a_4_1;
-        const double w1_0 = L_4_0 + sum_d2_0 * w74 + sum_d1_0 * w88;
         const double w2_0 = L_4_0 + sum_d2_0 * w95 + sum_d1_0 * w96;
         const double residual_2_0 = w2_0 - a_8_0;
-        const double residual_0 = w1_0 - a_4_0;
+        const double w2_1 = L_4_1 + sum_d2_1 * w95 + sum_d1_1 * w96;
+        const double residual_2_1 = w2_1 - a_8_1;
+        const double w2_2 = L_4_2 + sum_d2_2 * w95 + sum_d1_2 * w96;
+        const double residual_2_2 = w2_2 - a_8_2;
+        s_L_0_seen = s_L_0;
+        s_L_1_seen = s_L_1;
+        s_L_2_seen = s_L_2;
         if (make_1) {
             const double w97 = 0.0001933756729740644 * v2_2;
             const double w98 = 0.25 * g02 * mu0 + 0.25 * g12 * mu1 + 0.25 * g22 * mu2;

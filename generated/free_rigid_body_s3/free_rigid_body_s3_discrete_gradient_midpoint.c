@@ -293,14 +293,15 @@ static const double differences[17][18] = {
     {1, -16, 120, -560, 1820, -4368, 8008, -11440, 12870, -11440, 8008, -4368, 1820, -560, 120, -16, 1},
 };
 
-/* A backward difference of an order without its first terms, which were of later solutions. */
-static void difference(const struct memory *memory, size_t order, size_t first, double sum[static 3])
+/* A backward difference, times sign, of an order without its first terms, which were of later solutions. */
+static inline void difference(const struct memory *memory, size_t order, size_t first, double sign,
+    double sum[static 3])
 {
     double sum_0 = 0.0;
     double sum_1 = 0.0;
     double sum_2 = 0.0;
     for (size_t j = first; j <= order; j += 2) {
-        const double f = differences[order][j], g = differences[order][j + 1];
+        const double f = sign * differences[order][j], g = sign * differences[order][j + 1];
         const double *x = memory->values[memory->place + j - first], *y = x + 3;
         sum_0 += f * x[0] + g * y[0];
         sum_1 += f * x[1] + g * y[1];
@@ -315,7 +316,7 @@ static void difference(const struct memory *memory, size_t order, size_t first, 
 static double size_of(const struct memory *memory, size_t order)
 {
     double sum[3], size = 0.0;
-    difference(memory, order, 0, sum);
+    difference(memory, order, 0, 1.0, sum);
     for (size_t i = 0; i < 3; i++) {
         size += fabs(sum[i]);
     }
@@ -327,9 +328,9 @@ static inline void remember(struct memory *memory, const double solution[static 
 {
     if (memory->known > 2) { /* the guess was no mere copy */
         double moved = 0.0;
-        for (size_t i = 0; i < 3; i++) {
-            moved += fabs(solution[i] - memory->values[memory->place][i]);
-        }
+        moved += fabs(solution[0] - memory->values[memory->place][0]);
+        moved += fabs(solution[1] - memory->values[memory->place][1]);
+        moved += fabs(solution[2] - memory->values[memory->place][2]);
         if (memory->first > 0.5 * moved) {
             memory->known = memory->degree = 0;
         }
@@ -337,9 +338,9 @@ static inline void remember(struct memory *memory, const double solution[static 
     memory->first = 0.0;
     const size_t place = memory->place > 0 ? memory->place - 1 : 15;
     memory->place = place;
-    for (size_t i = 0; i < 3; i++) {
-        memory->values[place][i] = memory->values[place + 16][i] = solution[i];
-    }
+    memory->values[place][0] = memory->values[place + 16][0] = solution[0];
+    memory->values[place][1] = memory->values[place + 16][1] = solution[1];
+    memory->values[place][2] = memory->values[place + 16][2] = solution[2];
     memory->known += memory->known < 16;
     /* the degree grows while the differences fall: of many solutions it is looked at in every eighth step */
     size_t degree = memory->degree;
@@ -353,10 +354,7 @@ static inline void remember(struct memory *memory, const double solution[static 
         memory->degree = degree;
     }
     /* so that the next difference vanishes */
-    difference(memory, degree + 1, 1, memory->guess);
-    for (size_t i = 0; i < 3; i++) {
-        memory->guess[i] = -memory->guess[i];
-    }
+    difference(memory, degree + 1, 1, -1.0, memory->guess);
 }
 
 static inline int advance(double state[static 4], double h, struct memory *memory,
@@ -428,6 +426,68 @@ static inline int advance(double state[static 4], double h, struct memory *memor
         const double x1_1 = xi_1 * w18;
         const double x1_2 = xi_2 * w18;
         const double w19 = x1_0 * x1_0 + x1_1 * x1_1 + x1_2 * x1_2;
+        double c0_1, c1_1;
+        stumpff_01(w19, &c0_1, &c1_1);
+        const double w21 = x1_0 * c1_1;
+        const double w22 = x1_1 * c1_1;
+        const double w24 = x1_2 * c1_1;
+        const double Y1_3 = q2 * w21 - q1 * w22 + (q0 * w24 + q3 * c0_1);
+        const double w25 = -0.5 * Y1_3;
+        const double Y1_2 = q1 * w24 - q3 * w21 + (q0 * w22 + q2 * c0_1);
+        const double w26 = -120.0 * Y1_2 - 5.0 * Y1_3;
+        const double w27 = -0.016666666666666666 * Y1_2;
+        const double Y1_1 = q3 * w22 - q2 * w24 + (q0 * w21 + q1 * c0_1);
+        const double w28 = 2.0 * Y1_3;
+        const double w29 = 120.0 * Y1_1 + w28;
+        const double w30 = 0.016666666666666666 * Y1_1;
+        const double w31 = -2.0 * Y1_2;
+        const double w32 = 5.0 * Y1_1 + w31;
+        const double w33 = q0 * c0_1;
+        const double w34 = q1 * w21 + q2 * w22 + q3 * w24;
+        const double Y1_0 = w33 - w34;
+        const double w35 = -0.016666666666666666 * Y1_0;
+        const double w36 = w32 * w35 - 1.0 + w29 * w30 + w26 * w27;
+        const double w37 = -2.0 * Y1_1;
+        const double w38 = 1.0 - w26 * Y1_0 + Y1_2 * w32;
+        const double w39 = Y1_3 * w29;
+        const double w40 = w38 - w39;
+        const double w41 = w36 * w37 + w28 * w40;
+        const double w42 = 0.5 * Y1_2;
+        const double w43 = 0.2 * Y1_3;
+        const double w44 = -0.2 * Y1_1;
+        const double w45 = -0.2 * Y1_0;
+        const double w46 = 0.5 + w29 * w45 + w32 * w44 + w26 * w43;
+        const double w47 = 2.0 * Y1_1;
+        const double w48 = w46 * w47 + w31 * w40;
+        const double w49 = 2.0 * Y1_2;
+        const double w50 = -2.0 * Y1_3;
+        const double w51 = w36 * w49 + w46 * w50;
+        const double w52 = 0.5 * Y1_0;
+        const double w53 = -0.5 * Y1_0;
+        const double w54 = 0.5 + w26 * w53 + w51 * w52 + w32 * w42 + w42 * w48 + w25 * w29;
+        const double w55 = w25 * w41 + w54;
+        const double w56 = Y1_3 * w26;
+        const double w57 = 2.5 - w29 * Y1_0 - Y1_1 * w32 + w56;
+        const double w58 = 0.5 * w57;
+        const double w59 = 0.5 * w46;
+        const double w60 = 0.5 * w36;
+        const double w61 = Y1_2 * w26;
+        const double w62 = -60.0 - w32 * Y1_0 + Y1_1 * w29 - w61;
+        const double w63 = 0.5 * w62;
+        const double w64 = w39 - w38;
+        const double w65 = Y1_3 * w64;
+        const double w66 = w45 * w58 - Y1_0 * w59 + Y1_1 * w60 + w30 * w63 + w65;
+        const double w67 = -0.2 * (w32 * w58) - w32 * w59 + w29 * w60
+            + 0.016666666666666666 * (w29 * w63) + 120.0 * w66;
+        const double w68 = w44 * w58 - Y1_1 * w59 - Y1_0 * w60 + w35 * w63 + Y1_2 * w40;
+        const double w69 = w67 + 5.0 * w68;
+        const double w70 = -0.2 * (w29 * w58) - w29 * w59 - w32 * w60
+            - 0.016666666666666666 * (w32 * w63) + w26 * w64;
+        const double w71 = Y1_3 * w59 + w43 * w58 - Y1_2 * w60 + w27 * w63 + Y1_0 * w64;
+        const double w72 = -0.016666666666666666 * (w26 * w63) - w26 * w60 - 120.0 * w71 + w32 * w40
+            - 2.0 * w68;
+        const double w73 = w26 * w59 + 0.2 * (w26 * w58) + w29 * w64 + 2.0 * w66 - 5.0 * w71;
+        const double d1_0 = Y1_0 * w69 - Y1_1 * w70 - Y1_3 * w72 + Y1_2 * w73;
         const double x_0 = h * xi_0;
         const double x_2 = h * xi_2;
         const double x_1 = h * xi_1;
@@ -438,97 +498,27 @@ static inline int advance(double state[static 4], double h, struct memory *memor
         const double w77 = x_0 * c1_2;
         const double w79 = x_1 * c1_2;
         const double Y_2 = q1 * w76 - q3 * w77 + (q0 * w79 + q2 * c0_2);
-        const double w84 = -0.016666666666666666 * Y_2;
         const double Y_1 = q3 * w79 - q2 * w76 + (q0 * w77 + q1 * c0_2);
         const double w80 = 5.0 * Y_1 - 2.0 * Y_2;
-        const double w85 = 0.016666666666666666 * Y_1;
-        const double w90 = -0.2 * Y_1;
         const double Y_0 = q0 * c0_2 - (q1 * w77 + q2 * w79 + q3 * w76);
         const double Y_3 = q2 * w77 - q1 * w79 + (q0 * w76 + q3 * c0_2);
         const double w81 = -120.0 * Y_2 - 5.0 * Y_3;
         const double w82 = 120.0 * Y_1 + 2.0 * Y_3;
         const double w83 = 1.0 - Y_0 * w81 + Y_2 * w80 - Y_3 * w82;
-        const double w88 = 0.5 * (-60.0 - w80 * Y_0 + Y_1 * w82 - Y_2 * w81);
-        const double w93 = 0.5 * (2.5 - Y_0 * w82 - Y_1 * w80 + Y_3 * w81);
-        const double w89 = 0.2 * Y_3;
+        const double w84 = -0.016666666666666666 * Y_2;
+        const double w85 = 0.016666666666666666 * Y_1;
         const double w86 = -0.016666666666666666 * Y_0;
         const double w87 = w80 * w86 - 1.0 + w82 * w85 + w81 * w84;
+        const double w88 = 0.5 * (-60.0 - w80 * Y_0 + Y_1 * w82 - Y_2 * w81);
+        const double w89 = 0.2 * Y_3;
+        const double w90 = -0.2 * Y_1;
         const double w91 = -0.2 * Y_0;
         const double w92 = 0.5 + w82 * w91 + w80 * w90 + w81 * w89;
-        double c0_1, c1_1;
-        stumpff_01(w19, &c0_1, &c1_1);
-        const double w21 = x1_0 * c1_1;
-        const double w22 = x1_1 * c1_1;
-        const double w24 = x1_2 * c1_1;
-        const double Y1_3 = q2 * w21 - q1 * w22 + (q0 * w24 + q3 * c0_1);
-        const double w25 = -0.5 * Y1_3;
-        const double w28 = 2.0 * Y1_3;
-        const double w43 = 0.2 * Y1_3;
-        const double w50 = -2.0 * Y1_3;
-        const double w119 = 0.5 * Y1_3;
-        const double w120 = 0.1 * Y1_3;
-        const double Y1_2 = q1 * w24 - q3 * w21 + (q0 * w22 + q2 * c0_1);
-        const double w26 = -120.0 * Y1_2 - 5.0 * Y1_3;
-        const double w56 = Y1_3 * w26;
-        const double w61 = Y1_2 * w26;
-        const double w27 = -0.016666666666666666 * Y1_2;
-        const double w31 = -2.0 * Y1_2;
-        const double w42 = 0.5 * Y1_2;
-        const double w49 = 2.0 * Y1_2;
-        const double w126 = -0.5 * Y1_2;
-        const double w127 = -0.008333333333333333 * Y1_2;
-        const double Y1_1 = q3 * w22 - q2 * w24 + (q0 * w21 + q1 * c0_1);
-        const double w34 = q1 * w21 + q2 * w22 + q3 * w24;
-        const double w29 = 120.0 * Y1_1 + w28;
-        const double w39 = Y1_3 * w29;
-        const double w30 = 0.016666666666666666 * Y1_1;
-        const double w32 = 5.0 * Y1_1 + w31;
-        const double w37 = -2.0 * Y1_1;
-        const double w44 = -0.2 * Y1_1;
-        const double w47 = 2.0 * Y1_1;
-        const double w121 = -0.5 * Y1_1;
-        const double w122 = -0.1 * Y1_1;
-        const double w128 = 0.5 * Y1_1;
-        const double w129 = 0.008333333333333333 * Y1_1;
-        const double w33 = q0 * c0_1;
-        const double Y1_0 = w33 - w34;
-        const double w35 = -0.016666666666666666 * Y1_0;
-        const double w36 = w32 * w35 - 1.0 + w29 * w30 + w26 * w27;
-        const double w60 = 0.5 * w36;
-        const double w38 = 1.0 - w26 * Y1_0 + Y1_2 * w32;
-        const double w40 = w38 - w39;
-        const double w64 = w39 - w38;
-        const double w65 = Y1_3 * w64;
-        const double w41 = w36 * w37 + w28 * w40;
-        const double w45 = -0.2 * Y1_0;
-        const double w46 = 0.5 + w29 * w45 + w32 * w44 + w26 * w43;
-        const double w48 = w46 * w47 + w31 * w40;
-        const double w51 = w36 * w49 + w46 * w50;
-        const double w59 = 0.5 * w46;
-        const double w52 = 0.5 * Y1_0;
-        const double w53 = -0.5 * Y1_0;
-        const double w54 = 0.5 + w26 * w53 + w51 * w52 + w32 * w42 + w42 * w48 + w25 * w29;
-        const double w55 = w25 * w41 + w54;
-        const double w57 = 2.5 - w29 * Y1_0 - Y1_1 * w32 + w56;
-        const double w58 = 0.5 * w57;
-        const double w62 = -60.0 - w32 * Y1_0 + Y1_1 * w29 - w61;
-        const double w63 = 0.5 * w62;
-        const double w66 = w45 * w58 - Y1_0 * w59 + Y1_1 * w60 + w30 * w63 + w65;
-        const double w68 = w44 * w58 - Y1_1 * w59 - Y1_0 * w60 + w35 * w63 + Y1_2 * w40;
-        const double w71 = Y1_3 * w59 + w43 * w58 - Y1_2 * w60 + w27 * w63 + Y1_0 * w64;
-        const double w72 = -0.016666666666666666 * (w26 * w63) - w26 * w60 - 120.0 * w71 + w32 * w40
-            - 2.0 * w68;
-        const double w73 = w26 * w59 + 0.2 * (w26 * w58) + w29 * w64 + 2.0 * w66 - 5.0 * w71;
-        const double w67 = -0.2 * (w32 * w58) - w32 * w59 + w29 * w60
-            + 0.016666666666666666 * (w29 * w63) + 120.0 * w66;
-        const double w69 = w67 + 5.0 * w68;
-        const double w70 = -0.2 * (w29 * w58) - w29 * w59 - w32 * w60
-            - 0.016666666666666666 * (w32 * w63) + w26 * w64;
-        const double d1_0 = Y1_0 * w69 - Y1_1 * w70 - Y1_3 * w72 + Y1_2 * w73;
+        const double w93 = 0.5 * (2.5 - Y_0 * w82 - Y_1 * w80 + Y_3 * w81);
         const double w113 = Y1_3 * w69 - Y1_2 * w70 + Y1_0 * w72;
-        const double d1_2 = Y1_1 * w72 - (Y1_3 * w70 + Y1_2 * w69) + Y1_0 * w73;
         const double w114 = Y1_1 * w73;
         const double d1_1 = w113 - w114;
+        const double d1_2 = Y1_1 * w72 - (Y1_3 * w70 + Y1_2 * w69) + Y1_0 * w73;
         const double w115 = w87 * w88 + w92 * w93 + 0.5 * (w83 * w83) - H0
             - (d1_0 * x_0 + x_1 * d1_1 + x_2 * d1_2);
         const double w116 = quotient(w115, w74);
@@ -537,9 +527,17 @@ static inline int advance(double state[static 4], double h, struct memory *memor
         const double D_2 = d1_2 + x_2 * w116;
         const double w117 = d1_0 * d1_0 + d1_1 * d1_1 + d1_2 * d1_2;
         const double w118 = quotient(d1_0 * D_0 + d1_1 * D_1 + d1_2 * D_2, w117);
+        const double w119 = 0.5 * Y1_3;
+        const double w120 = 0.1 * Y1_3;
+        const double w121 = -0.5 * Y1_1;
+        const double w122 = -0.1 * Y1_1;
         const double w123 = -0.1 * Y1_0;
         const double w124 = 0.25 + w29 * w123 + w41 * w52 + w32 * w122 + w48 * w121 + w26 * w120;
         const double w125 = w51 * w119 + w124;
+        const double w126 = -0.5 * Y1_2;
+        const double w127 = -0.008333333333333333 * Y1_2;
+        const double w128 = 0.5 * Y1_1;
+        const double w129 = 0.008333333333333333 * Y1_1;
         const double w130 = -0.008333333333333333 * Y1_0;
         const double w131 = w32 * w130 - 0.5 + w48 * w52 + w29 * w129 + w41 * w128 + w26 * w127;
         const double w132 = w51 * w126 + w131;

@@ -5,19 +5,18 @@
  * source:     Table 3.2a of Bogfjellmo and Marthinsen
  * order:      2, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Heavy top as printed, T*SO(3) (thesis section 2.5), group SO(3)
- * solved by:  the equations of xi1, n1: Newton's method, 6 unknowns (4.8 sweeps of 234 operations
- *             and 1.00 matrices of 846 a step; fixed point: does not settle with steps 8 times as
+ * solved by:  the equations of xi1, n1: Newton's method, 6 unknowns (4.8 sweeps of 214 operations
+ *             and 1.00 matrices of 812 a step; fixed point: does not settle with steps 8 times as
  *             long; Newton's method with the matrix to first order in h: takes 29 sweeps with
  *             steps 8 times as long)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
  * left out:   the time: the scene does not depend on it
- * operations: 50 add, 71 mul, 2 stumpff_1 a step
+ * operations: 50 add, 71 mul, 1 stumpff_1 a step
  *             3 mul a start, in steps that follow no other
- *             105 add, 219 mul, 3 slope2, 2 slope3, 1 stumpff_3 a matrix of the equations of xi1,
- *             n1
- *             75 add, 114 mul, 1 stumpff_12, 2 stumpff_23 a sweep of the equations of xi1, n1
- * stack:      at most 5056 bytes, without what the mathematical library takes
+ *             105 add, 215 mul, 2 slope2, 2 slope3 a matrix of the equations of xi1, n1
+ *             73 add, 111 mul, 1 stumpff_123, 1 stumpff_23 a sweep of the equations of xi1, n1
+ * stack:      at most 4992 bytes, without what the mathematical library takes
  * made by:    orderconds emit heavy_top --method slgi:midpoint --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -137,25 +136,6 @@ static inline double stumpff_series_1(double z)
     return 1.0 + z * (even + z * odd);
 }
 
-/* For z > 1/16 and s = sqrt(z): c_3 = (s - sin(s))/s^3 */
-static inline double stumpff_3_far(double z)
-{
-    if (z <= 4.0) {
-        return stumpff_series_3(z);
-    }
-    const double s = sqrt(z <= 4503599627370496.0 ? z : NAN);
-    return (1.0 - sin(s) / s) / z;
-}
-
-/* For z >= 0 and s = sqrt(z): c_3 = (s - sin(s))/s^3 */
-static inline double stumpff_3(double z)
-{
-    if (z <= 0.00390625) {
-        return stumpff_tiny_3(z);
-    }
-    return z <= 0.0625 ? stumpff_small_3(z) : stumpff_3_far(z);
-}
-
 /* For z > 1/16 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
 static inline void stumpff_23_far(double z, double *c2, double *c3)
 {
@@ -210,6 +190,36 @@ static inline void stumpff_12_far(double z, double *c1, double *c2)
     const double ratio = sine / half;
     *c1 = ratio * cosine;
     *c2 = 0.5 * (ratio * ratio);
+}
+
+/* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
+static inline void stumpff_123_far(double z, double *c1, double *c2, double *c3)
+{
+    if (z <= 1.0) {
+        *c1 = stumpff_series_1(z);
+        *c2 = stumpff_series_2(z);
+        *c3 = stumpff_series_3(z);
+        return;
+    }
+    const double half = 0.5 * sqrt(z <= 4503599627370496.0 ? z : NAN);
+    const double sine = sin(half);
+    const double cosine = cos(half);
+    const double ratio = sine / half;
+    *c1 = ratio * cosine;
+    *c2 = 0.5 * (ratio * ratio);
+    *c3 = z <= 4.0 ? stumpff_series_3(z) : (1.0 - ratio * cosine) / z;
+}
+
+/* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
+static inline void stumpff_123(double z, double *c1, double *c2, double *c3)
+{
+    if (z <= 0.0625) {
+        *c1 = stumpff_small_1(z);
+        *c2 = stumpff_small_2(z);
+        *c3 = stumpff_small_3(z);
+    } else {
+        stumpff_123_far(z, c1, c2, c3);
+    }
 }
 
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
@@ -294,17 +304,17 @@ static int invert(size_t n, double *restrict a, double *restrict row, size_t *or
             a[pivot * n + j] = kept;
         }
         const double factor = 1.0 / a[k * n + k];
-        a[k * n + k] = 1.0;
         for (size_t j = 0; j < n; j++) {
             row[j] = a[k * n + j] *= factor;
         }
+        a[k * n + k] = factor;
         for (size_t i = 0; i < n; i++) {
             if (i != k) {
                 const double multiple = a[i * n + k];
-                a[i * n + k] = 0.0;
                 for (size_t j = 0; j < n; j++) {
                     a[i * n + j] -= multiple * row[j];
                 }
+                a[i * n + k] = -(multiple * factor);
             }
         }
     }
@@ -377,8 +387,9 @@ static const double differences[17][18] = {
     {1, -16, 120, -560, 1820, -4368, 8008, -11440, 12870, -11440, 8008, -4368, 1820, -560, 120, -16, 1},
 };
 
-/* A backward difference of an order without its first terms, which were of later solutions. */
-static void difference(const struct memory *memory, size_t order, size_t first, double sum[static 6])
+/* A backward difference, times sign, of an order without its first terms, which were of later solutions. */
+static inline void difference(const struct memory *memory, size_t order, size_t first, double sign,
+    double sum[static 6])
 {
     double sum_0 = 0.0;
     double sum_1 = 0.0;
@@ -387,7 +398,7 @@ static void difference(const struct memory *memory, size_t order, size_t first, 
     double sum_4 = 0.0;
     double sum_5 = 0.0;
     for (size_t j = first; j <= order; j += 2) {
-        const double f = differences[order][j], g = differences[order][j + 1];
+        const double f = sign * differences[order][j], g = sign * differences[order][j + 1];
         const double *x = memory->values[memory->place + j - first], *y = x + 6;
         sum_0 += f * x[0] + g * y[0];
         sum_1 += f * x[1] + g * y[1];
@@ -408,7 +419,7 @@ static void difference(const struct memory *memory, size_t order, size_t first, 
 static double size_of(const struct memory *memory, size_t order)
 {
     double sum[6], size = 0.0;
-    difference(memory, order, 0, sum);
+    difference(memory, order, 0, 1.0, sum);
     for (size_t i = 0; i < 6; i++) {
         size += fabs(sum[i]);
     }
@@ -420,9 +431,12 @@ static inline void remember(struct memory *memory, const double solution[static 
 {
     if (memory->known > 2) { /* the guess was no mere copy */
         double moved = 0.0;
-        for (size_t i = 0; i < 6; i++) {
-            moved += fabs(solution[i] - memory->values[memory->place][i]);
-        }
+        moved += fabs(solution[0] - memory->values[memory->place][0]);
+        moved += fabs(solution[1] - memory->values[memory->place][1]);
+        moved += fabs(solution[2] - memory->values[memory->place][2]);
+        moved += fabs(solution[3] - memory->values[memory->place][3]);
+        moved += fabs(solution[4] - memory->values[memory->place][4]);
+        moved += fabs(solution[5] - memory->values[memory->place][5]);
         if (memory->first > 0.5 * moved) {
             memory->known = memory->degree = 0;
         }
@@ -430,9 +444,12 @@ static inline void remember(struct memory *memory, const double solution[static 
     memory->first = 0.0;
     const size_t place = memory->place > 0 ? memory->place - 1 : 15;
     memory->place = place;
-    for (size_t i = 0; i < 6; i++) {
-        memory->values[place][i] = memory->values[place + 16][i] = solution[i];
-    }
+    memory->values[place][0] = memory->values[place + 16][0] = solution[0];
+    memory->values[place][1] = memory->values[place + 16][1] = solution[1];
+    memory->values[place][2] = memory->values[place + 16][2] = solution[2];
+    memory->values[place][3] = memory->values[place + 16][3] = solution[3];
+    memory->values[place][4] = memory->values[place + 16][4] = solution[4];
+    memory->values[place][5] = memory->values[place + 16][5] = solution[5];
     memory->known += memory->known < 16;
     /* the degree grows while the differences fall: of many solutions it is looked at in every eighth step */
     size_t degree = memory->degree;
@@ -446,10 +463,7 @@ static inline void remember(struct memory *memory, const double solution[static 
         memory->degree = degree;
     }
     /* so that the next difference vanishes */
-    difference(memory, degree + 1, 1, memory->guess);
-    for (size_t i = 0; i < 6; i++) {
-        memory->guess[i] = -memory->guess[i];
-    }
+    difference(memory, degree + 1, 1, -1.0, memory->guess);
 }
 
 static inline int advance(double state[static 12], double h, struct memory *memory,
@@ -489,57 +503,54 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double w8 = -0.5 * h;
     const double w16 = 0.5 * h;
     /* the equations of xi1, n1: Newton's method in xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2 */
-    double Y_0, Y_1, Y_2, w1, w2, z_0, z_1, z_2, w9, w10;
+    double Y_0, Y_1, Y_2, w1, w2, z_0, z_1, z_2, w10, w21;
     double previous_1 = 0.0;
     double rate_1 = memory->known > 0 ? memory->rate_1 : 1.0;
     int make_1 = !memory->made_1;
     for (size_t sweep = 1;; sweep++) {
         Y_0 = h * xi1_0;
         Y_1 = h * xi1_1;
-        const double w6 = mu0 * Y_1 - mu1 * Y_0;
         Y_2 = h * xi1_2;
         w1 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2;
-        const double w3 = mu1 * Y_2 - mu2 * Y_1;
-        const double w17 = Y_0 * w6 - Y_2 * w3;
-        const double w5 = mu2 * Y_0 - mu0 * Y_2;
-        const double w7 = Y_2 * w5 - Y_1 * w6;
-        const double w19 = Y_1 * w3 - Y_0 * w5;
-        z_0 = xi1_0 * w8;
-        z_1 = xi1_1 * w8;
-        const double w13 = n1_1 * z_0 - n1_0 * z_1;
-        z_2 = xi1_2 * w8;
-        w9 = z_0 * z_0 + z_1 * z_1 + z_2 * z_2;
-        const double w11 = n1_2 * z_1 - n1_1 * z_2;
-        const double w18 = z_2 * w11 - z_0 * w13;
-        const double w14 = n1_0 * z_2 - n1_2 * z_0;
-        const double w15 = z_1 * w13 - z_2 * w14;
-        const double w20 = z_0 * w14 - z_1 * w11;
-        const double X1_2 = xi1_2 * w16;
-        const double w21 = X1_2 * X1_2;
-        const double X1_0 = xi1_0 * w16;
-        const double X1_1 = xi1_1 * w16;
-        const double w22 = X1_0 * X1_0 + X1_1 * X1_1 + w21;
-        double c1_1, c2_3;
-        stumpff_12(w22, &c1_1, &c2_3);
-        const double w24 = X1_2 * c1_1;
-        const double w26 = X1_0 * c2_3;
-        const double w27 = X1_1 * w26;
-        const double w28 = X1_2 * c2_3;
-        const double w29 = X1_2 * w28;
-        const double w30 = X1_1 * c2_3;
-        const double Q1_5 = g02 * (w24 + w27) + g12 * (1.0 - (X1_0 * w26 + w29))
-            + g22 * (X1_2 * w30 - X1_0 * c1_1);
-        const double Q1_2 = g12 * (w27 - w24) + g02 * (1.0 - (w29 + X1_1 * w30))
-            + g22 * (X1_2 * w26 + X1_1 * c1_1);
-        double c2_2, c3_2;
-        stumpff_23(w9, &c2_2, &c3_2);
-        w10 = c2_2;
         double c2_1, c3_1;
         stumpff_23(w1, &c2_1, &c3_1);
         w2 = c2_1;
+        const double w3 = mu1 * Y_2 - mu2 * Y_1;
+        const double w5 = mu2 * Y_0 - mu0 * Y_2;
+        const double w6 = mu0 * Y_1 - mu1 * Y_0;
+        const double w7 = Y_2 * w5 - Y_1 * w6;
+        z_0 = xi1_0 * w8;
+        z_1 = xi1_1 * w8;
+        z_2 = xi1_2 * w8;
+        const double w9 = z_0 * z_0 + z_1 * z_1 + z_2 * z_2;
+        double c1_1, c2_2, c3_2;
+        stumpff_123(w9, &c1_1, &c2_2, &c3_2);
+        w10 = c2_2;
+        const double w11 = n1_2 * z_1 - n1_1 * z_2;
+        const double w13 = n1_1 * z_0 - n1_0 * z_1;
+        const double w14 = n1_0 * z_2 - n1_2 * z_0;
+        const double w15 = z_1 * w13 - z_2 * w14;
         const double M1_0 = mu0 - w2 * w3 + w7 * c3_1 + w16 * (n1_0 - w10 * w11 + w15 * c3_2);
+        const double w17 = Y_0 * w6 - Y_2 * w3;
+        const double w18 = z_2 * w11 - z_0 * w13;
         const double M1_1 = mu1 - w2 * w5 + w17 * c3_1 + w16 * (n1_1 - w10 * w14 + w18 * c3_2);
+        const double w19 = Y_1 * w3 - Y_0 * w5;
+        const double w20 = z_0 * w14 - z_1 * w11;
         const double M1_2 = mu2 - w2 * w6 + w19 * c3_1 + w16 * (n1_2 - w10 * w13 + w20 * c3_2);
+        const double X1_2 = xi1_2 * w16;
+        w21 = c1_1;
+        const double w22 = X1_2 * w21;
+        const double X1_1 = xi1_1 * w16;
+        const double X1_0 = xi1_0 * w16;
+        const double w23 = w10 * X1_0;
+        const double w24 = X1_1 * w23;
+        const double w25 = w10 * X1_2;
+        const double w26 = X1_2 * w25;
+        const double w27 = w10 * X1_1;
+        const double Q1_5 = g02 * (w22 + w24) + g12 * (1.0 - (X1_0 * w23 + w26))
+            + g22 * (X1_2 * w27 - w21 * X1_0);
+        const double Q1_2 = g12 * (w24 - w22) + g02 * (1.0 - (w26 + X1_1 * w27))
+            + g22 * (X1_2 * w23 + w21 * X1_1);
         const double next_xi1_0 = 0.001 * M1_0;
         const double next_xi1_1 = 0.0002 * M1_1;
         const double next_xi1_2 = 0.00016666666666666666 * M1_2;
@@ -557,111 +568,108 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             return HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE;
         }
         if (make_1) {
-            const double w31 = 0.001 * c3_1;
-            const double w32 = Y_1 * w31;
-            const double w33 = h * mu1;
-            const double w34 = Y_2 * w31;
-            const double w35 = h * mu2;
-            const double w36 = slope3(w9);
+            const double w28 = 0.001 * c3_1;
+            const double w29 = Y_1 * w28;
+            const double w30 = h * mu1;
+            const double w31 = Y_2 * w28;
+            const double w32 = h * mu2;
+            const double w33 = slope3(w1);
+            const double w34 = slope2(w1);
+            const double w35 = 0.001 * w7 * w33 - 0.001 * w3 * w34;
+            const double w36 = 2.0 * Y_0 * h;
             const double w37 = 0.0005 * h;
-            const double w38 = slope2(w9);
-            const double w39 = w15 * w37 * w36 - w11 * w37 * w38;
-            const double w40 = 2.0 * z_0 * w8;
-            const double w41 = slope3(w1);
-            const double w42 = slope2(w1);
-            const double w43 = 0.001 * w7 * w41 - 0.001 * w3 * w42;
-            const double w44 = 2.0 * Y_0 * h;
-            const double w45 = w37 * c3_2;
-            const double w46 = z_1 * w45;
-            const double w47 = n1_1 * w8;
-            const double w48 = z_2 * w45;
-            const double w49 = n1_2 * w8;
-            const double w50 = w32 * w33 + w34 * w35 + w39 * w40 + w43 * w44 + w46 * w47 + w48 * w49;
-            const double w51 = w10 * w37;
-            const double w52 = h * mu0;
-            const double w53 = -0.001 * w2;
+            const double w38 = w37 * c3_2;
+            const double w39 = z_1 * w38;
+            const double w40 = n1_1 * w8;
+            const double w41 = z_2 * w38;
+            const double w42 = n1_2 * w8;
+            const double w43 = slope3(w9);
+            const double w44 = slope2(w9);
+            const double w45 = w15 * w37 * w43 - w11 * w37 * w44;
+            const double w46 = 2.0 * z_0 * w8;
+            const double w47 = w29 * w30 + w31 * w32 + w35 * w36 + w39 * w40 + w41 * w42 + w45 * w46;
+            const double w48 = h * mu0;
+            const double w49 = -0.001 * w2;
+            const double w50 = 2.0 * Y_1 * h;
+            const double w51 = w13 * w38 * w8 - w6 * w28 * h - w29 * w48 - w32 * w49 + w35 * w50;
+            const double w52 = n1_0 * w8;
+            const double w53 = w10 * w37;
             const double w54 = 2.0 * z_1 * w8;
-            const double w55 = w13 * w45 * w8 - w6 * w31 * h - w32 * w52 - w35 * w53 + w39 * w54;
-            const double w56 = 2.0 * Y_1 * h;
-            const double w57 = n1_0 * w8;
-            const double w58 = 2.0 * z_2 * w8;
-            const double w59 = w5 * w31 * h - w14 * w45 * w8 - w34 * w52 + w33 * w53 + w39 * w58;
-            const double w60 = 2.0 * Y_2 * h;
-            const double w61 = 0.0002 * c3_1;
-            const double w62 = 0.0001 * h;
-            const double w63 = w62 * c3_2;
-            const double w64 = Y_0 * w61;
-            const double w65 = -0.0002 * w2;
-            const double w66 = w18 * w62 * w36 - w14 * w62 * w38;
-            const double w67 = w6 * w61 * h - w13 * w63 * w8 - w33 * w64 + w35 * w65 + w40 * w66;
-            const double w68 = 0.0002 * w17 * w41 - 0.0002 * w5 * w42;
-            const double w69 = z_0 * w63;
-            const double w70 = w10 * w62;
-            const double w71 = Y_2 * w61;
-            const double w72 = z_2 * w63;
-            const double w73 = w52 * w64 + w35 * w71 + w54 * w66 + w56 * w68 + w57 * w69 + w49 * w72;
-            const double w74 = w11 * w63 * w8 - w3 * w61 * h - w52 * w65 - w33 * w71 + w58 * w66;
-            const double w75 = 8.333333333333333e-05 * h;
-            const double w76 = w75 * c3_2;
-            const double w77 = z_0 * w76;
-            const double w78 = 0.00016666666666666666 * c3_1;
-            const double w79 = -0.00016666666666666666 * w2;
-            const double w80 = Y_0 * w78;
-            const double w81 = w20 * w75 * w36 - w13 * w75 * w38;
-            const double w82 = w14 * w76 * w8 - w5 * w78 * h - w33 * w79 - w35 * w80 + w40 * w81;
-            const double w83 = 0.00016666666666666666 * w19 * w41 - 0.00016666666666666666 * w6 * w42;
-            const double w84 = w10 * w75;
-            const double w85 = z_1 * w76;
-            const double w86 = Y_1 * w78;
-            const double w87 = w3 * w78 * h - w11 * w76 * w8 + w52 * w79 - w35 * w86 + w54 * w81;
-            const double w88 = w52 * w80 + w33 * w86 + w58 * w81 + w60 * w83 + w57 * w77 + w47 * w85;
-            const double w89 = g12 * w26;
-            const double w90 = g22 * c1_1;
-            const double w91 = w16 * c2_3;
-            const double w92 = g02 * X1_1;
-            const double w93 = g12 * X1_0 - w92;
-            const double w94 = 2.0 * X1_0 * w16;
-            const double c3_3 = stumpff_3(w22);
-            const double w95 = 0.5 * (c3_3 - c2_3);
-            const double w96 = slope2(w22);
-            const double w97 = w21 * w96;
-            const double w98 = g22 * X1_2;
-            const double w99 = X1_1 * w96;
-            const double w100 = X1_0 * w96;
-            const double w101 = X1_2 * w95;
-            const double w102 = g22 * X1_0 * w95 + g12 * w97 - w98 * w99 + w93 * w100 - g02 * w101;
-            const double w103 = 2.0 * X1_1 * w16;
-            const double w104 = 2.0 * w28;
-            const double w105 = 2.0 * X1_2 * w16;
-            const double w106 = w98 + g12 * X1_1;
-            const double w107 = g22 * X1_1 * w95 - g02 * w97 - w92 * w99 + w100 * w106 - g12 * w101;
-            memory->inverse_1[0] = 1.0 - w50;
-            memory->inverse_1[1] = w49 * w51 - (w55 + w43 * w56 - w46 * w57);
-            memory->inverse_1[2] = -(w59 + w43 * w60 - w48 * w57 + w47 * w51);
-            memory->inverse_1[3] = z_2 * w48 - (w37 - z_1 * w46);
-            memory->inverse_1[4] = -(z_0 * w46 + z_2 * w51);
-            memory->inverse_1[5] = z_1 * w51 - z_0 * w48;
-            memory->inverse_1[6] = -(w67 + w44 * w68 - w47 * w69 + w49 * w70);
-            memory->inverse_1[7] = 1.0 - w73;
-            memory->inverse_1[8] = w47 * w72 - (w74 + w60 * w68 - w57 * w70);
-            memory->inverse_1[9] = z_2 * w70 - z_1 * w69;
-            memory->inverse_1[10] = z_2 * w72 - (w62 - z_0 * w69);
-            memory->inverse_1[11] = -(z_0 * w70 + z_1 * w72);
-            memory->inverse_1[12] = w49 * w77 - (w82 + w44 * w83 - w47 * w84);
-            memory->inverse_1[13] = w49 * w85 - (w87 + w56 * w83 + w57 * w84);
-            memory->inverse_1[14] = 1.0 - w88;
-            memory->inverse_1[15] = -(z_1 * w84 + z_2 * w77);
-            memory->inverse_1[16] = z_0 * w84 - z_2 * w85;
-            memory->inverse_1[17] = z_1 * w85 - (w75 - z_0 * w77);
-            memory->inverse_1[18] = -(w16 * (w89 + w90) + w91 * w93 + w94 * w102);
-            memory->inverse_1[19] = w16 * (g02 * w26 + w98 * c2_3) - w102 * w103;
-            memory->inverse_1[20] = -(w102 * w105 + w16 * (g12 * w104 - g22 * w30 - g02 * c1_1));
+            const double w55 = 2.0 * Y_2 * h;
+            const double w56 = w5 * w28 * h - w14 * w38 * w8 - w31 * w48 + w30 * w49 + w35 * w55;
+            const double w57 = 2.0 * z_2 * w8;
+            const double w58 = 0.0002 * c3_1;
+            const double w59 = 0.0001 * h;
+            const double w60 = w59 * c3_2;
+            const double w61 = Y_0 * w58;
+            const double w62 = -0.0002 * w2;
+            const double w63 = 0.0002 * w17 * w33 - 0.0002 * w5 * w34;
+            const double w64 = w6 * w58 * h - w13 * w60 * w8 - w30 * w61 + w32 * w62 + w36 * w63;
+            const double w65 = z_0 * w60;
+            const double w66 = w10 * w59;
+            const double w67 = w18 * w59 * w43 - w14 * w59 * w44;
+            const double w68 = Y_2 * w58;
+            const double w69 = z_2 * w60;
+            const double w70 = w48 * w61 + w32 * w68 + w50 * w63 + w52 * w65 + w42 * w69 + w54 * w67;
+            const double w71 = w11 * w60 * w8 - w3 * w58 * h - w48 * w62 - w30 * w68 + w55 * w63;
+            const double w72 = 8.333333333333333e-05 * h;
+            const double w73 = w72 * c3_2;
+            const double w74 = 0.00016666666666666666 * c3_1;
+            const double w75 = -0.00016666666666666666 * w2;
+            const double w76 = Y_0 * w74;
+            const double w77 = 0.00016666666666666666 * w19 * w33 - 0.00016666666666666666 * w6 * w34;
+            const double w78 = w14 * w73 * w8 - w5 * w74 * h - w30 * w75 - w32 * w76 + w36 * w77;
+            const double w79 = w10 * w72;
+            const double w80 = z_0 * w73;
+            const double w81 = w20 * w72 * w43 - w13 * w72 * w44;
+            const double w82 = Y_1 * w74;
+            const double w83 = w3 * w74 * h - w11 * w73 * w8 + w48 * w75 - w32 * w82 + w50 * w77;
+            const double w84 = z_1 * w73;
+            const double w85 = w48 * w76 + w30 * w82 + w55 * w77 + w52 * w80 + w40 * w84 + w57 * w81;
+            const double w86 = g22 * w21;
+            const double w87 = w10 * w16;
+            const double w88 = g02 * X1_1;
+            const double w89 = g12 * X1_0 - w88;
+            const double w90 = 0.5 * (c3_2 - w10);
+            const double w91 = X1_2 * w90;
+            const double w92 = X1_2 * X1_2;
+            const double w93 = g22 * X1_2;
+            const double w94 = g22 * X1_0 * w90 - g02 * w91
+                + w44 * (g12 * w92 - X1_1 * w93 + X1_0 * w89);
+            const double w95 = w16 * w23;
+            const double w96 = 2.0 * w25;
+            const double w97 = w16 * w21;
+            const double w98 = w93 + g12 * X1_1;
+            const double w99 = g22 * X1_1 * w90 - g12 * w91
+                + w44 * (X1_0 * w98 - (g02 * w92 + X1_1 * w88));
+            const double w100 = -(w16 * (w86 - g02 * w27) + g12 * w95 - w87 * w88 + w54 * w99);
+            memory->inverse_1[0] = 1.0 - w47;
+            memory->inverse_1[1] = -(w51 - w39 * w52 - w42 * w53 + w45 * w54);
+            memory->inverse_1[2] = -(w56 - w41 * w52 + w40 * w53 + w45 * w57);
+            memory->inverse_1[3] = z_2 * w41 - (w37 - z_1 * w39);
+            memory->inverse_1[4] = -(z_0 * w39 + z_2 * w53);
+            memory->inverse_1[5] = z_1 * w53 - z_0 * w41;
+            memory->inverse_1[6] = -(w64 - w40 * w65 + w42 * w66 + w46 * w67);
+            memory->inverse_1[7] = 1.0 - w70;
+            memory->inverse_1[8] = -(w71 - w52 * w66 - w40 * w69 + w57 * w67);
+            memory->inverse_1[9] = z_2 * w66 - z_1 * w65;
+            memory->inverse_1[10] = z_2 * w69 - (w59 - z_0 * w65);
+            memory->inverse_1[11] = -(z_0 * w66 + z_1 * w69);
+            memory->inverse_1[12] = -(w78 - w40 * w79 - w42 * w80 + w46 * w81);
+            memory->inverse_1[13] = -(w83 + w52 * w79 - w42 * w84 + w54 * w81);
+            memory->inverse_1[14] = 1.0 - w85;
+            memory->inverse_1[15] = -(z_1 * w79 + z_2 * w80);
+            memory->inverse_1[16] = z_0 * w79 - z_2 * w84;
+            memory->inverse_1[17] = z_1 * w84 - (w72 - z_0 * w80);
+            memory->inverse_1[18] = -(w16 * (g12 * w23 + w86) + w87 * w89 + w46 * w94);
+            memory->inverse_1[19] = g02 * w95 + w87 * w93 - w54 * w94;
+            memory->inverse_1[20] = -(w16 * (g12 * w96 - g22 * w27) - g02 * w97 + w57 * w94);
             memory->inverse_1[21] = 1.0;
             memory->inverse_1[22] = 0.0;
             memory->inverse_1[23] = 0.0;
-            memory->inverse_1[24] = -(w91 * w106 + w94 * w107);
-            memory->inverse_1[25] = -(w103 * w107 + w16 * (w90 - g02 * w30 + w89 - w92 * c2_3));
-            memory->inverse_1[26] = -(w16 * (g22 * w26 - g02 * w104 - g12 * c1_1) + w105 * w107);
+            memory->inverse_1[24] = -(w87 * w98 + w46 * w99);
+            memory->inverse_1[25] = w100;
+            memory->inverse_1[26] = -(w16 * (g22 * w23 - g02 * w96) - g12 * w97 + w57 * w99);
             memory->inverse_1[27] = 0.0;
             memory->inverse_1[28] = 1.0;
             memory->inverse_1[29] = 0.0;
@@ -730,39 +738,37 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         make_1 = 0.015625 * previous_1 > 0.0 && change > 0.015625 * previous_1;
         previous_1 = change;
     }
-    const double w108 = Y_1 * w2;
-    const double w109 = Y_1 * w108;
-    const double w110 = Y_2 * w2 * Y_2;
-    const double g_0 = 1.0 - (w109 + w110);
-    const double w111 = Y_0 * w2;
-    const double w112 = Y_1 * w111;
+    const double w101 = Y_1 * w2;
+    const double w102 = Y_1 * w101;
+    const double w103 = Y_2 * w2 * Y_2;
+    const double g_0 = 1.0 - (w102 + w103);
+    const double w104 = Y_0 * w2;
+    const double w105 = Y_1 * w104;
     const double c1_2 = stumpff_1(w1);
-    const double w114 = Y_2 * c1_2;
-    const double g_1 = w112 - w114;
-    const double w115 = Y_1 * c1_2;
-    const double w116 = Y_2 * w111;
-    const double g_2 = w115 + w116;
-    const double g_3 = w112 + w114;
-    const double w117 = Y_0 * w111;
-    const double g_4 = 1.0 - (w110 + w117);
-    const double w118 = Y_2 * w108;
-    const double w119 = Y_0 * c1_2;
-    const double g_5 = w118 - w119;
-    const double g_6 = w116 - w115;
-    const double g_7 = w118 + w119;
-    const double g_8 = 1.0 - (w109 + w117);
-    const double w120 = z_1 * w10;
-    const double w121 = z_2 * w10 * z_2;
-    const double c1_3 = stumpff_1(w9);
-    const double w123 = z_2 * c1_3;
-    const double w124 = z_0 * w10;
-    const double w125 = z_1 * w124;
+    const double w107 = Y_2 * c1_2;
+    const double g_1 = w105 - w107;
+    const double w108 = Y_1 * c1_2;
+    const double w109 = Y_2 * w104;
+    const double g_2 = w108 + w109;
+    const double g_3 = w105 + w107;
+    const double w110 = Y_0 * w104;
+    const double g_4 = 1.0 - (w103 + w110);
+    const double w111 = Y_2 * w101;
+    const double w112 = Y_0 * c1_2;
+    const double g_5 = w111 - w112;
+    const double g_6 = w109 - w108;
+    const double g_7 = w111 + w112;
+    const double g_8 = 1.0 - (w102 + w110);
+    const double w113 = z_1 * w10;
+    const double w114 = z_2 * w10 * z_2;
+    const double w115 = z_2 * w21;
+    const double w116 = z_0 * w10;
+    const double w117 = z_1 * w116;
     const double mu1_0 = mu0 * g_0 + mu1 * g_1 + mu2 * g_2
-        + h * (n1_0 * (1.0 - (z_1 * w120 + w121)) + n1_1 * (w123 + w125));
+        + h * (n1_0 * (1.0 - (z_1 * w113 + w114)) + n1_1 * (w115 + w117));
     const double mu1_1 = mu0 * g_3 + mu1 * g_4 + mu2 * g_5
-        + h * (n1_0 * (w125 - w123) + n1_1 * (1.0 - (w121 + z_0 * w124)));
-    const double w126 = h
-        * (n1_0 * (z_2 * w124 + z_1 * c1_3) + n1_1 * (z_2 * w120 - z_0 * c1_3));
+        + h * (n1_0 * (w117 - w115) + n1_1 * (1.0 - (w114 + z_0 * w116)));
+    const double w118 = h * (n1_0 * (z_1 * w21 + z_2 * w116) + n1_1 * (z_2 * w113 - z_0 * w21));
     const double new_g00 = g00 * g_0 + g10 * g_1 + g20 * g_2;
     const double new_g01 = g01 * g_0 + g11 * g_1 + g21 * g_2;
     const double new_g02 = g02 * g_0 + g12 * g_1 + g22 * g_2;
@@ -772,7 +778,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double new_g20 = g00 * g_6 + g10 * g_7 + g20 * g_8;
     const double new_g21 = g01 * g_6 + g11 * g_7 + g21 * g_8;
     const double new_g22 = g02 * g_6 + g12 * g_7 + g22 * g_8;
-    const double new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w126;
+    const double new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w118;
     /* x - x is zero for a number, else NaN: one test for all */
     if (!(((new_g00 - new_g00) + (new_g01 - new_g01))
         + ((new_g02 - new_g02) + (new_g10 - new_g10))

@@ -29,7 +29,7 @@ def test_three_unknowns_a_stage_are_corrected_by_a_matrix_to_first_order(compile
     assert loop.newton is not None
     assert loop.newton.residuals
     assert loop.images
-    assert loop.newton.period == {3: 1, 6: 3, 12: 11}[len(loop.unknowns)]
+    assert loop.newton.period == {3: 1, 6: 3, 12: 6}[len(loop.unknowns)]
 
 
 def test_the_matrix_is_the_residuals_derivative_up_to_h(compiled):
