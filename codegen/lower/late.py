@@ -37,17 +37,17 @@ def chain(kernel: Kernel) -> int:
 
 
 def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
-    """Return assignments in the order in which they can be ready.
+    """Return assignments in the order in which they can be ready, to within a function's time.
 
     A processor looks only some hundred instructions ahead: what could be done beside the longest chain must
-    stand beside it.
+    stand beside it. A finer order would tear apart what reads the same values, and registers are few.
     """
     ready: dict[int, int] = {}
     times = []
     for let in lets:
         times.append(_measured(let.value, ready))
         ready[let.value.space.sym(let.name).id] = times[-1]
-    return tuple(lets[k] for k in sorted(range(len(lets)), key=lambda k: (times[k], k)))
+    return tuple(lets[k] for k in sorted(range(len(lets)), key=lambda k: (times[k] // TIMES["call"], k)))
 
 
 def _measured(root: Expr, ready: dict[int, int]) -> int:

@@ -194,6 +194,12 @@ def _iteration(
     return Iteration(loop, number, starts, tuple(body), images, kept, made, matrix)
 
 
+def _values(statement: Simple) -> tuple[Expr, ...]:
+    if isinstance(statement, Invocation):
+        return statement.arguments
+    return (statement.argument if isinstance(statement, Joint) else statement.value,)
+
+
 def _taken(kernel: Kernel) -> dict[str, int]:
     """Return a counter of fresh names that starts with every name of the kernel used."""
     names = [s for f in kernel.state for s in f.symbols] + list(kernel.scalars)
