@@ -5,10 +5,10 @@ source:     Table 3.2a of Bogfjellmo and Marthinsen
 order:      2, certificate: exact (every order condition up to it is zero in exact
             arithmetic)
 scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
-solved by:  the equations of xi1, n1: Newton's method, 3 unknowns (2.1 sweeps of 263
+solved by:  the equations of xi1, n1: Newton's method, 3 unknowns (2.1 sweeps of 222
             operations and 0.05 matrices of 46 a step; fixed point: 3.1 sweeps of
-            276 operations; Newton's method with the matrix to first order in h: 2.0
-            sweeps of 291 operations and 1.00 matrices of 68)
+            235 operations; Newton's method with the matrix to first order in h: 2.0
+            sweeps of 250 operations and 1.00 matrices of 68)
 state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
 left out:   3 Adtinv, 2 mul (zeros)
@@ -31,8 +31,8 @@ left out:   3 Adtinv, 2 mul (zeros)
 operations: 62 add, 86 mul, 1 stumpff_12 a step
             2 mul a start, in steps that follow no other
             11 add, 31 mul, 1 div a matrix of the equations of xi1, n1
-            66 add, 114 mul, 2 div, 2 sqrt, 1 stumpff_12, 1 stumpff_23, 1 stumpff_3
-            a sweep of the equations of xi1, n1
+            62 add, 107 mul, 2 div, 2 sqrt, 1 stumpff_123 a sweep of the equations
+            of xi1, n1
 made by:    orderconds emit dipole --method vcg:midpoint --target python -o .
 version:    orderconds 0.1.0
 
@@ -153,15 +153,6 @@ def _size(row):
     return total
 
 
-def _stumpff_tiny_3(z):
-    """Return c_3(z) for z <= 1/256."""
-    w = z * z
-    return (
-        (0.16666666666666666 + z * -0.008333333333333059)
-        + w * (0.00019841269798705593 + z * -2.7555439466688165e-06)
-    )
-
-
 def _stumpff_tiny_2(z):
     """Return c_2(z) for z <= 1/256."""
     w = z * z
@@ -245,42 +236,6 @@ def _stumpff_series_1(z):
     return 1.0 + z * (even + z * odd)
 
 
-def _stumpff_3_far(z):
-    """Return, for z > 1/16 and s = sqrt(z): c_3 = (s - sin(s))/s^3."""
-    if z <= 4.0:
-        return _stumpff_series_3(z)
-    s = sqrt(z if z <= 4503599627370496.0 else float("nan"))
-    return (1.0 - sin(s) / s) / z
-
-
-def _stumpff_3(z):
-    """Return, for z >= 0 and s = sqrt(z): c_3 = (s - sin(s))/s^3."""
-    if z <= 0.00390625:
-        return _stumpff_tiny_3(z)
-    if z <= 0.0625:
-        return _stumpff_small_3(z)
-    return _stumpff_3_far(z)
-
-
-def _stumpff_23_far(z):
-    """Return, for z > 1/16 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
-    if z <= 1.0:
-        return _stumpff_series_2(z), _stumpff_series_3(z)
-    half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
-    ratio = sin(half) / half
-    c3 = _stumpff_series_3(z) if z <= 4.0 else (1.0 - ratio * cos(half)) / z
-    return 0.5 * (ratio * ratio), c3
-
-
-def _stumpff_23(z):
-    """Return, for z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
-    if z <= 0.00390625:
-        return _stumpff_tiny_2(z), _stumpff_tiny_3(z)
-    if z <= 0.0625:
-        return _stumpff_small_2(z), _stumpff_small_3(z)
-    return _stumpff_23_far(z)
-
-
 def _stumpff_12_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
     if z <= 1.0:
@@ -288,6 +243,23 @@ def _stumpff_12_far(z):
     half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
     ratio = sin(half) / half
     return ratio * cos(half), 0.5 * (ratio * ratio)
+
+
+def _stumpff_123_far(z):
+    """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
+    if z <= 1.0:
+        return _stumpff_series_1(z), _stumpff_series_2(z), _stumpff_series_3(z)
+    half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
+    ratio = sin(half) / half
+    c3 = _stumpff_series_3(z) if z <= 4.0 else (1.0 - ratio * cos(half)) / z
+    return ratio * cos(half), 0.5 * (ratio * ratio), c3
+
+
+def _stumpff_123(z):
+    """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
+    if z <= 0.0625:
+        return _stumpff_small_1(z), _stumpff_small_2(z), _stumpff_small_3(z)
+    return _stumpff_123_far(z)
 
 
 def _stumpff_12(z):
@@ -321,15 +293,14 @@ def _advance(state, h, memory, statistics):
         p_2 = 0.01 * xi1_2
         xE1_1_0 = xi1_0 * w1
         xE1_1_1 = xi1_1 * w1
-        w6 = g20 * xE1_1_1 - g21 * xE1_1_0
         xE1_1_2 = xi1_2 * w1
         w2 = xE1_1_0 * xE1_1_0 + xE1_1_1 * xE1_1_1 + xE1_1_2 * xE1_1_2
-        c1_1, c2_1 = _stumpff_12(w2)
+        c1_1, c2_1, c3_1 = _stumpff_123(w2)
         w4 = g22 * xE1_1_0 - g20 * xE1_1_2
+        w6 = g20 * xE1_1_1 - g21 * xE1_1_0
         w7 = g21 * xE1_1_2 - g22 * xE1_1_1
         Q1_7 = g21 + w4 * c1_1 + (xE1_1_0 * w6 - xE1_1_2 * w7) * c2_1
         Q1_8 = g22 + w6 * c1_1 + (xE1_1_1 * w7 - xE1_1_0 * w4) * c2_1
-        Q1_6 = g20 + w7 * c1_1 + (xE1_1_2 * w4 - xE1_1_1 * w6) * c2_1
         w8 = 1.5 - 2.0 * Q1_8
         w9 = 1.0 / sqrt(1.01 + 1.5 * (w8 - 0.2 * Q1_7))
         w10 = w9 * w9 * (0.5 * w9)
@@ -338,69 +309,66 @@ def _advance(state, h, memory, statistics):
         w13 = -1.0 - 2.0 * (1.5 * w10 - 1.5 * w12)
         w14 = -0.3 * w10 - 0.3 * w12
         Nr1_0 = Q1_7 * w13 - Q1_8 * w14 + 99.0 * xi1_1 * p_2
+        s_mu_0 = m_0 + h * Nr1_0
+        w16 = 0.25 * c3_1
+        xe1_2 = h * xi1_2
+        xe1_0 = h * xi1_0
+        Q1_6 = g20 + w7 * c1_1 + (xE1_1_2 * w4 - xE1_1_1 * w6) * c2_1
         Nr1_2 = 0.01 * xi1_0 * xi1_1 + w14 * Q1_6
+        s_mu_2 = m_2 + h * Nr1_2
+        w17 = xe1_0 * s_mu_2 - s_mu_0 * xe1_2
+        xe1_1 = h * xi1_1
         Nr1_1 = -100.0 * xi1_0 * p_2 - w13 * Q1_6
         s_mu_1 = m_1 + h * Nr1_1
-        s_mu_1_seen = s_mu_1
-        s_mu_2 = m_2 + h * Nr1_2
-        s_mu_2_seen = s_mu_2
-        s_mu_0 = m_0 + h * Nr1_0
-        s_mu_0_seen = s_mu_0
-        xe1_0 = h * xi1_0
-        xe1_1 = h * xi1_1
         w18 = s_mu_0 * xe1_1 - xe1_0 * s_mu_1
-        xe1_2 = h * xi1_2
-        w15 = xe1_0 * xe1_0 + xe1_1 * xe1_1 + xe1_2 * xe1_2
-        c3_1 = _stumpff_3(0.25 * w15)
-        w16 = 0.25 * c3_1
-        w17 = xe1_0 * s_mu_2 - s_mu_0 * xe1_2
         s_mu_2_0 = s_mu_0 + w16 * (xe1_2 * w17 - xe1_1 * w18)
-        w26 = xe1_2 * s_mu_1 - xe1_1 * s_mu_2
-        s_mu_2_1 = s_mu_1 + w16 * (xe1_0 * w18 - xe1_2 * w26)
-        s_mu_2_2 = s_mu_2 + w16 * (xe1_1 * w26 - xe1_0 * w17)
-        y1_2_0 = xi1_0 * w19
         y1_2_1 = xi1_1 * w19
-        w24 = Nr1_1 * y1_2_0 - Nr1_0 * y1_2_1
         y1_2_2 = xi1_2 * w19
-        w20 = y1_2_0 * y1_2_0 + y1_2_1 * y1_2_1 + y1_2_2 * y1_2_2
-        c2_2, c3_2 = _stumpff_23(w20)
-        w22 = Nr1_2 * y1_2_1 - Nr1_1 * y1_2_2
-        w25 = Nr1_0 * y1_2_2 - Nr1_2 * y1_2_0
+        w20 = Nr1_2 * y1_2_1 - Nr1_1 * y1_2_2
+        y1_2_0 = xi1_0 * w19
+        w21 = Nr1_1 * y1_2_0 - Nr1_0 * y1_2_1
+        w22 = Nr1_0 * y1_2_2 - Nr1_2 * y1_2_0
         M1_2_0 = (
-            s_mu_2_0 + w19 * (Nr1_0 + w22 * c2_2 + (y1_2_1 * w24 - y1_2_2 * w25) * c3_2)
+            s_mu_2_0 + w19 * (Nr1_0 + w20 * c2_1 + (y1_2_1 * w21 - y1_2_2 * w22) * c3_1)
         )
-        M1_2_2 = (
-            s_mu_2_2 + w19 * (Nr1_2 + w24 * c2_2 + (y1_2_0 * w25 - y1_2_1 * w22) * c3_2)
-        )
+        residual_0 = M1_2_0 - 1.01 * xi1_0
+        w23 = xe1_2 * s_mu_1 - s_mu_2 * xe1_1
+        s_mu_2_1 = s_mu_1 + w16 * (xe1_0 * w18 - xe1_2 * w23)
         M1_2_1 = (
-            s_mu_2_1 + w19 * (Nr1_1 + w25 * c2_2 + (y1_2_2 * w22 - y1_2_0 * w24) * c3_2)
+            s_mu_2_1 + w19 * (Nr1_1 + w22 * c2_1 + (y1_2_2 * w20 - y1_2_0 * w21) * c3_1)
+        )
+        residual_1 = M1_2_1 - xi1_1
+        s_mu_2_2 = s_mu_2 + w16 * (xe1_1 * w23 - xe1_0 * w17)
+        M1_2_2 = (
+            s_mu_2_2 + w19 * (Nr1_2 + w21 * c2_1 + (y1_2_0 * w22 - y1_2_1 * w20) * c3_1)
         )
         residual_2 = M1_2_2 - p_2
-        residual_1 = M1_2_1 - xi1_1
-        residual_0 = M1_2_0 - 1.01 * xi1_0
+        s_mu_0_seen = s_mu_0
+        s_mu_1_seen = s_mu_1
+        s_mu_2_seen = s_mu_2
         total = residual_0 + residual_1 + residual_2
         if not isfinite(total):
             raise _failed(NOT_FINITE, "the equations of xi1, n1", 0, sweep, statistics)
         if make_1:
-            w27 = 0.005 * h
-            w28 = xi1_0 * w27
-            w29 = 0.01 - y1_2_0 * w28
-            w30 = 0.495 * h
-            w31 = xi1_2 * w30
-            w32 = xi1_1 * w27
-            w33 = y1_2_0 * w32 + 0.01 * y1_2_2
-            w34 = xi1_1 * w30
-            w35 = w32 + y1_2_2 * w28
-            w36 = 1.0 / (1.01 * w29 - w31 * w33 - w34 * w35)
+            w24 = 0.005 * h
+            w25 = xi1_0 * w24
+            w26 = 0.01 - y1_2_0 * w25
+            w27 = 0.495 * h
+            w28 = xi1_2 * w27
+            w29 = xi1_1 * w24
+            w30 = y1_2_0 * w29 + 0.01 * y1_2_2
+            w31 = xi1_1 * w27
+            w32 = w29 + y1_2_2 * w25
+            w33 = 1.0 / (1.01 * w26 - w28 * w30 - w31 * w32)
             row_1_1 = [
-                w29 * w36, w36 * (w28 * w34 + 0.01 * w31), w36 * (w34 + y1_2_0 * w31),
+                w26 * w33, w33 * (w25 * w31 + 0.01 * w28), w33 * (w31 + y1_2_0 * w28),
             ]
             row_1_2 = [
-                w33 * w36, w36 * (0.0101 - w32 * w34),
-                w36 * (y1_2_2 * w34 + 1.01 * y1_2_0),
+                w30 * w33, w33 * (0.0101 - w29 * w31),
+                w33 * (y1_2_2 * w31 + 1.01 * y1_2_0),
             ]
             row_1_3 = [
-                w35 * w36, w36 * (w31 * w32 + 1.01 * w28), w36 * (1.01 - y1_2_2 * w31),
+                w32 * w33, w33 * (w28 * w29 + 1.01 * w25), w33 * (1.01 - y1_2_2 * w28),
             ]
             memory.inverses[0] = [row_1_1, row_1_2, row_1_3]
             if statistics is not None:
@@ -438,36 +406,36 @@ def _advance(state, h, memory, statistics):
     xe1_1_ = h * xi1_1
     xe1_0_ = h * xi1_0
     xe1_2_ = h * xi1_2
-    w37 = xe1_0_ * xe1_0_ + xe1_1_ * xe1_1_ + xe1_2_ * xe1_2_
-    c1_2, c2_3 = _stumpff_12(w37)
-    w39 = xe1_1_ * c2_3
-    w40 = xe1_1_ * w39
-    w41 = xe1_2_ * c2_3 * xe1_2_
-    ge1_0 = 1.0 - (w40 + w41)
-    w43 = xe1_2_ * c1_2
-    w44 = xe1_0_ * c2_3
-    w45 = xe1_1_ * w44
-    ge1_3 = w43 + w45
-    w46 = xe1_2_ * w44
-    w47 = xe1_1_ * c1_2
-    ge1_6 = w46 - w47
-    ge1_1 = w45 - w43
-    w48 = xe1_0_ * w44
-    ge1_4 = 1.0 - (w41 + w48)
-    w49 = xe1_0_ * c1_2
-    w50 = xe1_2_ * w39
-    ge1_7 = w49 + w50
-    ge1_2 = w46 + w47
-    ge1_5 = w50 - w49
-    ge1_8 = 1.0 - (w40 + w48)
-    w51 = 0.99 * h
-    w52 = s_mu_0_seen + xi1_2 * w51 * d_xi1_1 + xi1_1 * w51 * d_xi1_2
-    w53 = s_mu_1_seen - d_xi1_0 * xe1_2_ - d_xi1_2 * xe1_0_
-    w54 = 0.01 * h
-    w55 = s_mu_2_seen + xi1_1 * w54 * d_xi1_0 + xi1_0 * w54 * d_xi1_1
-    change_0 = ge1_0 * w52 + ge1_1 * w53 + ge1_2 * w55 - m_0
-    change_1 = ge1_3 * w52 + ge1_4 * w53 + ge1_5 * w55 - m_1
-    change_2 = ge1_6 * w52 + ge1_7 * w53 + ge1_8 * w55 - m_2
+    w34 = xe1_0_ * xe1_0_ + xe1_1_ * xe1_1_ + xe1_2_ * xe1_2_
+    c1_2, c2_2 = _stumpff_12(w34)
+    w36 = xe1_1_ * c2_2
+    w37 = xe1_1_ * w36
+    w38 = xe1_2_ * c2_2 * xe1_2_
+    ge1_0 = 1.0 - (w37 + w38)
+    w40 = xe1_2_ * c1_2
+    w41 = xe1_0_ * c2_2
+    w42 = xe1_1_ * w41
+    ge1_3 = w40 + w42
+    w43 = xe1_2_ * w41
+    w44 = xe1_1_ * c1_2
+    ge1_6 = w43 - w44
+    ge1_1 = w42 - w40
+    w45 = xe1_0_ * w41
+    ge1_4 = 1.0 - (w38 + w45)
+    w46 = xe1_0_ * c1_2
+    w47 = xe1_2_ * w36
+    ge1_7 = w46 + w47
+    ge1_2 = w43 + w44
+    ge1_5 = w47 - w46
+    ge1_8 = 1.0 - (w37 + w45)
+    w48 = 0.99 * h
+    w49 = s_mu_0_seen + xi1_2 * w48 * d_xi1_1 + xi1_1 * w48 * d_xi1_2
+    w50 = s_mu_1_seen - d_xi1_0 * xe1_2_ - d_xi1_2 * xe1_0_
+    w51 = 0.01 * h
+    w52 = s_mu_2_seen + xi1_1 * w51 * d_xi1_0 + xi1_0 * w51 * d_xi1_1
+    change_0 = ge1_0 * w49 + ge1_1 * w50 + ge1_2 * w52 - m_0
+    change_1 = ge1_3 * w49 + ge1_4 * w50 + ge1_5 * w52 - m_1
+    change_2 = ge1_6 * w49 + ge1_7 * w50 + ge1_8 * w52 - m_2
     new_g00 = g00 * ge1_0 + g01 * ge1_3 + g02 * ge1_6
     new_g01 = g00 * ge1_1 + g01 * ge1_4 + g02 * ge1_7
     new_g02 = g00 * ge1_2 + g01 * ge1_5 + g02 * ge1_8

@@ -5,18 +5,18 @@ source:     Table 3.2a of Bogfjellmo and Marthinsen
 order:      2, certificate: exact (every order condition up to it is zero in exact
             arithmetic)
 scene:      Heavy top as printed, T*SO(3) (thesis section 2.5), group SO(3)
-solved by:  the equations of xi1, n1: Newton's method, 6 unknowns (4.8 sweeps of 234
-            operations and 1.00 matrices of 846 a step; fixed point: does not settle
+solved by:  the equations of xi1, n1: Newton's method, 6 unknowns (4.8 sweeps of 214
+            operations and 1.00 matrices of 812 a step; fixed point: does not settle
             with steps 8 times as long; Newton's method with the matrix to first
             order in h: takes 29 sweeps with steps 8 times as long)
 state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
 left out:   the time: the scene does not depend on it
-operations: 50 add, 71 mul, 2 stumpff_1 a step
+operations: 50 add, 71 mul, 1 stumpff_1 a step
             3 mul a start, in steps that follow no other
-            105 add, 219 mul, 3 slope2, 2 slope3, 1 stumpff_3 a matrix of the
-            equations of xi1, n1
-            75 add, 114 mul, 1 stumpff_12, 2 stumpff_23 a sweep of the equations of
+            105 add, 215 mul, 2 slope2, 2 slope3 a matrix of the equations of xi1,
+            n1
+            73 add, 111 mul, 1 stumpff_123, 1 stumpff_23 a sweep of the equations of
             xi1, n1
 made by:    orderconds emit heavy_top --method slgi:midpoint --target python -o .
 version:    orderconds 0.1.0
@@ -230,23 +230,6 @@ def _stumpff_series_1(z):
     return 1.0 + z * (even + z * odd)
 
 
-def _stumpff_3_far(z):
-    """Return, for z > 1/16 and s = sqrt(z): c_3 = (s - sin(s))/s^3."""
-    if z <= 4.0:
-        return _stumpff_series_3(z)
-    s = sqrt(z if z <= 4503599627370496.0 else float("nan"))
-    return (1.0 - sin(s) / s) / z
-
-
-def _stumpff_3(z):
-    """Return, for z >= 0 and s = sqrt(z): c_3 = (s - sin(s))/s^3."""
-    if z <= 0.00390625:
-        return _stumpff_tiny_3(z)
-    if z <= 0.0625:
-        return _stumpff_small_3(z)
-    return _stumpff_3_far(z)
-
-
 def _stumpff_23_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 1.0:
@@ -281,6 +264,23 @@ def _stumpff_12_far(z):
     half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
     ratio = sin(half) / half
     return ratio * cos(half), 0.5 * (ratio * ratio)
+
+
+def _stumpff_123_far(z):
+    """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
+    if z <= 1.0:
+        return _stumpff_series_1(z), _stumpff_series_2(z), _stumpff_series_3(z)
+    half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
+    ratio = sin(half) / half
+    c3 = _stumpff_series_3(z) if z <= 4.0 else (1.0 - ratio * cos(half)) / z
+    return ratio * cos(half), 0.5 * (ratio * ratio), c3
+
+
+def _stumpff_123(z):
+    """Return, for z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
+    if z <= 0.0625:
+        return _stumpff_small_1(z), _stumpff_small_2(z), _stumpff_small_3(z)
+    return _stumpff_123_far(z)
 
 
 def _stumpff_12(z):
@@ -377,51 +377,49 @@ def _advance(state, h, memory, statistics):
     for sweep in range(1, 101):
         Y_0 = h * xi1_0
         Y_1 = h * xi1_1
-        w6 = mu0 * Y_1 - mu1 * Y_0
         Y_2 = h * xi1_2
         w1 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2
-        w3 = mu1 * Y_2 - mu2 * Y_1
-        w17 = Y_0 * w6 - Y_2 * w3
-        w5 = mu2 * Y_0 - mu0 * Y_2
-        w7 = Y_2 * w5 - Y_1 * w6
-        w19 = Y_1 * w3 - Y_0 * w5
-        z_0 = xi1_0 * w8
-        z_1 = xi1_1 * w8
-        w13 = n1_1 * z_0 - n1_0 * z_1
-        z_2 = xi1_2 * w8
-        w9 = z_0 * z_0 + z_1 * z_1 + z_2 * z_2
-        w11 = n1_2 * z_1 - n1_1 * z_2
-        w18 = z_2 * w11 - z_0 * w13
-        w14 = n1_0 * z_2 - n1_2 * z_0
-        w15 = z_1 * w13 - z_2 * w14
-        w20 = z_0 * w14 - z_1 * w11
-        X1_2 = xi1_2 * w16
-        w21 = X1_2 * X1_2
-        X1_0 = xi1_0 * w16
-        X1_1 = xi1_1 * w16
-        w22 = X1_0 * X1_0 + X1_1 * X1_1 + w21
-        c1_1, c2_3 = _stumpff_12(w22)
-        w24 = X1_2 * c1_1
-        w26 = X1_0 * c2_3
-        w27 = X1_1 * w26
-        w28 = X1_2 * c2_3
-        w29 = X1_2 * w28
-        w30 = X1_1 * c2_3
-        Q1_5 = (
-            g02 * (w24 + w27) + g12 * (1.0 - (X1_0 * w26 + w29))
-            + g22 * (X1_2 * w30 - X1_0 * c1_1)
-        )
-        Q1_2 = (
-            g12 * (w27 - w24) + g02 * (1.0 - (w29 + X1_1 * w30))
-            + g22 * (X1_2 * w26 + X1_1 * c1_1)
-        )
-        c2_2, c3_2 = _stumpff_23(w9)
-        w10 = c2_2
         c2_1, c3_1 = _stumpff_23(w1)
         w2 = c2_1
+        w3 = mu1 * Y_2 - mu2 * Y_1
+        w5 = mu2 * Y_0 - mu0 * Y_2
+        w6 = mu0 * Y_1 - mu1 * Y_0
+        w7 = Y_2 * w5 - Y_1 * w6
+        z_0 = xi1_0 * w8
+        z_1 = xi1_1 * w8
+        z_2 = xi1_2 * w8
+        w9 = z_0 * z_0 + z_1 * z_1 + z_2 * z_2
+        c1_1, c2_2, c3_2 = _stumpff_123(w9)
+        w10 = c2_2
+        w11 = n1_2 * z_1 - n1_1 * z_2
+        w13 = n1_1 * z_0 - n1_0 * z_1
+        w14 = n1_0 * z_2 - n1_2 * z_0
+        w15 = z_1 * w13 - z_2 * w14
         M1_0 = mu0 - w2 * w3 + w7 * c3_1 + w16 * (n1_0 - w10 * w11 + w15 * c3_2)
+        w17 = Y_0 * w6 - Y_2 * w3
+        w18 = z_2 * w11 - z_0 * w13
         M1_1 = mu1 - w2 * w5 + w17 * c3_1 + w16 * (n1_1 - w10 * w14 + w18 * c3_2)
+        w19 = Y_1 * w3 - Y_0 * w5
+        w20 = z_0 * w14 - z_1 * w11
         M1_2 = mu2 - w2 * w6 + w19 * c3_1 + w16 * (n1_2 - w10 * w13 + w20 * c3_2)
+        X1_2 = xi1_2 * w16
+        w21 = c1_1
+        w22 = X1_2 * w21
+        X1_1 = xi1_1 * w16
+        X1_0 = xi1_0 * w16
+        w23 = w10 * X1_0
+        w24 = X1_1 * w23
+        w25 = w10 * X1_2
+        w26 = X1_2 * w25
+        w27 = w10 * X1_1
+        Q1_5 = (
+            g02 * (w22 + w24) + g12 * (1.0 - (X1_0 * w23 + w26))
+            + g22 * (X1_2 * w27 - w21 * X1_0)
+        )
+        Q1_2 = (
+            g12 * (w24 - w22) + g02 * (1.0 - (w26 + X1_1 * w27))
+            + g22 * (X1_2 * w23 + w21 * X1_1)
+        )
         next_xi1_0 = 0.001 * M1_0
         next_xi1_1 = 0.0002 * M1_1
         next_xi1_2 = 0.00016666666666666666 * M1_2
@@ -440,112 +438,110 @@ def _advance(state, h, memory, statistics):
         if not isfinite(total):
             raise _failed(NOT_FINITE, "the equations of xi1, n1", 0, sweep, statistics)
         if make_1:
-            w31 = 0.001 * c3_1
-            w32 = Y_1 * w31
-            w33 = h * mu1
-            w34 = Y_2 * w31
-            w35 = h * mu2
-            w36 = slope3(w9)
+            w28 = 0.001 * c3_1
+            w29 = Y_1 * w28
+            w30 = h * mu1
+            w31 = Y_2 * w28
+            w32 = h * mu2
+            w33 = slope3(w1)
+            w34 = slope2(w1)
+            w35 = 0.001 * w7 * w33 - 0.001 * w3 * w34
+            w36 = 2.0 * Y_0 * h
             w37 = 0.0005 * h
-            w38 = slope2(w9)
-            w39 = w15 * w37 * w36 - w11 * w37 * w38
-            w40 = 2.0 * z_0 * w8
-            w41 = slope3(w1)
-            w42 = slope2(w1)
-            w43 = 0.001 * w7 * w41 - 0.001 * w3 * w42
-            w44 = 2.0 * Y_0 * h
-            w45 = w37 * c3_2
-            w46 = z_1 * w45
-            w47 = n1_1 * w8
-            w48 = z_2 * w45
-            w49 = n1_2 * w8
-            w50 = w32 * w33 + w34 * w35 + w39 * w40 + w43 * w44 + w46 * w47 + w48 * w49
-            w51 = w10 * w37
-            w52 = h * mu0
-            w53 = -0.001 * w2
+            w38 = w37 * c3_2
+            w39 = z_1 * w38
+            w40 = n1_1 * w8
+            w41 = z_2 * w38
+            w42 = n1_2 * w8
+            w43 = slope3(w9)
+            w44 = slope2(w9)
+            w45 = w15 * w37 * w43 - w11 * w37 * w44
+            w46 = 2.0 * z_0 * w8
+            w47 = w29 * w30 + w31 * w32 + w35 * w36 + w39 * w40 + w41 * w42 + w45 * w46
+            w48 = h * mu0
+            w49 = -0.001 * w2
+            w50 = 2.0 * Y_1 * h
+            w51 = w13 * w38 * w8 - w6 * w28 * h - w29 * w48 - w32 * w49 + w35 * w50
+            w52 = n1_0 * w8
+            w53 = w10 * w37
             w54 = 2.0 * z_1 * w8
-            w55 = w13 * w45 * w8 - w6 * w31 * h - w32 * w52 - w35 * w53 + w39 * w54
-            w56 = 2.0 * Y_1 * h
-            w57 = n1_0 * w8
-            w58 = 2.0 * z_2 * w8
-            w59 = w5 * w31 * h - w14 * w45 * w8 - w34 * w52 + w33 * w53 + w39 * w58
-            w60 = 2.0 * Y_2 * h
-            w61 = 0.0002 * c3_1
-            w62 = 0.0001 * h
-            w63 = w62 * c3_2
-            w64 = Y_0 * w61
-            w65 = -0.0002 * w2
-            w66 = w18 * w62 * w36 - w14 * w62 * w38
-            w67 = w6 * w61 * h - w13 * w63 * w8 - w33 * w64 + w35 * w65 + w40 * w66
-            w68 = 0.0002 * w17 * w41 - 0.0002 * w5 * w42
-            w69 = z_0 * w63
-            w70 = w10 * w62
-            w71 = Y_2 * w61
-            w72 = z_2 * w63
-            w73 = w52 * w64 + w35 * w71 + w54 * w66 + w56 * w68 + w57 * w69 + w49 * w72
-            w74 = w11 * w63 * w8 - w3 * w61 * h - w52 * w65 - w33 * w71 + w58 * w66
-            w75 = 8.333333333333333e-05 * h
-            w76 = w75 * c3_2
-            w77 = z_0 * w76
-            w78 = 0.00016666666666666666 * c3_1
-            w79 = -0.00016666666666666666 * w2
-            w80 = Y_0 * w78
-            w81 = w20 * w75 * w36 - w13 * w75 * w38
-            w82 = w14 * w76 * w8 - w5 * w78 * h - w33 * w79 - w35 * w80 + w40 * w81
-            w83 = 0.00016666666666666666 * w19 * w41 - 0.00016666666666666666 * w6 * w42
-            w84 = w10 * w75
-            w85 = z_1 * w76
-            w86 = Y_1 * w78
-            w87 = w3 * w78 * h - w11 * w76 * w8 + w52 * w79 - w35 * w86 + w54 * w81
-            w88 = w52 * w80 + w33 * w86 + w58 * w81 + w60 * w83 + w57 * w77 + w47 * w85
-            w89 = g12 * w26
-            w90 = g22 * c1_1
-            w91 = w16 * c2_3
-            w92 = g02 * X1_1
-            w93 = g12 * X1_0 - w92
-            w94 = 2.0 * X1_0 * w16
-            c3_3 = _stumpff_3(w22)
-            w95 = 0.5 * (c3_3 - c2_3)
-            w96 = slope2(w22)
-            w97 = w21 * w96
-            w98 = g22 * X1_2
-            w99 = X1_1 * w96
-            w100 = X1_0 * w96
-            w101 = X1_2 * w95
-            w102 = g22 * X1_0 * w95 + g12 * w97 - w98 * w99 + w93 * w100 - g02 * w101
-            w103 = 2.0 * X1_1 * w16
-            w104 = 2.0 * w28
-            w105 = 2.0 * X1_2 * w16
-            w106 = w98 + g12 * X1_1
-            w107 = g22 * X1_1 * w95 - g02 * w97 - w92 * w99 + w100 * w106 - g12 * w101
+            w55 = 2.0 * Y_2 * h
+            w56 = w5 * w28 * h - w14 * w38 * w8 - w31 * w48 + w30 * w49 + w35 * w55
+            w57 = 2.0 * z_2 * w8
+            w58 = 0.0002 * c3_1
+            w59 = 0.0001 * h
+            w60 = w59 * c3_2
+            w61 = Y_0 * w58
+            w62 = -0.0002 * w2
+            w63 = 0.0002 * w17 * w33 - 0.0002 * w5 * w34
+            w64 = w6 * w58 * h - w13 * w60 * w8 - w30 * w61 + w32 * w62 + w36 * w63
+            w65 = z_0 * w60
+            w66 = w10 * w59
+            w67 = w18 * w59 * w43 - w14 * w59 * w44
+            w68 = Y_2 * w58
+            w69 = z_2 * w60
+            w70 = w48 * w61 + w32 * w68 + w50 * w63 + w52 * w65 + w42 * w69 + w54 * w67
+            w71 = w11 * w60 * w8 - w3 * w58 * h - w48 * w62 - w30 * w68 + w55 * w63
+            w72 = 8.333333333333333e-05 * h
+            w73 = w72 * c3_2
+            w74 = 0.00016666666666666666 * c3_1
+            w75 = -0.00016666666666666666 * w2
+            w76 = Y_0 * w74
+            w77 = 0.00016666666666666666 * w19 * w33 - 0.00016666666666666666 * w6 * w34
+            w78 = w14 * w73 * w8 - w5 * w74 * h - w30 * w75 - w32 * w76 + w36 * w77
+            w79 = w10 * w72
+            w80 = z_0 * w73
+            w81 = w20 * w72 * w43 - w13 * w72 * w44
+            w82 = Y_1 * w74
+            w83 = w3 * w74 * h - w11 * w73 * w8 + w48 * w75 - w32 * w82 + w50 * w77
+            w84 = z_1 * w73
+            w85 = w48 * w76 + w30 * w82 + w55 * w77 + w52 * w80 + w40 * w84 + w57 * w81
+            w86 = g22 * w21
+            w87 = w10 * w16
+            w88 = g02 * X1_1
+            w89 = g12 * X1_0 - w88
+            w90 = 0.5 * (c3_2 - w10)
+            w91 = X1_2 * w90
+            w92 = X1_2 * X1_2
+            w93 = g22 * X1_2
+            w94 = (
+                g22 * X1_0 * w90 - g02 * w91
+                + w44 * (g12 * w92 - X1_1 * w93 + X1_0 * w89)
+            )
+            w95 = w16 * w23
+            w96 = 2.0 * w25
+            w97 = w16 * w21
+            w98 = w93 + g12 * X1_1
+            w99 = (
+                g22 * X1_1 * w90 - g12 * w91
+                + w44 * (X1_0 * w98 - (g02 * w92 + X1_1 * w88))
+            )
+            w100 = -(w16 * (w86 - g02 * w27) + g12 * w95 - w87 * w88 + w54 * w99)
             row_1_1 = [
-                1.0 - w50, w49 * w51 - (w55 + w43 * w56 - w46 * w57),
-                -(w59 + w43 * w60 - w48 * w57 + w47 * w51),
-                z_2 * w48 - (w37 - z_1 * w46), -(z_0 * w46 + z_2 * w51),
-                z_1 * w51 - z_0 * w48,
+                1.0 - w47, -(w51 - w39 * w52 - w42 * w53 + w45 * w54),
+                -(w56 - w41 * w52 + w40 * w53 + w45 * w57),
+                z_2 * w41 - (w37 - z_1 * w39), -(z_0 * w39 + z_2 * w53),
+                z_1 * w53 - z_0 * w41,
             ]
             row_1_2 = [
-                -(w67 + w44 * w68 - w47 * w69 + w49 * w70), 1.0 - w73,
-                w47 * w72 - (w74 + w60 * w68 - w57 * w70), z_2 * w70 - z_1 * w69,
-                z_2 * w72 - (w62 - z_0 * w69), -(z_0 * w70 + z_1 * w72),
+                -(w64 - w40 * w65 + w42 * w66 + w46 * w67), 1.0 - w70,
+                -(w71 - w52 * w66 - w40 * w69 + w57 * w67), z_2 * w66 - z_1 * w65,
+                z_2 * w69 - (w59 - z_0 * w65), -(z_0 * w66 + z_1 * w69),
             ]
             row_1_3 = [
-                w49 * w77 - (w82 + w44 * w83 - w47 * w84),
-                w49 * w85 - (w87 + w56 * w83 + w57 * w84), 1.0 - w88,
-                -(z_1 * w84 + z_2 * w77), z_0 * w84 - z_2 * w85,
-                z_1 * w85 - (w75 - z_0 * w77),
+                -(w78 - w40 * w79 - w42 * w80 + w46 * w81),
+                -(w83 + w52 * w79 - w42 * w84 + w54 * w81), 1.0 - w85,
+                -(z_1 * w79 + z_2 * w80), z_0 * w79 - z_2 * w84,
+                z_1 * w84 - (w72 - z_0 * w80),
             ]
             row_1_4 = [
-                -(w16 * (w89 + w90) + w91 * w93 + w94 * w102),
-                w16 * (g02 * w26 + w98 * c2_3) - w102 * w103,
-                -(w102 * w105 + w16 * (g12 * w104 - g22 * w30 - g02 * c1_1)), 1.0, 0.0,
-                0.0,
+                -(w16 * (g12 * w23 + w86) + w87 * w89 + w46 * w94),
+                g02 * w95 + w87 * w93 - w54 * w94,
+                -(w16 * (g12 * w96 - g22 * w27) - g02 * w97 + w57 * w94), 1.0, 0.0, 0.0,
             ]
             row_1_5 = [
-                -(w91 * w106 + w94 * w107),
-                -(w103 * w107 + w16 * (w90 - g02 * w30 + w89 - w92 * c2_3)),
-                -(w16 * (g22 * w26 - g02 * w104 - g12 * c1_1) + w105 * w107), 0.0, 1.0,
-                0.0,
+                -(w87 * w98 + w46 * w99), w100,
+                -(w16 * (g22 * w23 - g02 * w96) - g12 * w97 + w57 * w99), 0.0, 1.0, 0.0,
             ]
             row_1_6 = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
             memory.inverses[0] = invert([row_1_1, row_1_2, row_1_3, row_1_4, row_1_5, row_1_6])
@@ -614,42 +610,41 @@ def _advance(state, h, memory, statistics):
         raise _failed(NOT_CONVERGED, "the equations of xi1, n1", 0, sweep, statistics)
     if statistics is not None:
         statistics.count(0, sweep)
-    w108 = Y_1 * w2
-    w109 = Y_1 * w108
-    w110 = Y_2 * w2 * Y_2
-    g_0 = 1.0 - (w109 + w110)
-    w111 = Y_0 * w2
-    w112 = Y_1 * w111
+    w101 = Y_1 * w2
+    w102 = Y_1 * w101
+    w103 = Y_2 * w2 * Y_2
+    g_0 = 1.0 - (w102 + w103)
+    w104 = Y_0 * w2
+    w105 = Y_1 * w104
     c1_2 = _stumpff_1(w1)
-    w114 = Y_2 * c1_2
-    g_1 = w112 - w114
-    w115 = Y_1 * c1_2
-    w116 = Y_2 * w111
-    g_2 = w115 + w116
-    g_3 = w112 + w114
-    w117 = Y_0 * w111
-    g_4 = 1.0 - (w110 + w117)
-    w118 = Y_2 * w108
-    w119 = Y_0 * c1_2
-    g_5 = w118 - w119
-    g_6 = w116 - w115
-    g_7 = w118 + w119
-    g_8 = 1.0 - (w109 + w117)
-    w120 = z_1 * w10
-    w121 = z_2 * w10 * z_2
-    c1_3 = _stumpff_1(w9)
-    w123 = z_2 * c1_3
-    w124 = z_0 * w10
-    w125 = z_1 * w124
+    w107 = Y_2 * c1_2
+    g_1 = w105 - w107
+    w108 = Y_1 * c1_2
+    w109 = Y_2 * w104
+    g_2 = w108 + w109
+    g_3 = w105 + w107
+    w110 = Y_0 * w104
+    g_4 = 1.0 - (w103 + w110)
+    w111 = Y_2 * w101
+    w112 = Y_0 * c1_2
+    g_5 = w111 - w112
+    g_6 = w109 - w108
+    g_7 = w111 + w112
+    g_8 = 1.0 - (w102 + w110)
+    w113 = z_1 * w10
+    w114 = z_2 * w10 * z_2
+    w115 = z_2 * w21
+    w116 = z_0 * w10
+    w117 = z_1 * w116
     mu1_0 = (
         mu0 * g_0 + mu1 * g_1 + mu2 * g_2
-        + h * (n1_0 * (1.0 - (z_1 * w120 + w121)) + n1_1 * (w123 + w125))
+        + h * (n1_0 * (1.0 - (z_1 * w113 + w114)) + n1_1 * (w115 + w117))
     )
     mu1_1 = (
         mu0 * g_3 + mu1 * g_4 + mu2 * g_5
-        + h * (n1_0 * (w125 - w123) + n1_1 * (1.0 - (w121 + z_0 * w124)))
+        + h * (n1_0 * (w117 - w115) + n1_1 * (1.0 - (w114 + z_0 * w116)))
     )
-    w126 = h * (n1_0 * (z_2 * w124 + z_1 * c1_3) + n1_1 * (z_2 * w120 - z_0 * c1_3))
+    w118 = h * (n1_0 * (z_1 * w21 + z_2 * w116) + n1_1 * (z_2 * w113 - z_0 * w21))
     new_g00 = g00 * g_0 + g10 * g_1 + g20 * g_2
     new_g01 = g01 * g_0 + g11 * g_1 + g21 * g_2
     new_g02 = g02 * g_0 + g12 * g_1 + g22 * g_2
@@ -659,7 +654,7 @@ def _advance(state, h, memory, statistics):
     new_g20 = g00 * g_6 + g10 * g_7 + g20 * g_8
     new_g21 = g01 * g_6 + g11 * g_7 + g21 * g_8
     new_g22 = g02 * g_6 + g12 * g_7 + g22 * g_8
-    new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w126
+    new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w118
     found = xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2
     memory.keep(found)
     return (
