@@ -7,7 +7,7 @@ alike, ``steps`` counts the steps made; those refused are paid for in evaluation
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from codegen.lab.contest import MOST_STEPS, EmittedContestant, Row
@@ -35,6 +35,12 @@ class AdaptiveContestant(EmittedContestant):
     def controls(self) -> Iterator[float]:
         """Tighten the tolerance."""
         yield from TOLERANCES
+
+    def enough(self, rows: Sequence[Row]) -> bool:
+        """Stop as others do, but not where a loose tolerance let the run go astray: that takes many steps."""
+        error = rows[-1].error
+        astray = error is not None and error > max(1.0, math.hypot(*map(float, self.exact.state)))
+        return not astray and super().enough(rows)
 
     def arrive(self, tolerance: float, statistics: Statistics | None = None) -> Arrival:
         """Return where a run with that tolerance ends; a tolerance of infinity ends where it begins."""

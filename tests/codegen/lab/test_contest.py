@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 from pathlib import Path
@@ -240,6 +241,9 @@ def test_stiff_equations_are_solved_in_steps_that_the_fast_rates_do_not_bound(
     row = stiff.measure(1e-3)
     assert (row.error or 1.0) < 1e-6
     assert (row.steps or 60) < 60
+    spent = replace(row, seconds=2 * stiff.budget)
+    assert stiff.enough([spent])
+    assert not stiff.enough([replace(spent, error=20.0)])  # unstable: a tighter tolerance takes less
     failed = stiff.measure(1e-30)
     assert failed.error is None
     assert "tolerance" in failed.failure
