@@ -199,7 +199,7 @@ def velocities(vertices: int) -> tuple[Velocity, ...]:
     (o(o), o(|f(*)), o(|L(o)))
     """
     found = [
-        velocity(word, momenta)
+        _velocity(word, momenta)  # a multiset is made in canonical order
         for k in range(vertices)
         for word in words(k)
         for momenta in multisets(vertices - 1 - k)
@@ -232,7 +232,7 @@ def momenta(vertices: int) -> Momenta:
     [2, 8, 48, 328]
     """
     found: list[Momentum] = [
-        force(before, after, others)
+        _force(before, after, others)
         for j in range(vertices)
         for before in words(j)
         for k in range(vertices - j)
@@ -245,7 +245,7 @@ def momenta(vertices: int) -> Momenta:
 
 @cache
 def multisets(vertices: int) -> tuple[Momenta, ...]:
-    """Return every multiset of g*-valued trees with that many copies of H in all.
+    """Return every multiset of g*-valued trees with that many copies of H, ordered as :func:`multiset` does.
 
     >>> multisets(1)
     ((f(*),), (L(o),))

@@ -5,6 +5,7 @@ from orderconds.series.action_trees import (
     force,
     hamiltonian,
     momenta,
+    multiset,
     multisets,
     transport,
     velocities,
@@ -55,3 +56,7 @@ def test_symmetry_counts_equal_momenta_only():
 def test_elementary_hamiltonian_names_derivatives_in_the_order_of_action():
     tree = velocity((LEAF, velocity((LEAF,))), (force((LEAF,), (LEAF,)),))
     assert hamiltonian(tree) == "H_qqm(H_m, H_qm(H_m); H_qqq(H_m, ., H_m))"
+
+
+def test_multisets_are_made_in_canonical_order():
+    assert all(chosen == multiset(chosen) for n in range(6) for chosen in multisets(n))
