@@ -19,6 +19,9 @@ from orderconds.ring.decimals import Enclosure, decimal, nearest_float, rational
 from orderconds.ring.precision import precision
 from orderconds.ring.roots import isolating
 
+LARGE = 8
+"""From this degree on division is a linear system."""
+
 
 @dataclass(frozen=True)
 class Generator:
@@ -243,12 +246,8 @@ class Algebraic:
         >>> x.minimal_polynomial
         x^4 + (-10)*x^2 + 1
         """
-        columns, image = [], fmpq_poly([1])
-        for _ in range(self.field.degree):
-            columns.append(self.polynomial * image % self.field.modulus)
-            image = image * fmpq_poly([0, 1]) % self.field.modulus
         # multiplication by x has a power of the minimal polynomial as characteristic polynomial
-        factor = _columns(columns, self.field.degree).charpoly().factor()[1][0][0]
+        factor = _columns(self._multiples(), self.field.degree).charpoly().factor()[1][0][0]
         return factor / factor.leading_coefficient()
 
     def _pair(self, other: Any) -> tuple[Algebraic, Algebraic] | None:
@@ -303,8 +302,26 @@ class Algebraic:
         key = str(self.polynomial)
         known = self.field.reciprocals
         if key not in known:
-            known[key] = Algebraic(self.field, self.polynomial.xgcd(self.field.modulus)[1])
+            inverse = self._solved() if self.field.degree >= LARGE else self._by_euclid()
+            known[key] = Algebraic(self.field, inverse)
         return known[key]
+
+    def _by_euclid(self) -> fmpq_poly:
+        return self.polynomial.xgcd(self.field.modulus)[1]
+
+    def _solved(self) -> fmpq_poly:
+        """Return y with x y = 1 by linear algebra, where Euclid's remainders would have long coefficients."""
+        degree = self.field.degree
+        unit = fmpq_mat(degree, 1, [1] + [0] * (degree - 1))
+        return fmpq_poly(_columns(self._multiples(), degree).solve(unit).entries())
+
+    def _multiples(self) -> list[fmpq_poly]:
+        """Return x a^k, a the primitive element: the columns of multiplication by x."""
+        columns, image = [], self.polynomial
+        for _ in range(self.field.degree):
+            columns.append(image)
+            image = image * fmpq_poly([0, 1]) % self.field.modulus
+        return columns
 
     def __truediv__(self, other: Any) -> Algebraic:
         if (pair := self._pair(other)) is None:

@@ -214,3 +214,12 @@ def test_numbers_embed_in_balls_that_contain_them_and_in_series() -> None:
     assert series.is_zero(embedding(QQ, series)(fmpq(1, 2)) * 2 - 1)
     with pytest.raises(TypeError):
         embedding(balls, QQ)
+
+
+def test_both_ways_to_divide_give_the_reciprocal() -> None:
+    tower = Tower()
+    x = tower.root(tower.rational(2), 5) + tower.root(tower.rational(3), 2) + 1
+    assert x.field.degree == 10
+    assert x._solved() == x._by_euclid() == x.reciprocal().polynomial
+    assert x * x.reciprocal() == 1
+    assert x.reciprocal() is x.reciprocal(), "remembered"
