@@ -1205,6 +1205,9 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         make_1 = 0;
         previous_1 = change;
     }
+    const double solution[12] = {xi1_0, xi1_1, xi1_2, xi2_0, xi2_1, xi2_2, xi3_0, xi3_1, xi3_2,
+        xi4_0, xi4_1, xi4_2};
+    remember(memory, solution);
     const double w247 = xi2_1 + xi3_1;
     const double w248 = w59 * w247;
     const double xe1_1_ = xi1_1 * w116 + w248 + xi4_1 * w119;
@@ -1331,9 +1334,6 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         + ((new_mu1 - new_mu1) + (new_mu2 - new_mu2)) == 0.0)) {
         return DIPOLE_VCF_CF4_NOT_FINITE;
     }
-    const double solution[12] = {xi1_0, xi1_1, xi1_2, xi2_0, xi2_1, xi2_2, xi3_0, xi3_1, xi3_2,
-        xi4_0, xi4_1, xi4_2};
-    remember(memory, solution);
     memory->made_1 = memory->made_1 % 6 > 0 ? memory->made_1 + 1 : 0;
     state[0] = new_g00;
     state[1] = new_g01;

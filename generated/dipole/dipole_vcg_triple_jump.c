@@ -476,6 +476,8 @@ static inline int substep(double state[static 12], double h, struct memory *memo
         make_1 = 0;
         previous_1 = change;
     }
+    const double solution[3] = {xi1_0, xi1_1, xi1_2};
+    remember(memory, solution);
     const double xe1_1_ = h * xi1_1;
     const double xe1_0_ = h * xi1_0;
     const double xe1_2_ = h * xi1_2;
@@ -531,8 +533,6 @@ static inline int substep(double state[static 12], double h, struct memory *memo
         + ((new_mu1 - new_mu1) + (new_mu2 - new_mu2)) == 0.0)) {
         return DIPOLE_VCG_TRIPLE_JUMP_NOT_FINITE;
     }
-    const double solution[3] = {xi1_0, xi1_1, xi1_2};
-    remember(memory, solution);
     memory->made_1 = 0;
     state[0] = new_g00;
     state[1] = new_g01;

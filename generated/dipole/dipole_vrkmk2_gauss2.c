@@ -753,6 +753,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         make_1 = 0;
         previous_1 = change;
     }
+    const double solution[6] = {v1_0, v1_1, v1_2, v2_0, v2_1, v2_2};
+    remember(memory, solution);
     const double Y_1_ = (v1_1 + v2_1) * w1;
     const double Y_0_ = (v1_0 + v2_0) * w1;
     const double Y_2_ = (v1_2 + v2_2) * w1;
@@ -812,8 +814,6 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         + ((new_mu1 - new_mu1) + (new_mu2 - new_mu2)) == 0.0)) {
         return DIPOLE_VRKMK2_GAUSS2_NOT_FINITE;
     }
-    const double solution[6] = {v1_0, v1_1, v1_2, v2_0, v2_1, v2_2};
-    remember(memory, solution);
     memory->made_1 = memory->made_1 % 3 > 0 ? memory->made_1 + 1 : 0;
     state[0] = new_g00;
     state[1] = new_g01;

@@ -971,6 +971,8 @@ static inline int advance(double state[static 4], double h, struct memory *memor
         make_1 = 0.015625 * previous_1 > 0.0 && change > 0.015625 * previous_1;
         previous_1 = change;
     }
+    const double solution[3] = {xi_0, xi_1, xi_2};
+    remember(memory, solution);
     const double x_0_ = h * xi_0;
     const double x_1_ = h * xi_1;
     const double x_2_ = h * xi_2;
@@ -988,8 +990,6 @@ static inline int advance(double state[static 4], double h, struct memory *memor
     if (!(((Y_0_ - Y_0_) + (Y_1_ - Y_1_)) + ((Y_2_ - Y_2_) + (Y_3_ - Y_3_)) == 0.0)) {
         return FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE;
     }
-    const double solution[3] = {xi_0, xi_1, xi_2};
-    remember(memory, solution);
     state[0] = Y_0_;
     state[1] = Y_1_;
     state[2] = Y_2_;

@@ -738,6 +738,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         make_1 = 0.015625 * previous_1 > 0.0 && change > 0.015625 * previous_1;
         previous_1 = change;
     }
+    const double solution[6] = {xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2};
+    remember(memory, solution);
     const double w101 = Y_1 * w2;
     const double w102 = Y_1 * w101;
     const double w103 = Y_2 * w2 * Y_2;
@@ -787,8 +789,6 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         + ((mu1_1 - mu1_1) + (new_mu2 - new_mu2)) == 0.0)) {
         return HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE;
     }
-    const double solution[6] = {xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2};
-    remember(memory, solution);
     state[0] = new_g00;
     state[1] = new_g01;
     state[2] = new_g02;

@@ -95,7 +95,10 @@ def definition(
     symbols = tuple(s for f in kernel.state for s in f.symbols)
     real = interface.format.c_type
     statements = Statements(arrangement, names, interface.prefix, interface.format)
-    body = list(statements.lines())
+    # The next guess waits for the solution alone: it is made before what else does.
+    unknowns = [names.spelled[u] for u in kernel.start.unknowns] if kernel.start else []
+    kept = [*solution(unknowns, real), "remember(memory, solution);"] if unknowns else []
+    body = list(statements.lines(kept))
     ends, new = statements.outputs(symbols)
     read = arrangement.symbols()
     loads = [f"const {real} {names.spelled[s]} = state[{i}];" for i, s in enumerate(symbols) if s in read]
@@ -242,7 +245,6 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
         "time": interface.time,
         "newton": interface.newton,
         "memory": memory,
-        "solution": solution([names.spelled[u] for u in start.unknowns], real) if start else [],
         "zero": literal(interface.format, 0.0),
         "one": literal(interface.format, 1.0),
         "fabs": f"fabs{interface.format.suffix}",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from codegen.ir.expr import Expr
 from codegen.printers.arrange import Arrangement, Assignment, Beginning, Invocation, Iteration, Simple
@@ -58,11 +58,15 @@ class Statements:
         self.real = precision.c_type
         self.style = style(precision)
 
-    def lines(self) -> Iterator[str]:
-        """Yield the lines of every statement, in order."""
-        for statement in self.arrangement.statements:
+    def lines(self, after_loops: Sequence[str] = ()) -> Iterator[str]:
+        """Yield the lines of every statement, in order, and those that follow the last loop."""
+        last = max(
+            (k for k, s in enumerate(self.arrangement.statements) if isinstance(s, Iteration)), default=-1
+        )
+        for place, statement in enumerate(self.arrangement.statements):
             if isinstance(statement, Iteration):
                 yield from loops.iteration(self, statement)
+                yield from after_loops if place == last else ()
             elif isinstance(statement, Beginning):
                 yield from loops.beginning(self, statement)
             else:
