@@ -174,7 +174,7 @@ class Space:
         if a.op == "const":
             if a.payload.is_one:
                 return b
-            if (-a.payload).is_one:
+            if a.payload.is_minus_one:
                 return self.neg(b)
             if b.op == "const" and _joinable(a, b):
                 return self.const(a.payload * b.payload)

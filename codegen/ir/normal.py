@@ -33,13 +33,14 @@ class TooLong(ArithmeticError):
 class NormalForms:
     """Brings expressions of one space to normal form.
 
-    ``relations`` map a product of two symbols to what equals it; replacing must come to an end.
+    ``relations`` map a product of two symbols to what equals it; replacing must come to an end. ``whole``
+    are expressions that are not expanded.
     """
 
-    def __init__(self, space: Space, relations: Sequence[Relation] = ()) -> None:
+    def __init__(self, space: Space, relations: Sequence[Relation] = (), whole: Sequence[Expr] = ()) -> None:
         self.space = space
         self.atoms: dict[int, Expr] = {}
-        self.known: dict[int, Polynomial] = {}
+        self.known: dict[int, Polynomial] = {x.id: {((self._atom(x), 1),): ONE} for x in whole}
         self.rules: dict[tuple[int, int], Polynomial] = {}
         for (a, b), terms in relations:
             i, j = sorted((self._atom(space.sym(a)), self._atom(space.sym(b))))

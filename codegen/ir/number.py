@@ -17,16 +17,23 @@ from orderconds.ring import QQ
 from orderconds.ring.protocol import Element, Ring
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Number:
     """An exact or certified real number; rational values are kept over QQ whatever ring they came from."""
 
-    ring: Ring = field(compare=False, repr=False)
-    element: Element = field(compare=False, repr=False)
-    key: tuple[Any, ...] = field(init=False)
+    ring: Ring = field(repr=False)
+    element: Element = field(repr=False)
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "key", tuple(self.ring.key(self.element)))
+    @cached_property
+    def key(self) -> tuple[Any, ...]:
+        """What tells whether numbers are equal."""
+        return tuple(self.ring.key(self.element))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Number) and self.key == other.key
+
+    def __hash__(self) -> int:
+        return hash(self.key)
 
     @classmethod
     def rational(cls, p: int, q: int = 1) -> Number:
@@ -46,6 +53,11 @@ class Number:
     def is_one(self) -> bool:
         """Whether this number is provably one."""
         return self.ring.is_zero(self.element - 1) is True
+
+    @cached_property
+    def is_minus_one(self) -> bool:
+        """Whether this number is provably minus one."""
+        return self.ring.is_zero(self.element + 1) is True
 
     @property
     def is_rational(self) -> bool:

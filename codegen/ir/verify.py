@@ -27,23 +27,23 @@ def verify(program: Program) -> Program:
     defined: set[Var] = set()
     names: set[str] = set()
 
-    def define(var: Var, at: str) -> None:
+    def define(var: Var, at: str | Assign) -> None:
         if var.name in names:
-            raise IllFormed(f"{program.name}: {var.name} is assigned twice, at {at}")
+            raise IllFormed(f"{program.name}: {var.name} is assigned twice, at {_place(at)}")
         names.add(var.name)
         defined.add(var)
 
-    def use(var: Var, at: str) -> None:
+    def use(var: Var, at: str | Assign) -> None:
         if var not in defined:
-            raise IllFormed(f"{program.name}: {var.name}: {var.kind} is used before it is defined, at {at}")
+            what = f"{var.name}: {var.kind} is used before it is defined"
+            raise IllFormed(f"{program.name}: {what}, at {_place(at)}")
 
     def check(assign: Assign) -> None:
-        at = assign.text()
         for arg in assign.args:
-            use(arg, at)
+            use(arg, assign)
         _types(program.name, assign)
         for target in assign.targets:
-            define(target, at)
+            define(target, assign)
 
     for var in program.inputs:
         define(var, "the inputs")
@@ -68,6 +68,11 @@ def verify(program: Program) -> Program:
         if inputs.get("y" if name == EMBEDDED else name) != var.kind:
             raise IllFormed(f"{program.name}: output {name} replaces no input of kind {var.kind}")
     return program
+
+
+def _place(at: str | Assign) -> str:
+    """Spell where something is wrong; long numbers make that slow, so it is done for what is wrong alone."""
+    return at.text() if isinstance(at, Assign) else at
 
 
 def _shape(name: str, block: Solve) -> None:

@@ -348,7 +348,16 @@ def _compared(
     if not residuals:
         return None
     space = residuals[0].space
-    normal, linear = NormalForms(space), FirstOrder(entered.unknowns)
+    inside = {v for assign in block.body for v in assign.targets}
+    known = [
+        x
+        for v, value in env.items()
+        if v not in inside
+        for x in flatten(v.kind, value)
+        if x.op in ("add", "sub")
+    ]
+    free = _independent(known, entered.unknowns)
+    normal, linear = NormalForms(space, whole=free), FirstOrder(entered.unknowns)
     try:
         rows = linear.jacobian(residuals)
     except NotLinearised:
@@ -382,6 +391,16 @@ def _compared(
         changes=changes,
         kept=tuple(kept),
     )
+
+
+def _independent(values: Sequence[Expr], unknowns: Sequence[str]) -> list[Expr]:
+    """Return those values that depend neither on unknowns nor on h: they stand still in an expansion."""
+    moving = {*unknowns, "h"}
+    depends: dict[int, bool] = {}
+    for node in walk(values):
+        own = node.op == "sym" and node.payload in moving
+        depends[node.id] = own or any(depends[a.id] for a in node.args)
+    return [x for x in values if not depends[x.id]]
 
 
 def _operations(roots: Iterable[Expr]) -> int:
