@@ -52,6 +52,9 @@ INLINE = 10
 """Largest number of operations spelled in one assignment: longer expressions get names on the way."""
 
 
+MANY = 12
+"""With more unknowns than this, entries of Newton's matrix keep as it is what does not move in a step."""
+
 LONGEST_MATRIX = 1500
 """How many operations an exact matrix of Newton's method may take: a longer one is made to first order."""
 
@@ -356,7 +359,8 @@ def _compared(
         for x in flatten(v.kind, value)
         if x.op in ("add", "sub")
     ]
-    free = _independent(known, entered.unknowns)
+    # Few unknowns: what is kept takes registers that sweeps need. Many: what is expanded takes lines.
+    free = _independent(known, entered.unknowns) if len(entered.unknowns) > MANY else []
     normal, linear = NormalForms(space, whole=free), FirstOrder(entered.unknowns)
     try:
         rows = linear.jacobian(residuals)
