@@ -207,6 +207,8 @@ def _correct(
             columns.append([(i == j) - x for i, x in enumerate(slopes)])
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
+        if near is not None:  # each correction squares the error
+            done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:
             images(now)

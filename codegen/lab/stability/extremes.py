@@ -254,6 +254,10 @@ class Rounding(PreciseDomain):
         after = [*images[1:], images[0]]
         return [x + a * x + b * y for x, y, (a, b) in zip(images, after, moves, strict=True)]
 
+    def increment(self, x: Any) -> Any:
+        """Return the step of a difference quotient: what rounding moves is asked to some digits only."""
+        return self.context.mpf(2) ** -40 * max(1, abs(x))
+
 
 def precise_step(
     compiled: Compiled,
