@@ -8,10 +8,12 @@ with -h; a symmetric method returns to the start up to rounding.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
 from codegen.emit import Compiled
+from codegen.ir.domain import NotConverged
 from codegen.lab.distance import distance
 from codegen.lab.drift import BLOCKS, Drift, fit
 from codegen.lab.kept import MANIFOLD, functions
@@ -42,8 +44,8 @@ class LongRun:
     nothing is said of what was kept where that is too short.
     ``reversals`` are numbers of steps with the distance from the start after the way there and back: of the
     whole run and, as chaos magnifies rounding, of a hundredth of it. ``symplectic`` is the defect of one
-    step, None off T*G and for a run that failed. ``rounding`` is how it grows in what the method keeps
-    exactly.
+    step, None off T*G, for a run that failed and for steps too long to be solved in 60 digits. ``rounding``
+    is how it grows in what the method keeps exactly.
     """
 
     scene: str
@@ -119,7 +121,10 @@ def longrun(
         except StepFailed as failed:
             failure = f"on the way back, {failed}"
     paired = scene.is_hamiltonian and not failure
-    symplectic = symplectic_defect(compiled, rows[len(rows) // 2], h) if paired else None
+    symplectic = None
+    if paired:
+        with suppress(NotConverged):
+            symplectic = symplectic_defect(compiled, rows[len(rows) // 2], h)
     grown = roundoff(compiled, h, min(steps, ROUNDED)) if rounding and not failure else ()
     return LongRun(
         scene.name, compiled.method.label, h, steps, kept, tuple(reversals), symplectic, failure, grown

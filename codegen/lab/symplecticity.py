@@ -19,6 +19,9 @@ DIGITS = 60
 OFFSET = 15
 """Decimal digits of the offset of a central difference: its error is about the offset squared."""
 
+SWEEPS = 100
+"""Sweeps of an implicit block; steps that contract more slowly are too long to be looked at in 60 digits."""
+
 Values = tuple[Any, ...]
 
 
@@ -26,6 +29,7 @@ def symplectic_defect(compiled: Compiled, state: Sequence[float], h: float, t: f
     """Return the largest entry of J^T Omega(end) J - Omega(start), relative to that of Omega(start).
 
     ``state`` is flat: the group element, then the momentum. The scene must be Hamiltonian.
+    :class:`NotConverged` where an implicit block takes more than :data:`SWEEPS` sweeps.
     """
     import numpy
 
@@ -71,7 +75,8 @@ def _step(compiled: Compiled, domain: PreciseDomain, q: Values, mu: Values, t: A
         values[block.name] = tuple(flat[start : start + len(block.symbols)])
         start += len(block.symbols)
     program = compiled.program
-    found = interpret(program, view, domain, {v.name: values[v.name] for v in program.inputs})
+    inputs = {v.name: values[v.name] for v in program.inputs}
+    found = interpret(program, view, domain, inputs, limit=SWEEPS, newton=False)
     state = tuple(x for block in view.state for x in flatten(block.kind, found[block.name]))
     return state[: len(q)], state[len(q) :]
 
