@@ -27,8 +27,8 @@ def call(start: str, terms: list[str], depth: int) -> list[str]:
 def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
     """Return start, terms with commas and end on one line, or with as many terms a line as there is room for.
 
-    >>> filled("x = f(", ["a" * 40, "b" * 40, "c"], ")", 0)[2]
-    '    bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, c,'
+    >>> filled("x = f(", ["a" * 42, "b" * 42, "c"], ")", 0)[2]
+    '    bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, c,'
     """
     space = "    " * depth
     line = f"{space}{start}{', '.join(terms)}{end}"
