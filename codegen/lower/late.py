@@ -79,6 +79,7 @@ class _Chains:
     follow: dict[int, int] = field(default_factory=dict)
     fixed: dict[int, bool] = field(default_factory=dict)
     new: dict[int, Expr] = field(default_factory=dict)
+    sums: dict[tuple[int, int, int], Sum] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.nodes = list(walk(self.roots))
@@ -127,7 +128,13 @@ class _Chains:
         return frozenset(ends)
 
     def _sum(self, node: Expr, level: int) -> Sum:
-        """Return an expression as a sum over the late values of a level."""
+        """Return an expression as a sum over the late values of a level; what is shared is expanded once."""
+        key = node.id, level, self.new[node.id].id
+        if key not in self.sums:
+            self.sums[key] = self._expanded(node, level)
+        return self.sums[key]
+
+    def _expanded(self, node: Expr, level: int) -> Sum:
         one = node.space.one
         if self.level[node.id] < level:
             return {None: (1, one, self.new[node.id])}
