@@ -29,14 +29,15 @@ SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n)
 
 
 def limit(precision: Precision = DOUBLE) -> float:
-    """Return the z beyond which c_k is not a number: an angle of 2^(bits/2), half of whose digits are turns.
+    """Return the z beyond which c_k is not a number: an angle of 2^21, two fifths of whose digits are turns.
 
-    A step that turns further says nothing; as it is, it says that its state is not finite.
+    A momentum carried along loses twice as many digits, by sums that go with the square of the angle, so that
+    nothing would be left of a step that turns much further. It says that its state is not finite.
 
-    >>> limit() == 2.0**52
+    >>> limit() == 2.0**42
     True
     """
-    return 2.0 ** (2 * (precision.bits // 2))
+    return 2.0 ** (2 * (2 * precision.bits // 5))
 
 
 def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> tuple[Fraction, ...]:
@@ -59,16 +60,17 @@ def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> 
 
 
 def economised(k: int, last: Fraction, bits: int = 53) -> tuple[Fraction, ...]:
-    """Return the shortest polynomial for c_k up to ``last`` that errs by half a unit of the last bit at most.
+    """Return the shortest polynomial for c_k up to ``last`` that errs by a sixteenth of the last bit at most.
 
-    From its Taylor polynomial multiples of Chebyshev polynomials are taken, stretched so that they vanish at
+    Its error is as large everywhere, and of one sign where a motion is steady: half a bit, which would do for
+    one value, makes the norm of a quaternion drift by 4e-12 in 64,000 steps. From its Taylor polynomial multiples of Chebyshev polynomials are taken, stretched so that they vanish at
     zero, where the value stays exact: of all polynomials with one leading term these are the least.
 
     >>> [len(economised(1, last)) for last in (TINY, SMALL)]
-    [4, 5]
+    [4, 6]
     """
-    terms = list(coefficients(k, last, bits + 3))
-    spent, allowance = Fraction(0), Fraction(1, 2 ** (bits + 1) * factorial(k))
+    terms = list(coefficients(k, last, bits + 6))
+    spent, allowance = Fraction(0), Fraction(1, 2 ** (bits + 4) * factorial(k))
     while True:
         shift = _cosine(PI / (2 * (len(terms) - 1)))
         stretched = _chebyshev(len(terms) - 1, (1 + shift) / last, -shift)

@@ -186,9 +186,9 @@ def _stumpff_small_3(z):
     """Return c_3(z) for z <= 1/16."""
     w = z * z
     return (
-        (0.16666666666666666 + z * -0.008333333333333161)
-        + w * (0.00019841269838611386 + z * -2.7557306378194284e-06)
-        + w * w * 2.502764558451995e-08
+        (0.16666666666666666 + z * -0.008333333333333163)
+        + w * (0.0001984126983861331 + z * -2.755730638646008e-06)
+        + w * w * 2.5027657390139978e-08
     )
 
 
@@ -196,9 +196,9 @@ def _stumpff_small_2(z):
     """Return c_2(z) for z <= 1/16."""
     w = z * z
     return (
-        (0.5 + z * -0.041666666666664444)
-        + w * (0.0013888888885432897 + z * -2.480157060205821e-05)
-        + w * w * 2.7525517582787593e-07
+        (0.5 + z * -0.041666666666666664)
+        + w * (0.0013888888888888278 + z * -2.4801587297080002e-05)
+        + w * w * (2.7557304737591345e-07 + z * -2.0855622118602925e-09)
     )
 
 
@@ -206,9 +206,9 @@ def _stumpff_small_1(z):
     """Return c_1(z) for z <= 1/16."""
     w = z * z
     return (
-        (1.0 + z * -0.16666666666664)
-        + w * (0.008333333329190184 + z * -0.00019841249819193104)
-        + w * w * 2.7519182046349993e-06
+        (1.0 + z * -0.16666666666666666)
+        + w * (0.008333333333332476 + z * -0.0001984126983495962)
+        + w * w * (2.755729894303353e-06 + z * -2.5022519568470477e-08)
     )
 
 
@@ -251,7 +251,7 @@ def _stumpff_23_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 1.0:
         return _stumpff_series_2(z), _stumpff_series_3(z)
-    half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
+    half = 0.5 * sqrt(z if z <= 4398046511104.0 else float("nan"))
     ratio = sin(half) / half
     c3 = _stumpff_series_3(z) if z <= 4.0 else (1.0 - ratio * cos(half)) / z
     return 0.5 * (ratio * ratio), c3
@@ -270,7 +270,7 @@ def _stumpff_12_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z)
-    half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
+    half = 0.5 * sqrt(z if z <= 4398046511104.0 else float("nan"))
     ratio = sin(half) / half
     return ratio * cos(half), 0.5 * (ratio * ratio)
 
@@ -279,7 +279,7 @@ def _stumpff_123_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z), _stumpff_series_3(z)
-    half = 0.5 * sqrt(z if z <= 4503599627370496.0 else float("nan"))
+    half = 0.5 * sqrt(z if z <= 4398046511104.0 else float("nan"))
     ratio = sin(half) / half
     c3 = _stumpff_series_3(z) if z <= 4.0 else (1.0 - ratio * cos(half)) / z
     return ratio * cos(half), 0.5 * (ratio * ratio), c3

@@ -55,17 +55,18 @@ static inline double stumpff_tiny_1(double z)
 static inline double stumpff_tiny_0(double z)
 {
     const double w = z * z;
-    return (1.0 + z * -0.4999999999997288)
-        + w * (0.0416666662452806 + z * -0.001388702792916414);
+    return (1.0 + z * -0.5)
+        + w * (0.04166666666665553 + z * -0.001388888880278194)
+        + w * w * 2.479896366618844e-05;
 }
 
 /* c_1(z) for z <= 1/16 */
 static inline double stumpff_small_1(double z)
 {
     const double w = z * z;
-    return (1.0 + z * -0.16666666666664)
-        + w * (0.008333333329190184 + z * -0.00019841249819193104)
-        + w * w * 2.7519182046349993e-06;
+    return (1.0 + z * -0.16666666666666666)
+        + w * (0.008333333333332476 + z * -0.0001984126983495962)
+        + w * w * (2.755729894303353e-06 + z * -2.5022519568470477e-08);
 }
 
 /* c_0(z) for z <= 1/16 */
@@ -108,7 +109,7 @@ static double stumpff_1_far(double z)
     if (z <= 1.0) {
         return stumpff_series_1(z);
     }
-    const double s = sqrt(z <= 4503599627370496.0 ? z : NAN);
+    const double s = sqrt(z <= 4398046511104.0 ? z : NAN);
     return sin(s) / s;
 }
 
@@ -127,7 +128,7 @@ static double stumpff_0_far(double z)
     if (z <= 1.0) {
         return stumpff_series_0(z);
     }
-    const double s = sqrt(z <= 4503599627370496.0 ? z : NAN);
+    const double s = sqrt(z <= 4398046511104.0 ? z : NAN);
     return cos(s);
 }
 

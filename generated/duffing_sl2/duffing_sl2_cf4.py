@@ -60,8 +60,9 @@ def _stumpff_tiny_0(z):
     """Return c_0(z) for z <= 1/256."""
     w = z * z
     return (
-        (1.0 + z * -0.4999999999997288)
-        + w * (0.0416666662452806 + z * -0.001388702792916414)
+        (1.0 + z * -0.5)
+        + w * (0.04166666666665553 + z * -0.001388888880278194)
+        + w * w * 2.479896366618844e-05
     )
 
 
@@ -69,9 +70,9 @@ def _stumpff_small_1(z):
     """Return c_1(z) for z <= 1/16."""
     w = z * z
     return (
-        (1.0 + z * -0.16666666666664)
-        + w * (0.008333333329190184 + z * -0.00019841249819193104)
-        + w * w * 2.7519182046349993e-06
+        (1.0 + z * -0.16666666666666666)
+        + w * (0.008333333333332476 + z * -0.0001984126983495962)
+        + w * w * (2.755729894303353e-06 + z * -2.5022519568470477e-08)
     )
 
 
@@ -112,7 +113,7 @@ def _stumpff_1_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s."""
     if z <= 1.0:
         return _stumpff_series_1(z)
-    s = sqrt(z if z <= 4503599627370496.0 else float("nan"))
+    s = sqrt(z if z <= 4398046511104.0 else float("nan"))
     return sin(s) / s
 
 
@@ -129,7 +130,7 @@ def _stumpff_0_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_0 = cos(s)."""
     if z <= 1.0:
         return _stumpff_series_0(z)
-    s = sqrt(z if z <= 4503599627370496.0 else float("nan"))
+    s = sqrt(z if z <= 4398046511104.0 else float("nan"))
     return cos(s)
 
 

@@ -68,18 +68,18 @@ static inline double stumpff_tiny_1(double z)
 static inline double stumpff_small_2(double z)
 {
     const double w = z * z;
-    return (0.5 + z * -0.041666666666664444)
-        + w * (0.0013888888885432897 + z * -2.480157060205821e-05)
-        + w * w * 2.7525517582787593e-07;
+    return (0.5 + z * -0.041666666666666664)
+        + w * (0.0013888888888888278 + z * -2.4801587297080002e-05)
+        + w * w * (2.7557304737591345e-07 + z * -2.0855622118602925e-09);
 }
 
 /* c_1(z) for z <= 1/16 */
 static inline double stumpff_small_1(double z)
 {
     const double w = z * z;
-    return (1.0 + z * -0.16666666666664)
-        + w * (0.008333333329190184 + z * -0.00019841249819193104)
-        + w * w * 2.7519182046349993e-06;
+    return (1.0 + z * -0.16666666666666666)
+        + w * (0.008333333333332476 + z * -0.0001984126983495962)
+        + w * w * (2.755729894303353e-06 + z * -2.5022519568470477e-08);
 }
 
 /* c_2(z) = sum (-z)^j/(2j+2)! up to z = 1 */
@@ -114,7 +114,7 @@ static void stumpff_12_far(double z, double *c1, double *c2)
         *c2 = stumpff_series_2(z);
         return;
     }
-    const double half = 0.5 * sqrt(z <= 4503599627370496.0 ? z : NAN);
+    const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
     const double ratio = sine / half;

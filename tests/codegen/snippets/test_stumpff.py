@@ -118,6 +118,9 @@ def in_python(precision):
 def test_stumpff_functions_are_accurate_from_zero_to_a_million(request, orders, target):
     call = request.getfixturevalue(target)
     for z in POINTS:
+        if z > limit():
+            assert all(math.isnan(x) for x in call(orders, z))
+            continue
         for k, value in zip(orders, call(orders, z), strict=True):
             error = abs(float(mpmath.mpf(value) - reference(k, z)))
             assert error <= allowed(k, z), (k, z, value, error / math.ulp(value))
@@ -139,7 +142,7 @@ def test_no_branch_jumps_at_its_switch(compiled, k):
 
 @pytest.mark.parametrize("last", [TINY, SMALL])
 @pytest.mark.parametrize("k", range(4))
-def test_short_polynomials_err_by_half_a_unit_and_no_shorter_ones_would(k, last):
+def test_short_polynomials_err_by_a_sixteenth_of_a_unit_and_no_shorter_ones_would(k, last):
     terms = economised(k, last)
 
     def error(terms):
@@ -148,7 +151,7 @@ def test_short_polynomials_err_by_half_a_unit_and_no_shorter_ones_would(k, last)
             abs(sum(c * z**j for j, c in enumerate(terms)) - c_k(k, z)) * math.factorial(k) for z in places
         )
 
-    assert error(terms) <= Fraction(1, 2**54)
+    assert error(terms) <= Fraction(1, 2**57)
     assert error(coefficients(k, last, 60)[: len(terms)]) > error(terms)
     assert terms[0] == Fraction(1, math.factorial(k))
 
@@ -187,11 +190,11 @@ def test_polynomials_are_as_long_as_the_precision_asks_for():
 
 
 @pytest.mark.parametrize("target", ["c", "python"])
-def test_an_angle_beyond_half_its_digits_is_no_angle(target):
-    """The step that asked for it fails with a status; the last angle that is answered is 2^26."""
+def test_an_angle_beyond_two_fifths_of_its_digits_is_no_angle(target):
+    """The step that asked for it fails with a status; the last angle that is answered is 2^21."""
     step = load(emit("free_rigid_body", "rkmk(0):euler", target))
     speed = math.hypot(0.5 * math.cos(1.1), 1.5 * math.sin(1.1))
     start = [math.cos(1.1), 0.0, math.sin(1.1)]
-    assert math.hypot(*step.step(start, 0.999 * 2.0**26 / speed)) == pytest.approx(1.0)
+    assert math.hypot(*step.step(start, 0.999 * 2.0**21 / speed)) == pytest.approx(1.0)
     with pytest.raises(StepFailed, match="not finite"):
-        step.step(start, 1.001 * 2.0**26 / speed)
+        step.step(start, 1.001 * 2.0**21 / speed)
