@@ -62,9 +62,10 @@ def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> 
 def economised(k: int, last: Fraction, bits: int = 53) -> tuple[Fraction, ...]:
     """Return the shortest polynomial for c_k up to ``last`` that errs by a sixteenth of the last bit at most.
 
-    Its error is as large everywhere, and of one sign where a motion is steady: half a bit, which would do for
-    one value, makes the norm of a quaternion drift by 4e-12 in 64,000 steps. From its Taylor polynomial multiples of Chebyshev polynomials are taken, stretched so that they vanish at
-    zero, where the value stays exact: of all polynomials with one leading term these are the least.
+    From its Taylor polynomial multiples of Chebyshev polynomials are taken, stretched so that they vanish at
+    zero, where the value stays exact: of all polynomials with one leading term these are the least. Their
+    error is as large everywhere, and of one sign where a motion is steady: half a bit, which would do for one
+    value, makes the norm of a quaternion drift by 4e-12 in 64,000 steps.
 
     >>> [len(economised(1, last)) for last in (TINY, SMALL)]
     [4, 6]
