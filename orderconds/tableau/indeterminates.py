@@ -49,7 +49,12 @@ class Indeterminates(Polynomials):
         >>> Indeterminates(proof.spelled).method()
         RungeKutta(A=((x0,),), b=(2*x0,))
         """
-        return self._spelled.method(self, self._known)[0]
+        from flint.utils.flint_exceptions import DomainError
+
+        try:
+            return self._spelled.method(self, self._known)[0]
+        except DomainError as error:  # no ArithmeticError of Python's
+            raise ArithmeticError(f"{error}") from error
 
 
 def radicals(spelled: Spelled) -> tuple[Power, ...]:

@@ -114,6 +114,13 @@ def test_a_good_file_with_a_bad_coefficient(text: str, numbers: random.Random, b
     read_or_refused('"'.join(parts))
 
 
+def test_decimals_without_digits_among_quotients_are_read_or_refused() -> None:
+    """What is known to no digit decides nothing, and its spelling divides by a sum: no polynomial."""
+    parts = find("vcf4_s2").read_text(encoding="utf-8").split('"')
+    for i in (i for i, part in enumerate(parts) if i % 2 and part.endswith("~")):
+        read_or_refused('"'.join([*parts[:i], "0.~", *parts[i + 1 :]]))
+
+
 @QUICK
 @given(st.sampled_from(SOURCES), st.randoms(use_true_random=False))
 def test_a_good_file_with_a_piece_cut_out_moved_or_doubled(text: str, numbers: random.Random) -> None:
