@@ -213,20 +213,12 @@ def independent(system: Equations, box: Sequence[Jet], ring: Jets) -> list[int]:
     flat = [i for i, f in enumerate(values) if f.value.contains(0) and all(g.contains(0) for g in f.gradient)]
     if not flat:
         return list(range(len(values)))
-    from flint.utils.flint_exceptions import DomainError
-
-    from orderconds.tableau.indeterminates import Indeterminates
+    from orderconds.tableau.indeterminates import OUTSIDE, Indeterminates
 
     R = Indeterminates(system.proof.spelled)
     try:
         exact = system([R.variable(u) for u in system.proof.unknowns], R)
-    except (
-        AttributeError,
-        ArithmeticError,
-        DomainError,
-        ValueError,
-        TypeError,
-    ):
+    except OUTSIDE:
         return list(range(len(values)))  # radicals or quotients of unknowns
     identical = {i for i in flat if R.is_zero(exact[i])}
     return [i for i in range(len(values)) if i not in identical]

@@ -7,12 +7,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from flint.utils.flint_exceptions import DomainError
+
 from orderconds.ring.polynomials import Polynomials
 from orderconds.ring.protocol import Element
 from orderconds.tableau.evaluate import Definition
 from orderconds.tableau.grammar import Chain, Power
 from orderconds.tableau.products import Method
 from orderconds.tableau.unknowns import Spelled, Unknown
+
+OUTSIDE = (ArithmeticError, AttributeError, DomainError, TypeError, ValueError)
+"""What is raised where a quotient or a named root is no polynomial; DomainError is flint's."""
 
 
 class Indeterminates(Polynomials):
@@ -40,8 +45,7 @@ class Indeterminates(Polynomials):
     def method(self) -> Method:
         """Return the method over this ring.
 
-        Raises ArithmeticError, AttributeError, TypeError or ValueError where quotients or named roots
-        leave it.
+        Raises one of :data:`OUTSIDE` where quotients or named roots leave it.
 
         >>> from orderconds.tableau import Tableau
         >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\nnumbers = { a = "0.5~" }\\n'
@@ -49,12 +53,7 @@ class Indeterminates(Polynomials):
         >>> Indeterminates(proof.spelled).method()
         RungeKutta(A=((x0,),), b=(2*x0,))
         """
-        from flint.utils.flint_exceptions import DomainError
-
-        try:
-            return self._spelled.method(self, self._known)[0]
-        except DomainError as error:  # no ArithmeticError of Python's
-            raise ArithmeticError(f"{error}") from error
+        return self._spelled.method(self, self._known)[0]
 
 
 def radicals(spelled: Spelled) -> tuple[Power, ...]:

@@ -64,12 +64,12 @@ def _symmetric_by_spelling(tableau: Tableau) -> Verdict:
     """Say whether a product is symmetric whatever its decimals stand for; None where that does not tell."""
     if tableau.proof is None:
         return None
-    from orderconds.tableau.indeterminates import Indeterminates
+    from orderconds.tableau.indeterminates import OUTSIDE, Indeterminates
 
     ring = Indeterminates(tableau.proof.spelled)
     try:
         method = ring.method()
-    except (ArithmeticError, AttributeError, TypeError, ValueError):  # quotients, named roots
+    except OUTSIDE:
         return None
     if isinstance(method, CommutatorFree):
         return symmetric_paths(method, ring) or None
