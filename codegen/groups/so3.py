@@ -161,6 +161,33 @@ class SO3(LieGroup):
             p - b * q + c * r if dual else p + b * q + c * r for p, q, r in zip(v, first, second, strict=True)
         )
 
+    def series_sum(
+        self,
+        d: Domain,
+        terms: Sequence[tuple[Any, Sequence[Factor], Scalars]],
+        dual: bool,
+        x: Scalars,
+    ) -> Scalars:
+        """Return the sum of f W(ad_x) v over terms (f, W, v) in two brackets: A + x cross (B + x cross C).
+
+        Terms with one coefficient of ad_x^2 are added before they are multiplied by it.
+        """
+        z, zero = dot(x, x), d.rational(0)
+        plain, first = (zero,) * 3, (zero,) * 3
+        second: dict[Any, Scalars] = {}
+        for f, word, v in terms:
+            b, c = word_coefficients(d, word, z)
+            own = tuple(f * a for a in v)
+            plain = tuple(p + a for p, a in zip(plain, own, strict=True))
+            sign = -b if dual else b
+            first = tuple(p + sign * a for p, a in zip(first, own, strict=True))
+            second[c] = tuple(p + a for p, a in zip(second.get(c, (zero,) * 3), own, strict=True))
+        inner = (zero,) * 3
+        for c, total in second.items():
+            inner = tuple(p + c * a for p, a in zip(inner, cross(x, total), strict=True))
+        outer = cross(x, tuple(p + q for p, q in zip(first, inner, strict=True)))
+        return tuple(p + q for p, q in zip(plain, outer, strict=True))
+
     def velocity(self, d: Domain, x: Scalars, g: Scalars) -> Scalars:
         """Return hat(x) g: x cross every column."""
         columns = [cross(x, g[j::3]) for j in range(3)]

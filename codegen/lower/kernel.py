@@ -45,6 +45,7 @@ from codegen.ir.tangent import tangents
 from codegen.lower import late, newton
 from codegen.lower.arguments import SharedArguments
 from codegen.lower.outline import LONG, WORTH, Outline
+from codegen.lower.series_sums import SeriesSums
 from codegen.lower.variation import Variations
 from codegen.setting import TIME, Setting
 
@@ -121,10 +122,16 @@ def to_kernel(
             hints.setdefault(x.id, f"{var.name}_{k}" if var.kind is not Kind.REAL else var.name)
 
     outline, inside = Outline(program, scene, domain), False
+    sums = SeriesSums(program, scene)
 
     def run(assign: Assign) -> None:
         try:
-            results = apply(scene, domain, assign, tuple(env[a] for a in assign.args))
+            nested = sums.value(domain, assign, env)
+            results = (
+                (nested,)
+                if nested is not None
+                else apply(scene, domain, assign, tuple(env[a] for a in assign.args))
+            )
         except ArithmeticError as error:
             raise SceneError(
                 f"{assign.operation.name} on {scene.group.name}: {error}",
