@@ -26,6 +26,7 @@ from codegen.passes import (
     scalars,
     shared_sums,
     sharing,
+    signs,
     tearing,
     zeros,
 )
@@ -164,4 +165,5 @@ def framed_passes(scene: Setting) -> list[Step]:
         ("scalars", scalars.run),
         ("sharing", sharing.run),
         ("dead code", dead.run),
+        ("signs", signs.run),
     ]
