@@ -21,6 +21,7 @@ from codegen.errors import SceneError
 from codegen.groups.actions import LeftMultiplication
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, Space, walk
+from codegen.ir.gather import gathered
 from codegen.ir.interpret import apply, flatten
 from codegen.ir.kernel import (
     CHORD,
@@ -139,6 +140,9 @@ def to_kernel(
                 expected="a group whose operations have closed forms",
                 hint="this group serves exact series and interpretation",
             ) from error
+        if assign.operation.name.startswith("force"):
+            known = [x for v in assign.args for x in flatten(v.kind, env[v])]
+            results = tuple(gathered(x, known) for x in results)
         outline.note(assign, [env[a] for a in assign.args], results, len(blocks) if inside else -1)
         for target, value in zip(assign.targets, results, strict=True):
             env[target] = value

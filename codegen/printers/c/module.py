@@ -109,7 +109,10 @@ def definition(
         "errors": statements.errors(),
         "body": [*samples(kernel, read, names, statements), *loads, *body, *ends],
         "new": new,
-        "finite": fill("if (!(", (*differences, f"== {literal(interface.format, 0.0)}"), ")) {", joint=""),
+        "finite": [
+            *fill("if (!isfinite(", paired(numbers), ")", joint=""),
+            *fill("    && !(", (*differences, f"== {literal(interface.format, 0.0)}"), ")) {", 92, joint=""),
+        ],
     }
 
 
