@@ -170,23 +170,24 @@ class SO3(LieGroup):
     ) -> Scalars:
         """Return the sum of f W(ad_x) v over terms (f, W, v) in two brackets: A + x cross (B + x cross C).
 
-        Terms with one coefficient of ad_x^2 are added before they are multiplied by it.
+        Terms with the same coefficient of ad_x, or of ad_x^2, are added before they are multiplied by it.
         """
-        z, zero = dot(x, x), d.rational(0)
-        plain, first = (zero,) * 3, (zero,) * 3
-        second: dict[Any, Scalars] = {}
+        z, nothing = dot(x, x), (d.rational(0),) * 3
+        plain = nothing
+        sums: tuple[dict[Any, Scalars], dict[Any, Scalars]] = ({}, {})
         for f, word, v in terms:
             b, c = word_coefficients(d, word, z)
             own = tuple(f * a for a in v)
             plain = tuple(p + a for p, a in zip(plain, own, strict=True))
-            sign = -b if dual else b
-            first = tuple(p + sign * a for p, a in zip(first, own, strict=True))
-            second[c] = tuple(p + a for p, a in zip(second.get(c, (zero,) * 3), own, strict=True))
-        inner = (zero,) * 3
-        for c, total in second.items():
+            for known, factor in zip(sums, (-b if dual else b, c), strict=True):
+                old = known.get(factor, nothing)
+                known[factor] = tuple(p + a for p, a in zip(old, own, strict=True))
+        inner = nothing
+        for b, total in sums[0].items():
+            inner = tuple(p + b * a for p, a in zip(inner, total, strict=True))
+        for c, total in sums[1].items():
             inner = tuple(p + c * a for p, a in zip(inner, cross(x, total), strict=True))
-        outer = cross(x, tuple(p + q for p, q in zip(first, inner, strict=True)))
-        return tuple(p + q for p, q in zip(plain, outer, strict=True))
+        return tuple(p + q for p, q in zip(plain, cross(x, inner), strict=True))
 
     def velocity(self, d: Domain, x: Scalars, g: Scalars) -> Scalars:
         """Return hat(x) g: x cross every column."""

@@ -1,7 +1,7 @@
 """Numbers gathered: 1 + 3/2 (3/2 - 2 x) becomes 13/4 - 3 x, and 3/2 a - 3/2 b becomes 3/2 (a - b).
 
-Exact. Each expression is a combination, with rational coefficients, of others that are none; numbers are taken
-out of products and powers. What is flat may share less, so that the result is taken where it is shorter.
+Exact. Each expression is a combination, with rational coefficients, of others that are none; numbers are
+taken out of products and powers. What is flat may share less: the result is taken where it is shorter.
 """
 
 from __future__ import annotations
@@ -73,7 +73,9 @@ class _Gathering:
         if node.op in ("add", "sub"):
             total = dict(self.sums[node.args[0].id])
             other = self.sums[node.args[1].id]
-            for key, (c, atom) in (other if node.op == "add" else _scaled(other, Number.rational(-1))).items():
+            for key, (c, atom) in (
+                other if node.op == "add" else _scaled(other, Number.rational(-1))
+            ).items():
                 total[key] = (total[key][0] + c if key in total else c, atom)
             return {key: pair for key, pair in total.items() if not pair[0].is_zero}
         if node.op == "mul":
@@ -110,10 +112,11 @@ def _size(c: Number) -> Number:
 
 
 def _spelled(total: Sum, node: Expr) -> Expr:
-    """Return a combination as an expression: terms whose coefficients differ in sign alone are added first."""
+    """Return a combination as an expression: terms with coefficients c or -c are added first."""
     space = node.space
     groups: dict[object, list[tuple[bool, Expr]]] = {}
     sizes: dict[object, Number] = {}
+    key: object
     for c, atom in total.values():
         key = "constant" if atom is space.one else _size(c).key
         sizes.setdefault(key, _size(c))

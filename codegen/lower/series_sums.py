@@ -1,9 +1,9 @@
 """Sums of functions of one ad, nested: sum_k f_k (1 + b_k ad_x + c_k ad_x^2) v_k in two brackets.
 
-Exact. It is A + ad_x (B + ad_x C) with A = sum f_k v_k, B = sum f_k b_k v_k and C = sum f_k c_k v_k, however many
-terms there are; one by one each takes two brackets. A momentum of (3.19) is such a sum: functions of ad of one
-velocity, applied to the momentum and to the forces that were not felt. The groups that know functions of ad in
-closed form say so by ``series_sum``.
+Exact. It is A + ad_x (B + ad_x C) with A = sum f_k v_k, B = sum f_k b_k v_k and C = sum f_k c_k v_k, however
+many terms there are; one by one each takes two brackets. The momentum of (3.19) is such a sum: functions of
+one ad applied to the momentum before and to the force. A group that knows them in closed form has
+``series_sum``.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ Term = tuple[Coefficient, Assign]
 
 @dataclass
 class SeriesSums:
-    """Finds such sums in a program while it is executed: ``note`` every assignment, ask for its ``terms``."""
+    """Finds such sums in a program while it is executed."""
 
     program: Program
     scene: Setting
@@ -85,5 +85,7 @@ class SeriesSums:
             assert scale is not None
             word: tuple[Factor, ...] = tuple(replace(f, scale=f.scale * scale) for f in made.operation.word)
             terms.append((coefficient(domain, c), word, env[made.args[1]]))
-        nested: tuple[Any, ...] = self.scene.group.series_sum(domain, terms, operation.name == "seriest", env[x])
+        nested: tuple[Any, ...] = self.scene.group.series_sum(
+            domain, terms, operation.name == "seriest", env[x]
+        )
         return nested

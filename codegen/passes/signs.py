@@ -17,7 +17,7 @@ Terms = frozenset[tuple[Coefficient, Var]]
 
 
 def run(program: Program) -> Program:
-    """Return the program with negatives of sums taken from the sums; only within one block, or outside all."""
+    """Return the program with negatives of sums taken from sums of the same block, or outside all."""
     outside: dict[Terms, Var] = {}
     body = [
         replace(s, body=_signed(s.body, {})) if isinstance(s, Solve) else _signed((s,), outside)[0]

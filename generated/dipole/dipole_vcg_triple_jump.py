@@ -7,10 +7,10 @@ order:      4, certificate: exact (every order condition up to it is zero in exa
             arithmetic)
 scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
 substeps:   3, all made by one function, of 1.35121, -1.70241, 1.35121 times h
-solved by:  the equations of xi1, n1: Newton's method, 3 unknowns (2.0 sweeps of 222
-            operations and 0.05 matrices of 46 a substep; fixed point: 3.2 sweeps of
-            235 operations; Newton's method with the matrix to first order in h: 1.9
-            sweeps of 250 operations and 1.00 matrices of 68)
+solved by:  the equations of xi1, n1: Newton's method, 3 unknowns (1.9 sweeps of 180
+            operations and 0.05 matrices of 48 a substep; fixed point: 3.2 sweeps of
+            192 operations; Newton's method with the matrix to first order in h: 2.0
+            sweeps of 207 operations and 1.00 matrices of 61)
 state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
 left out:   2 Adt, 15 Adtinv, 15 dexpt, 10 exp, 2 hamilton, 2 identity, 16 lin, 12
@@ -34,9 +34,9 @@ left out:   2 Adt, 15 Adtinv, 15 dexpt, 10 exp, 2 hamilton, 2 identity, 16 lin, 
             the time: the scene does not depend on it
 operations: 186 add, 258 mul, 3 stumpff_12 a step
             6 mul a start, in steps that follow no other
-            11 add, 31 mul, 1 div a matrix of the equations of xi1, n1
-            62 add, 107 mul, 2 div, 2 sqrt, 1 stumpff_123 a sweep of the equations
-            of xi1, n1
+            11 add, 33 mul, 1 div a matrix of the equations of xi1, n1
+            51 add, 76 mul, 2 div, 2 sqrt, 1 stumpff_123 a sweep of the equations of
+            xi1, n1
 made by:    orderconds emit dipole --method vcg:triple_jump --target python -o .
 version:    orderconds 0.1.0
 
@@ -288,13 +288,12 @@ def _substep(state, h, memory, statistics):
         xi1_1 = m_1
         xi1_2 = 100.0 * m_2
     w1 = 0.5 * h
-    w19 = -0.5 * h
+    w16 = -0.5 * h
     # the equations of xi1, n1: Newton's method in xi1_0, xi1_1, xi1_2
     previous_1 = 0.0
     rate_1 = memory.rates[0] if memory.past else 1.0
     make_1 = memory.inverses[0] is None
     for sweep in range(1, 101):
-        p_2 = 0.01 * xi1_2
         xE1_1_0 = xi1_0 * w1
         xE1_1_1 = xi1_1 * w1
         xE1_1_2 = xi1_2 * w1
@@ -305,48 +304,36 @@ def _substep(state, h, memory, statistics):
         w7 = g21 * xE1_1_2 - g22 * xE1_1_1
         Q1_7 = g21 + w4 * c1_1 + (xE1_1_0 * w6 - xE1_1_2 * w7) * c2_1
         Q1_8 = g22 + w6 * c1_1 + (xE1_1_1 * w7 - xE1_1_0 * w4) * c2_1
-        w8 = 1.5 - 2.0 * Q1_8
-        w9 = 1.0 / sqrt(1.01 + 1.5 * (w8 - 0.2 * Q1_7))
-        w10 = w9 * w9 * (0.5 * w9)
-        w11 = 1.0 / sqrt(1.01 + 1.5 * (w8 + 0.2 * Q1_7))
-        w12 = w11 * w11 * (0.5 * w11)
-        w13 = -1.0 - 2.0 * (1.5 * w10 - 1.5 * w12)
-        w14 = -0.3 * w10 - 0.3 * w12
-        Nr1_0 = Q1_7 * w13 - Q1_8 * w14 + 99.0 * xi1_1 * p_2
+        w8 = 3.26 - 3.0 * Q1_8
+        w9 = 0.3 * Q1_7
+        w10 = 1.0 / sqrt(w8 - w9)
+        w11 = w10 * w10 * w10
+        w12 = 1.0 / sqrt(w8 + w9)
+        w13 = w12 * w12 * w12
+        w14 = -1.0 - 1.5 * (w11 - w13)
+        w15 = 0.15 * (w11 + w13)
+        Nr1_0 = Q1_7 * w14 + Q1_8 * w15 + 0.99 * (xi1_1 * xi1_2)
         s_mu_0 = m_0 + h * Nr1_0
-        w16 = 0.25 * c3_1
-        xe1_2 = h * xi1_2
-        xe1_0 = h * xi1_0
+        w17 = Nr1_0 * w16
+        w18 = s_mu_0 + w17
         Q1_6 = g20 + w7 * c1_1 + (xE1_1_2 * w4 - xE1_1_1 * w6) * c2_1
-        Nr1_2 = 0.01 * xi1_0 * xi1_1 + w14 * Q1_6
+        Nr1_2 = 0.01 * (xi1_0 * xi1_1) - w15 * Q1_6
         s_mu_2 = m_2 + h * Nr1_2
-        w17 = xe1_0 * s_mu_2 - s_mu_0 * xe1_2
-        xe1_1 = h * xi1_1
-        Nr1_1 = -100.0 * xi1_0 * p_2 - w13 * Q1_6
-        s_mu_1 = m_1 + h * Nr1_1
-        w18 = s_mu_0 * xe1_1 - xe1_0 * s_mu_1
-        s_mu_2_0 = s_mu_0 + w16 * (xe1_2 * w17 - xe1_1 * w18)
-        y1_2_1 = xi1_1 * w19
-        y1_2_2 = xi1_2 * w19
-        w20 = Nr1_2 * y1_2_1 - Nr1_1 * y1_2_2
-        y1_2_0 = xi1_0 * w19
-        w21 = Nr1_1 * y1_2_0 - Nr1_0 * y1_2_1
-        w22 = Nr1_0 * y1_2_2 - Nr1_2 * y1_2_0
-        M1_2_0 = (
-            s_mu_2_0 + w19 * (Nr1_0 + w20 * c2_1 + (y1_2_1 * w21 - y1_2_2 * w22) * c3_1)
-        )
+        w20 = w16 * Nr1_2
+        w21 = s_mu_2 + w20
+        w22 = xi1_0 * xi1_2 + w14 * Q1_6
+        w23 = w16 * w22
+        w24 = (xE1_1_0 * w21 - xE1_1_2 * w18) * c3_1 - w23 * c2_1
+        s_mu_1 = m_1 - h * w22
+        w25 = s_mu_1 - w23
+        w26 = w20 * c2_1 + (xE1_1_1 * w18 - xE1_1_0 * w25) * c3_1
+        M1_2_0 = xE1_1_2 * w24 - xE1_1_1 * w26 + w18
         residual_0 = M1_2_0 - 1.01 * xi1_0
-        w23 = xe1_2 * s_mu_1 - s_mu_2 * xe1_1
-        s_mu_2_1 = s_mu_1 + w16 * (xe1_0 * w18 - xe1_2 * w23)
-        M1_2_1 = (
-            s_mu_2_1 + w19 * (Nr1_1 + w22 * c2_1 + (y1_2_2 * w20 - y1_2_0 * w21) * c3_1)
-        )
+        w27 = w17 * c2_1 + (xE1_1_2 * w25 - xE1_1_1 * w21) * c3_1
+        M1_2_1 = xE1_1_0 * w26 - xE1_1_2 * w27 + w25
         residual_1 = M1_2_1 - xi1_1
-        s_mu_2_2 = s_mu_2 + w16 * (xe1_1 * w23 - xe1_0 * w17)
-        M1_2_2 = (
-            s_mu_2_2 + w19 * (Nr1_2 + w21 * c2_1 + (y1_2_0 * w22 - y1_2_1 * w20) * c3_1)
-        )
-        residual_2 = M1_2_2 - p_2
+        M1_2_2 = xE1_1_1 * w27 - xE1_1_0 * w24 + w21
+        residual_2 = M1_2_2 - 0.01 * xi1_2
         s_mu_0_seen = s_mu_0
         s_mu_1_seen = s_mu_1
         s_mu_2_seen = s_mu_2
@@ -354,25 +341,26 @@ def _substep(state, h, memory, statistics):
         if not isfinite(total):
             raise _failed(NOT_FINITE, "the equations of xi1, n1", 0, sweep, statistics)
         if make_1:
-            w24 = 0.005 * h
-            w25 = xi1_0 * w24
-            w26 = 0.01 - y1_2_0 * w25
-            w27 = 0.495 * h
-            w28 = xi1_2 * w27
-            w29 = xi1_1 * w24
-            w30 = y1_2_0 * w29 + 0.01 * y1_2_2
-            w31 = xi1_1 * w27
-            w32 = w29 + y1_2_2 * w25
-            w33 = 1.0 / (1.01 * w26 - w28 * w30 - w31 * w32)
+            w28 = xi1_0 * w16
+            w29 = 0.005 * h
+            w30 = xi1_0 * w29
+            w31 = 0.01 - w28 * w30
+            w32 = 0.495 * h
+            w33 = xi1_2 * w32
+            w34 = xi1_1 * w29
+            w35 = xi1_2 * w16
+            w36 = w28 * w34 + 0.01 * w35
+            w37 = xi1_1 * w32
+            w38 = w34 + w30 * w35
+            w39 = 1.0 / (1.01 * w31 - w33 * w36 - w37 * w38)
             row_1_1 = [
-                w26 * w33, w33 * (w25 * w31 + 0.01 * w28), w33 * (w31 + y1_2_0 * w28),
+                w31 * w39, w39 * (w30 * w37 + 0.01 * w33), w39 * (w37 + w28 * w33),
             ]
             row_1_2 = [
-                w30 * w33, w33 * (0.0101 - w29 * w31),
-                w33 * (y1_2_2 * w31 + 1.01 * y1_2_0),
+                w36 * w39, w39 * (0.0101 - w34 * w37), w39 * (w35 * w37 + 1.01 * w28),
             ]
             row_1_3 = [
-                w32 * w33, w33 * (w28 * w29 + 1.01 * w25), w33 * (1.01 - y1_2_2 * w28),
+                w38 * w39, w39 * (w33 * w34 + 1.01 * w30), w39 * (1.01 - w33 * w35),
             ]
             memory.inverses[0] = [row_1_1, row_1_2, row_1_3]
             if statistics is not None:
@@ -407,39 +395,39 @@ def _substep(state, h, memory, statistics):
         raise _failed(NOT_CONVERGED, "the equations of xi1, n1", 0, sweep, statistics)
     if statistics is not None:
         statistics.count(0, sweep)
-    xe1_1_ = h * xi1_1
-    xe1_0_ = h * xi1_0
-    xe1_2_ = h * xi1_2
-    w34 = xe1_0_ * xe1_0_ + xe1_1_ * xe1_1_ + xe1_2_ * xe1_2_
-    c1_2, c2_2 = _stumpff_12(w34)
-    w36 = xe1_1_ * c2_2
-    w37 = xe1_1_ * w36
-    w38 = xe1_2_ * c2_2 * xe1_2_
-    ge1_0 = 1.0 - (w37 + w38)
-    w40 = xe1_2_ * c1_2
-    w41 = xe1_0_ * c2_2
-    w42 = xe1_1_ * w41
-    ge1_3 = w40 + w42
-    w43 = xe1_2_ * w41
-    w44 = xe1_1_ * c1_2
-    ge1_6 = w43 - w44
-    ge1_1 = w42 - w40
-    w45 = xe1_0_ * w41
-    ge1_4 = 1.0 - (w38 + w45)
-    w46 = xe1_0_ * c1_2
-    w47 = xe1_2_ * w36
-    ge1_7 = w46 + w47
-    ge1_2 = w43 + w44
-    ge1_5 = w47 - w46
-    ge1_8 = 1.0 - (w37 + w45)
-    w48 = 0.99 * h
-    w49 = s_mu_0_seen + xi1_2 * w48 * d_xi1_1 + xi1_1 * w48 * d_xi1_2
-    w50 = s_mu_1_seen - d_xi1_0 * xe1_2_ - d_xi1_2 * xe1_0_
-    w51 = 0.01 * h
-    w52 = s_mu_2_seen + xi1_1 * w51 * d_xi1_0 + xi1_0 * w51 * d_xi1_1
-    change_0 = ge1_0 * w49 + ge1_1 * w50 + ge1_2 * w52 - m_0
-    change_1 = ge1_3 * w49 + ge1_4 * w50 + ge1_5 * w52 - m_1
-    change_2 = ge1_6 * w49 + ge1_7 * w50 + ge1_8 * w52 - m_2
+    xe1_1 = h * xi1_1
+    xe1_0 = h * xi1_0
+    xe1_2 = h * xi1_2
+    w40 = xe1_0 * xe1_0 + xe1_1 * xe1_1 + xe1_2 * xe1_2
+    c1_2, c2_2 = _stumpff_12(w40)
+    w42 = xe1_1 * c2_2
+    w43 = xe1_1 * w42
+    w44 = xe1_2 * c2_2 * xe1_2
+    ge1_0 = 1.0 - (w43 + w44)
+    w46 = xe1_2 * c1_2
+    w47 = xe1_0 * c2_2
+    w48 = xe1_1 * w47
+    ge1_3 = w46 + w48
+    w49 = xe1_2 * w47
+    w50 = xe1_1 * c1_2
+    ge1_6 = w49 - w50
+    ge1_1 = w48 - w46
+    w51 = xe1_0 * w47
+    ge1_4 = 1.0 - (w44 + w51)
+    w52 = xe1_0 * c1_2
+    w53 = xe1_2 * w42
+    ge1_7 = w52 + w53
+    ge1_2 = w49 + w50
+    ge1_5 = w53 - w52
+    ge1_8 = 1.0 - (w43 + w51)
+    w54 = 0.99 * h
+    w55 = s_mu_0_seen + xi1_2 * w54 * d_xi1_1 + xi1_1 * w54 * d_xi1_2
+    w56 = s_mu_1_seen - d_xi1_0 * xe1_2 - d_xi1_2 * xe1_0
+    w57 = 0.01 * h
+    w58 = s_mu_2_seen + xi1_1 * w57 * d_xi1_0 + xi1_0 * w57 * d_xi1_1
+    change_0 = ge1_0 * w55 + ge1_1 * w56 + ge1_2 * w58 - m_0
+    change_1 = ge1_3 * w55 + ge1_4 * w56 + ge1_5 * w58 - m_1
+    change_2 = ge1_6 * w55 + ge1_7 * w56 + ge1_8 * w58 - m_2
     new_g00 = g00 * ge1_0 + g01 * ge1_3 + g02 * ge1_6
     new_g01 = g00 * ge1_1 + g01 * ge1_4 + g02 * ge1_7
     new_g02 = g00 * ge1_2 + g01 * ge1_5 + g02 * ge1_8

@@ -6,10 +6,10 @@
  *             of Bogfjellmo and Marthinsen
  * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
- * solved by:  the equations of v1, v2, m1, m2: Newton's method, 6 unknowns (2.1 sweeps of 797
- *             operations and 0.05 matrices of 594 a step; fixed point: 3.2 sweeps of 873
- *             operations; Newton's method with the matrix to first order in h: 2.0 sweeps of 939
- *             operations and 1.00 matrices of 671)
+ * solved by:  the equations of v1, v2, m1, m2: Newton's method, 6 unknowns (2.1 sweeps of 775
+ *             operations and 0.05 matrices of 594 a step; fixed point: 3.2 sweeps of 851
+ *             operations; Newton's method with the matrix to first order in h: 2.0 sweeps of 917
+ *             operations and 1.00 matrices of 667)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
  * left out:   7 dexpt, 1 lin (sharing)
@@ -29,7 +29,7 @@
  * operations: 71 add, 107 mul, 1 stumpff_12 a step
  *             2 mul a start, in steps that follow no other
  *             60 add, 102 mul a matrix of the equations of v1, v2, m1, m2
- *             273 add, 395 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 a sweep of the
+ *             269 add, 377 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 a sweep of the
  *             equations of v1, v2, m1, m2
  * stack:      at most 5568 bytes, without what the mathematical library takes
  * made by:    orderconds emit dipole --method 'vrkmk(2):gauss2' --target c -o .
@@ -461,21 +461,21 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double w1 = 0.5 * h;
     const double w2 = 0.5386751345948129 * h;
     const double w3 = 0.25 * h;
-    const double w28 = -0.03867513459481288 * h;
-    const double w74 = -0.5386751345948129 * h;
-    const double w88 = -0.25 * h;
-    const double w95 = -0.25 * h;
-    const double w96 = 0.03867513459481288 * h;
+    const double w29 = -0.03867513459481288 * h;
+    const double w78 = -0.5386751345948129 * h;
+    const double w92 = -0.25 * h;
+    const double w99 = -0.25 * h;
+    const double w100 = 0.03867513459481288 * h;
     /* the equations of v1, v2, m1, m2: Newton's method in v1_0, v1_1, v1_2, v2_0, v2_1, v2_2 */
     double s_L_0_seen, s_L_1_seen, s_L_2_seen, d_v1_0, d_v1_1, d_v1_2, d_v2_0, d_v2_1, d_v2_2;
     double previous_1 = 0.0;
     double rate_1 = memory->known > 0 ? memory->rate_1 : 1.0;
     int make_1 = !memory->made_1;
     for (size_t sweep = 1;; sweep++) {
-        const double X2_0 = v1_0 * w2 + v2_0 * w3;
-        const double X2_1 = v1_1 * w2 + v2_1 * w3;
-        const double w4 = v2_1 * X2_0 - v2_0 * X2_1;
         const double X2_2 = v1_2 * w2 + v2_2 * w3;
+        const double X2_0 = v1_0 * w2 + v2_0 * w3;
+        const double w4 = v2_0 * X2_2 - v2_2 * X2_0;
+        const double X2_1 = v1_1 * w2 + v2_1 * w3;
         const double w5 = X2_0 * X2_0 + X2_1 * X2_1 + X2_2 * X2_2;
         double c1_1, c2_1, c3_1;
         stumpff_123(w5, &c1_1, &c2_1, &c3_1);
@@ -484,214 +484,218 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double w9 = w8 * (0.25 - 0.08333333333333333 * w7);
         const double w11 = -0.5 * w8;
         const double w12 = w5 * (w9 * c1_1 + w11 * c2_1) - (w11 + c1_1);
-        const double w13 = v2_0 * X2_2 - v2_2 * X2_0;
-        const double w14 = v2_2 * X2_1 - v2_1 * X2_2;
-        const double w15 = X2_0 * w13 - X2_1 * w14;
+        const double w13 = v2_2 * X2_1 - v2_1 * X2_2;
+        const double w14 = v2_1 * X2_0 - v2_0 * X2_1;
+        const double w15 = X2_2 * w13 - X2_0 * w14;
         const double w16 = w9 + c2_1 + w11 * c1_1 - w9 * c2_1 * w5;
-        const double a_6_2 = v2_2 + w4 * w12 + w15 * w16;
-        const double p_2_2 = 0.01 * a_6_2;
-        const double w17 = X2_2 * w14 - X2_0 * w4;
-        const double a_6_1 = v2_1 + w12 * w13 + w16 * w17;
+        const double a_6_1 = v2_1 + w4 * w12 + w15 * w16;
+        const double w17 = X2_0 * w4 - X2_1 * w13;
+        const double a_6_2 = v2_2 + w12 * w14 + w16 * w17;
         const double w18 = g22 * X2_0 - g20 * X2_2;
         const double w19 = g20 * X2_1 - g21 * X2_0;
         const double w20 = g21 * X2_2 - g22 * X2_1;
         const double Q2_7 = g21 + w18 * c1_1 + (X2_0 * w19 - X2_2 * w20) * c2_1;
         const double Q2_8 = g22 + w19 * c1_1 + (X2_1 * w20 - X2_0 * w18) * c2_1;
-        const double w21 = 1.5 - 2.0 * Q2_8;
-        const double w22 = 1.0 / sqrt(1.01 + 1.5 * (w21 - 0.2 * Q2_7));
-        const double w23 = w22 * w22 * (0.5 * w22);
-        const double w24 = 1.0 / sqrt(1.01 + 1.5 * (w21 + 0.2 * Q2_7));
-        const double w25 = w24 * w24 * (0.5 * w24);
-        const double w26 = -1.0 - 2.0 * (1.5 * w23 - 1.5 * w25);
-        const double w27 = -0.3 * w23 - 0.3 * w25;
-        const double Nn2_0 = Q2_7 * w26 - Q2_8 * w27 + 99.0 * a_6_1 * p_2_2;
-        const double X1_0 = v1_0 * w3 + v2_0 * w28;
-        const double X1_1 = v1_1 * w3 + v2_1 * w28;
-        const double w29 = v1_1 * X1_0 - v1_0 * X1_1;
-        const double X1_2 = v1_2 * w3 + v2_2 * w28;
-        const double w30 = X1_0 * X1_0 + X1_1 * X1_1 + X1_2 * X1_2;
+        const double w21 = 3.26 - 3.0 * Q2_8;
+        const double w22 = 0.3 * Q2_7;
+        const double w23 = 1.0 / sqrt(w21 - w22);
+        const double w24 = w23 * w23 * w23;
+        const double w25 = 1.0 / sqrt(w21 + w22);
+        const double w26 = w25 * w25 * w25;
+        const double w27 = -1.0 - 1.5 * (w24 - w26);
+        const double w28 = 0.15 * (w24 + w26);
+        const double Nn2_0 = Q2_7 * w27 + Q2_8 * w28 + 0.99 * (a_6_1 * a_6_2);
+        const double X1_2 = v1_2 * w3 + v2_2 * w29;
+        const double X1_0 = v1_0 * w3 + v2_0 * w29;
+        const double w30 = v1_0 * X1_2 - v1_2 * X1_0;
+        const double X1_1 = v1_1 * w3 + v2_1 * w29;
+        const double w31 = X1_0 * X1_0 + X1_1 * X1_1 + X1_2 * X1_2;
         double c1_2, c2_2, c3_2;
-        stumpff_123(w30, &c1_2, &c2_2, &c3_2);
-        const double w32 = 1.0 - 0.08333333333333333 * w30;
-        const double w33 = 1.0 / (w32 * w32 + 0.25 * w30);
-        const double w34 = w33 * (0.25 - 0.08333333333333333 * w32);
-        const double w36 = -0.5 * w33;
-        const double w37 = w30 * (w34 * c1_2 + w36 * c2_2) - (w36 + c1_2);
-        const double w38 = v1_0 * X1_2 - v1_2 * X1_0;
+        stumpff_123(w31, &c1_2, &c2_2, &c3_2);
+        const double w33 = 1.0 - 0.08333333333333333 * w31;
+        const double w34 = 1.0 / (w33 * w33 + 0.25 * w31);
+        const double w35 = w34 * (0.25 - 0.08333333333333333 * w33);
+        const double w37 = -0.5 * w34;
+        const double w38 = w31 * (w35 * c1_2 + w37 * c2_2) - (w37 + c1_2);
         const double w39 = v1_2 * X1_1 - v1_1 * X1_2;
-        const double w40 = X1_0 * w38 - X1_1 * w39;
-        const double w41 = w34 + c2_2 + w36 * c1_2 - w34 * c2_2 * w30;
-        const double a_2_2 = v1_2 + w29 * w37 + w40 * w41;
-        const double p_2 = 0.01 * a_2_2;
-        const double w42 = X1_2 * w39 - X1_0 * w29;
-        const double a_2_1 = v1_1 + w37 * w38 + w41 * w42;
-        const double w43 = g22 * X1_0 - g20 * X1_2;
-        const double w44 = g20 * X1_1 - g21 * X1_0;
-        const double w45 = g21 * X1_2 - g22 * X1_1;
-        const double Q1_7 = g21 + w43 * c1_2 + (X1_0 * w44 - X1_2 * w45) * c2_2;
-        const double Q1_8 = g22 + w44 * c1_2 + (X1_1 * w45 - X1_0 * w43) * c2_2;
-        const double w46 = 1.5 - 2.0 * Q1_8;
-        const double w47 = 1.0 / sqrt(1.01 + 1.5 * (w46 - 0.2 * Q1_7));
-        const double w48 = w47 * w47 * (0.5 * w47);
-        const double w49 = 1.0 / sqrt(1.01 + 1.5 * (w46 + 0.2 * Q1_7));
-        const double w50 = w49 * w49 * (0.5 * w49);
-        const double w51 = -1.0 - 2.0 * (1.5 * w48 - 1.5 * w50);
-        const double w52 = -0.3 * w48 - 0.3 * w50;
-        const double Nn1_0 = Q1_7 * w51 - Q1_8 * w52 + 99.0 * a_2_1 * p_2;
+        const double w40 = v1_1 * X1_0 - v1_0 * X1_1;
+        const double w41 = X1_2 * w39 - X1_0 * w40;
+        const double w42 = w35 + c2_2 + w37 * c1_2 - w35 * c2_2 * w31;
+        const double a_2_1 = v1_1 + w30 * w38 + w41 * w42;
+        const double w43 = X1_0 * w30 - X1_1 * w39;
+        const double a_2_2 = v1_2 + w38 * w40 + w42 * w43;
+        const double w44 = g22 * X1_0 - g20 * X1_2;
+        const double w45 = g20 * X1_1 - g21 * X1_0;
+        const double w46 = g21 * X1_2 - g22 * X1_1;
+        const double Q1_7 = g21 + w44 * c1_2 + (X1_0 * w45 - X1_2 * w46) * c2_2;
+        const double Q1_8 = g22 + w45 * c1_2 + (X1_1 * w46 - X1_0 * w44) * c2_2;
+        const double w47 = 3.26 - 3.0 * Q1_8;
+        const double w48 = 0.3 * Q1_7;
+        const double w49 = 1.0 / sqrt(w47 - w48);
+        const double w50 = w49 * w49 * w49;
+        const double w51 = 1.0 / sqrt(w47 + w48);
+        const double w52 = w51 * w51 * w51;
+        const double w53 = -1.0 - 1.5 * (w50 - w52);
+        const double w54 = 0.15 * (w50 + w52);
+        const double Nn1_0 = Q1_7 * w53 + Q1_8 * w54 + 0.99 * (a_2_1 * a_2_2);
         const double s_L_0 = m_0 + w1 * (Nn2_0 + Nn1_0);
         const double Y_0 = (v1_0 + v2_0) * w1;
         const double Y_1 = (v1_1 + v2_1) * w1;
         const double Y_2 = (v1_2 + v2_2) * w1;
-        const double w53 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2;
+        const double w55 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2;
         double c2_3, c3_3;
-        stumpff_23(w53, &c2_3, &c3_3);
-        const double w55 = X2_1 * w4 - X2_2 * w13;
-        const double a_6_0 = v2_0 + w12 * w14 + w16 * w55;
+        stumpff_23(w55, &c2_3, &c3_3);
+        const double w57 = X2_1 * w14 - X2_2 * w4;
+        const double a_6_0 = v2_0 + w12 * w13 + w16 * w57;
         const double Q2_6 = g20 + w20 * c1_1 + (X2_2 * w18 - X2_1 * w19) * c2_1;
-        const double Nn2_1 = -100.0 * a_6_0 * p_2_2 - w26 * Q2_6;
-        const double w56 = X1_1 * w29 - X1_2 * w38;
-        const double a_2_0 = v1_0 + w37 * w39 + w41 * w56;
-        const double Q1_6 = g20 + w45 * c1_2 + (X1_2 * w43 - X1_1 * w44) * c2_2;
-        const double Nn1_1 = -100.0 * a_2_0 * p_2 - w51 * Q1_6;
-        const double s_L_1 = m_1 + w1 * (Nn2_1 + Nn1_1);
-        const double Nn2_2 = 0.01 * a_6_0 * a_6_1 + w27 * Q2_6;
-        const double Nn1_2 = 0.01 * a_2_0 * a_2_1 + w52 * Q1_6;
+        const double w58 = a_6_2 * a_6_0 + w27 * Q2_6;
+        const double w59 = X1_1 * w40 - X1_2 * w30;
+        const double a_2_0 = v1_0 + w38 * w39 + w42 * w59;
+        const double Q1_6 = g20 + w46 * c1_2 + (X1_2 * w44 - X1_1 * w45) * c2_2;
+        const double w60 = a_2_2 * a_2_0 + w53 * Q1_6;
+        const double s_L_1 = m_1 - w1 * (w58 + w60);
+        const double Nn2_2 = 0.01 * (a_6_1 * a_6_0) - w28 * Q2_6;
+        const double Nn1_2 = 0.01 * (a_2_1 * a_2_0) - w54 * Q1_6;
         const double s_L_2 = m_2 + w1 * (Nn2_2 + Nn1_2);
-        const double w57 = Y_2 * s_L_1 - Y_1 * s_L_2;
-        const double w59 = Y_0 * s_L_2 - s_L_0 * Y_2;
-        const double w60 = s_L_0 * Y_1 - Y_0 * s_L_1;
-        const double L_4_0 = s_L_0 - w57 * c2_3 + (Y_2 * w59 - Y_1 * w60) * c3_3;
-        const double w61 = X2_1 * Nn2_2 - X2_2 * Nn2_1;
-        const double w63 = X2_0 * Nn2_1 - X2_1 * Nn2_0;
-        const double w64 = X2_2 * Nn2_0 - X2_0 * Nn2_2;
+        const double w61 = Y_2 * s_L_1 - Y_1 * s_L_2;
+        const double w63 = Y_0 * s_L_2 - s_L_0 * Y_2;
+        const double w64 = s_L_0 * Y_1 - Y_0 * s_L_1;
+        const double L_4_0 = s_L_0 - w61 * c2_3 + (Y_2 * w63 - Y_1 * w64) * c3_3;
+        const double w65 = X2_1 * Nn2_2 + X2_2 * w58;
+        const double w67 = X2_0 * w58 + X2_1 * Nn2_0;
+        const double w68 = X2_2 * Nn2_0 - X2_0 * Nn2_2;
         const double p_2_0 = 1.01 * a_6_0;
-        const double w65 = X2_2 * p_2_0 - X2_0 * p_2_2;
-        const double w66 = X2_1 * p_2_2 - X2_2 * a_6_1;
-        const double w67 = X2_0 * a_6_1 - X2_1 * p_2_0;
-        const double a_8_1 = a_6_1 - w12 * w65 + w16 * (X2_2 * w66 - X2_0 * w67);
-        const double a_5_2 = v2_2 - w4 * w11 + w9 * w15;
-        const double a_5_1 = v2_1 - w11 * w13 + w9 * w17;
-        const double a_5_0 = v2_0 - w11 * w14 + w9 * w55;
-        const double w68 = 0.5 * a_5_2 - 0.08333333333333333 * (X2_0 * a_5_1 - X2_1 * a_5_0);
-        const double a_8_2 = p_2_2 - w12 * w67 + w16 * (X2_0 * w65 - X2_1 * w66);
-        const double w69 = 0.5 * a_5_1 - 0.08333333333333333 * (X2_2 * a_5_0 - X2_0 * a_5_2);
-        const double a_8_0 = p_2_0 - w12 * w66 + w16 * (X2_1 * w67 - X2_2 * w65);
-        const double w70 = X2_0 * a_8_2 - X2_2 * a_8_0;
-        const double w71 = -0.08333333333333333 * a_5_2;
-        const double w72 = X2_1 * a_8_0 - X2_0 * a_8_1;
-        const double w73 = -0.08333333333333333 * a_5_1;
-        const double sum_d2_0 = Nn2_0 + w61 * c2_1 + (X2_1 * w63 - X2_2 * w64) * c3_1
-            - (a_8_1 * w68 - a_8_2 * w69 + (w70 * w71 - w72 * w73));
-        const double w75 = X1_1 * Nn1_2 - X1_2 * Nn1_1;
-        const double w77 = X1_0 * Nn1_1 - X1_1 * Nn1_0;
-        const double w78 = X1_2 * Nn1_0 - X1_0 * Nn1_2;
+        const double p_2_2 = 0.01 * a_6_2;
+        const double w69 = X2_2 * p_2_0 - X2_0 * p_2_2;
+        const double w70 = X2_1 * p_2_2 - X2_2 * a_6_1;
+        const double w71 = X2_0 * a_6_1 - X2_1 * p_2_0;
+        const double a_8_1 = a_6_1 - w12 * w69 + w16 * (X2_2 * w70 - X2_0 * w71);
+        const double a_5_2 = v2_2 - w11 * w14 + w9 * w17;
+        const double a_5_1 = v2_1 - w4 * w11 + w9 * w15;
+        const double a_5_0 = v2_0 - w11 * w13 + w9 * w57;
+        const double w72 = 0.5 * a_5_2 - 0.08333333333333333 * (X2_0 * a_5_1 - X2_1 * a_5_0);
+        const double a_8_2 = p_2_2 - w12 * w71 + w16 * (X2_0 * w69 - X2_1 * w70);
+        const double w73 = 0.5 * a_5_1 - 0.08333333333333333 * (X2_2 * a_5_0 - X2_0 * a_5_2);
+        const double a_8_0 = p_2_0 - w12 * w70 + w16 * (X2_1 * w71 - X2_2 * w69);
+        const double w74 = X2_0 * a_8_2 - X2_2 * a_8_0;
+        const double w75 = -0.08333333333333333 * a_5_2;
+        const double w76 = X2_1 * a_8_0 - X2_0 * a_8_1;
+        const double w77 = -0.08333333333333333 * a_5_1;
+        const double sum_d2_0 = Nn2_0 + w65 * c2_1 - (X2_1 * w67 + X2_2 * w68) * c3_1
+            - (a_8_1 * w72 - a_8_2 * w73 + (w74 * w75 - w76 * w77));
+        const double w79 = X1_1 * Nn1_2 + X1_2 * w60;
+        const double w81 = X1_0 * w60 + X1_1 * Nn1_0;
+        const double w82 = X1_2 * Nn1_0 - X1_0 * Nn1_2;
         const double p_0 = 1.01 * a_2_0;
-        const double w79 = X1_2 * p_0 - X1_0 * p_2;
-        const double w80 = X1_1 * p_2 - X1_2 * a_2_1;
-        const double w81 = X1_0 * a_2_1 - X1_1 * p_0;
-        const double a_4_1 = a_2_1 - w37 * w79 + w41 * (X1_2 * w80 - X1_0 * w81);
-        const double a_2 = v1_2 - w29 * w36 + w34 * w40;
-        const double a_1 = v1_1 - w36 * w38 + w34 * w42;
-        const double a_0 = v1_0 - w36 * w39 + w34 * w56;
-        const double w82 = 0.5 * a_2 - 0.08333333333333333 * (X1_0 * a_1 - X1_1 * a_0);
-        const double a_4_2 = p_2 - w37 * w81 + w41 * (X1_0 * w79 - X1_1 * w80);
-        const double w83 = 0.5 * a_1 - 0.08333333333333333 * (X1_2 * a_0 - X1_0 * a_2);
-        const double a_4_0 = p_0 - w37 * w80 + w41 * (X1_1 * w81 - X1_2 * w79);
-        const double w84 = X1_0 * a_4_2 - X1_2 * a_4_0;
-        const double w85 = -0.08333333333333333 * a_2;
-        const double w86 = X1_1 * a_4_0 - X1_0 * a_4_1;
-        const double w87 = -0.08333333333333333 * a_1;
-        const double sum_d1_0 = Nn1_0 + w75 * c2_2 + (X1_1 * w77 - X1_2 * w78) * c3_2
-            - (a_4_1 * w82 - a_4_2 * w83 + (w84 * w85 - w86 * w87));
-        const double w1_0 = L_4_0 + sum_d2_0 * w74 + sum_d1_0 * w88;
+        const double p_2 = 0.01 * a_2_2;
+        const double w83 = X1_2 * p_0 - X1_0 * p_2;
+        const double w84 = X1_1 * p_2 - X1_2 * a_2_1;
+        const double w85 = X1_0 * a_2_1 - X1_1 * p_0;
+        const double a_4_1 = a_2_1 - w38 * w83 + w42 * (X1_2 * w84 - X1_0 * w85);
+        const double a_2 = v1_2 - w37 * w40 + w35 * w43;
+        const double a_1 = v1_1 - w30 * w37 + w35 * w41;
+        const double a_0 = v1_0 - w37 * w39 + w35 * w59;
+        const double w86 = 0.5 * a_2 - 0.08333333333333333 * (X1_0 * a_1 - X1_1 * a_0);
+        const double a_4_2 = p_2 - w38 * w85 + w42 * (X1_0 * w83 - X1_1 * w84);
+        const double w87 = 0.5 * a_1 - 0.08333333333333333 * (X1_2 * a_0 - X1_0 * a_2);
+        const double a_4_0 = p_0 - w38 * w84 + w42 * (X1_1 * w85 - X1_2 * w83);
+        const double w88 = X1_0 * a_4_2 - X1_2 * a_4_0;
+        const double w89 = -0.08333333333333333 * a_2;
+        const double w90 = X1_1 * a_4_0 - X1_0 * a_4_1;
+        const double w91 = -0.08333333333333333 * a_1;
+        const double sum_d1_0 = Nn1_0 + w79 * c2_2 - (X1_1 * w81 + X1_2 * w82) * c3_2
+            - (a_4_1 * w86 - a_4_2 * w87 + (w88 * w89 - w90 * w91));
+        const double w1_0 = L_4_0 + sum_d2_0 * w78 + sum_d1_0 * w92;
         const double residual_0 = w1_0 - a_4_0;
-        const double L_4_1 = s_L_1 - w59 * c2_3 + (Y_0 * w60 - Y_2 * w57) * c3_3;
-        const double w89 = 0.5 * a_5_0 - 0.08333333333333333 * (X2_1 * a_5_2 - X2_2 * a_5_1);
-        const double w90 = -0.08333333333333333 * a_5_0;
-        const double w91 = X2_2 * a_8_1 - X2_1 * a_8_2;
-        const double sum_d2_1 = Nn2_1 + w64 * c2_1 + (X2_2 * w61 - X2_0 * w63) * c3_1
-            - (a_8_2 * w89 - w68 * a_8_0 + (w72 * w90 - w71 * w91));
-        const double w92 = 0.5 * a_0 - 0.08333333333333333 * (X1_1 * a_2 - X1_2 * a_1);
-        const double w93 = -0.08333333333333333 * a_0;
-        const double w94 = X1_2 * a_4_1 - X1_1 * a_4_2;
-        const double sum_d1_1 = Nn1_1 + w78 * c2_2 + (X1_2 * w75 - X1_0 * w77) * c3_2
-            - (a_4_2 * w92 - w82 * a_4_0 + (w86 * w93 - w85 * w94));
-        const double w1_1 = L_4_1 + w74 * sum_d2_1 + w88 * sum_d1_1;
+        const double L_4_1 = s_L_1 - w63 * c2_3 + (Y_0 * w64 - Y_2 * w61) * c3_3;
+        const double w93 = 0.5 * a_5_0 - 0.08333333333333333 * (X2_1 * a_5_2 - X2_2 * a_5_1);
+        const double w94 = -0.08333333333333333 * a_5_0;
+        const double w95 = X2_2 * a_8_1 - X2_1 * a_8_2;
+        const double sum_d2_1 = w68 * c2_1 - w58 + (X2_2 * w65 + X2_0 * w67) * c3_1
+            - (a_8_2 * w93 - w72 * a_8_0 + (w76 * w94 - w75 * w95));
+        const double w96 = 0.5 * a_0 - 0.08333333333333333 * (X1_1 * a_2 - X1_2 * a_1);
+        const double w97 = -0.08333333333333333 * a_0;
+        const double w98 = X1_2 * a_4_1 - X1_1 * a_4_2;
+        const double sum_d1_1 = w82 * c2_2 - w60 + (X1_2 * w79 + X1_0 * w81) * c3_2
+            - (a_4_2 * w96 - w86 * a_4_0 + (w90 * w97 - w89 * w98));
+        const double w1_1 = L_4_1 + w78 * sum_d2_1 + w92 * sum_d1_1;
         const double residual_1 = w1_1 - a_4_1;
-        const double L_4_2 = s_L_2 - w60 * c2_3 + (Y_1 * w57 - Y_0 * w59) * c3_3;
-        const double sum_d2_2 = Nn2_2 + w63 * c2_1 + (X2_0 * w64 - X2_1 * w61) * c3_1
-            - (w69 * a_8_0 - a_8_1 * w89 + (w73 * w91 - w70 * w90));
-        const double sum_d1_2 = Nn1_2 + w77 * c2_2 + (X1_0 * w78 - X1_1 * w75) * c3_2
-            - (w83 * a_4_0 - a_4_1 * w92 + (w87 * w94 - w84 * w93));
-        const double w1_2 = L_4_2 + w74 * sum_d2_2 + w88 * sum_d1_2;
+        const double L_4_2 = s_L_2 - w64 * c2_3 + (Y_1 * w61 - Y_0 * w63) * c3_3;
+        const double sum_d2_2 = Nn2_2 - w67 * c2_1 + (X2_0 * w68 - X2_1 * w65) * c3_1
+            - (w73 * a_8_0 - a_8_1 * w93 + (w77 * w95 - w74 * w94));
+        const double sum_d1_2 = Nn1_2 - w81 * c2_2 + (X1_0 * w82 - X1_1 * w79) * c3_2
+            - (w87 * a_4_0 - a_4_1 * w96 + (w91 * w98 - w88 * w97));
+        const double w1_2 = L_4_2 + w78 * sum_d2_2 + w92 * sum_d1_2;
         const double residual_2 = w1_2 - a_4_2;
-        const double w2_0 = L_4_0 + sum_d2_0 * w95 + sum_d1_0 * w96;
+        const double w2_0 = L_4_0 + sum_d2_0 * w99 + sum_d1_0 * w100;
         const double residual_2_0 = w2_0 - a_8_0;
-        const double w2_1 = L_4_1 + sum_d2_1 * w95 + sum_d1_1 * w96;
+        const double w2_1 = L_4_1 + sum_d2_1 * w99 + sum_d1_1 * w100;
         const double residual_2_1 = w2_1 - a_8_1;
-        const double w2_2 = L_4_2 + sum_d2_2 * w95 + sum_d1_2 * w96;
+        const double w2_2 = L_4_2 + sum_d2_2 * w99 + sum_d1_2 * w100;
         const double residual_2_2 = w2_2 - a_8_2;
         s_L_0_seen = s_L_0;
         s_L_1_seen = s_L_1;
         s_L_2_seen = s_L_2;
         if (make_1) {
-            const double w97 = 0.0001933756729740644 * v2_2;
-            const double w98 = 0.25 * g02 * mu0 + 0.25 * g12 * mu1 + 0.25 * g22 * mu2;
-            const double w99 = -0.01933756729740644 * v2_1;
-            const double w100 = -0.25 * g01 * mu0 - 0.25 * g11 * mu1 - 0.25 * g21 * mu2;
-            const double w101 = -0.25 * g02 * mu0 - 0.25 * g12 * mu1 - 0.25 * g22 * mu2;
-            const double w102 = 0.019144191624432375 * v2_0;
-            const double w103 = 0.25 * g00 * mu0 + 0.25 * g10 * mu1 + 0.25 * g20 * mu2;
-            const double w104 = 0.25 * g01 * mu0 + 0.25 * g11 * mu1 + 0.25 * g21 * mu2;
-            const double w105 = -0.25 * g00 * mu0 - 0.25 * g10 * mu1 - 0.25 * g20 * mu2;
-            const double w106 = -0.0026933756729740645 * v1_2;
-            const double w107 = 0.26933756729740643 * v1_1;
-            const double w108 = -0.26664419162443237 * v1_0;
+            const double w101 = 0.0001933756729740644 * v2_2;
+            const double w102 = 0.25 * g02 * mu0 + 0.25 * g12 * mu1 + 0.25 * g22 * mu2;
+            const double w103 = -0.01933756729740644 * v2_1;
+            const double w104 = -0.25 * g01 * mu0 - 0.25 * g11 * mu1 - 0.25 * g21 * mu2;
+            const double w105 = -0.25 * g02 * mu0 - 0.25 * g12 * mu1 - 0.25 * g22 * mu2;
+            const double w106 = 0.019144191624432375 * v2_0;
+            const double w107 = 0.25 * g00 * mu0 + 0.25 * g10 * mu1 + 0.25 * g20 * mu2;
+            const double w108 = 0.25 * g01 * mu0 + 0.25 * g11 * mu1 + 0.25 * g21 * mu2;
+            const double w109 = -0.25 * g00 * mu0 - 0.25 * g10 * mu1 - 0.25 * g20 * mu2;
+            const double w110 = -0.0026933756729740645 * v1_2;
+            const double w111 = 0.26933756729740643 * v1_1;
+            const double w112 = -0.26664419162443237 * v1_0;
             memory->inverse_1[0] = 1.01;
-            memory->inverse_1[1] = -h * (0.495 * v1_2 + w98 + w97);
-            memory->inverse_1[2] = -h * (0.495 * v1_1 + w100 + w99);
+            memory->inverse_1[1] = -h * (0.495 * v1_2 + w102 + w101);
+            memory->inverse_1[2] = -h * (0.495 * v1_1 + w104 + w103);
             memory->inverse_1[3] = 0.0;
-            memory->inverse_1[4] = -h * (w98 - 0.01933756729740644 * v1_2 + 0.22835580837556763 * v2_2);
+            memory->inverse_1[4] = -h
+                * (w102 - 0.01933756729740644 * v1_2 + 0.22835580837556763 * v2_2);
             memory->inverse_1[5] = -h
-                * (0.0001933756729740644 * v1_1 + w100 + 0.22835580837556763 * v2_1);
-            memory->inverse_1[6] = -h * (w101 - 0.5 * v1_2 + w97);
+                * (0.0001933756729740644 * v1_1 + w104 + 0.22835580837556763 * v2_1);
+            memory->inverse_1[6] = -h * (w105 - 0.5 * v1_2 + w101);
             memory->inverse_1[7] = 1.0;
-            memory->inverse_1[8] = -h * (w103 - 0.5 * v1_0 + w102);
+            memory->inverse_1[8] = -h * (w107 - 0.5 * v1_0 + w106);
             memory->inverse_1[9] = -h
-                * (0.019144191624432375 * v1_2 + w101 - 0.23066243270259357 * v2_2);
+                * (0.019144191624432375 * v1_2 + w105 - 0.23066243270259357 * v2_2);
             memory->inverse_1[10] = 0.0;
             memory->inverse_1[11] = -h
-                * (0.0001933756729740644 * v1_0 + w103 - 0.23066243270259357 * v2_0);
-            memory->inverse_1[12] = -h * (0.005 * v1_1 + w104 + w99);
-            memory->inverse_1[13] = -h * (0.005 * v1_0 + w105 + w102);
+                * (0.0001933756729740644 * v1_0 + w107 - 0.23066243270259357 * v2_0);
+            memory->inverse_1[12] = -h * (0.005 * v1_1 + w108 + w103);
+            memory->inverse_1[13] = -h * (0.005 * v1_0 + w109 + w106);
             memory->inverse_1[14] = 0.01;
             memory->inverse_1[15] = -h
-                * (0.019144191624432375 * v1_1 + w104 + 0.0023066243270259356 * v2_1);
+                * (0.019144191624432375 * v1_1 + w108 + 0.0023066243270259356 * v2_1);
             memory->inverse_1[16] = -h
-                * (w105 - 0.01933756729740644 * v1_0 + 0.0023066243270259356 * v2_0);
+                * (w109 - 0.01933756729740644 * v1_0 + 0.0023066243270259356 * v2_0);
             memory->inverse_1[17] = 0.0;
             memory->inverse_1[18] = 0.0;
-            memory->inverse_1[19] = -h * (0.5141441916244324 * v1_2 + w98 + 0.26933756729740643 * v2_2);
+            memory->inverse_1[19] = -h
+                * (0.5141441916244324 * v1_2 + w102 + 0.26933756729740643 * v2_2);
             memory->inverse_1[20] = -h
-                * (0.5141441916244324 * v1_1 + w100 - 0.0026933756729740645 * v2_1);
+                * (0.5141441916244324 * v1_1 + w104 - 0.0026933756729740645 * v2_1);
             memory->inverse_1[21] = 1.01;
-            memory->inverse_1[22] = -h * (w98 + w106 + 0.495 * v2_2);
-            memory->inverse_1[23] = -h * (w100 + w107 + 0.495 * v2_1);
+            memory->inverse_1[22] = -h * (w102 + w110 + 0.495 * v2_2);
+            memory->inverse_1[23] = -h * (w104 + w111 + 0.495 * v2_1);
             memory->inverse_1[24] = -h
-                * (w101 - 0.5193375672974064 * v1_2 - 0.26664419162443237 * v2_2);
+                * (w105 - 0.5193375672974064 * v1_2 - 0.26664419162443237 * v2_2);
             memory->inverse_1[25] = 0.0;
             memory->inverse_1[26] = -h
-                * (w103 - 0.5193375672974064 * v1_0 - 0.0026933756729740645 * v2_0);
-            memory->inverse_1[27] = -h * (w101 + w106 - 0.5 * v2_2);
+                * (w107 - 0.5193375672974064 * v1_0 - 0.0026933756729740645 * v2_0);
+            memory->inverse_1[27] = -h * (w105 + w110 - 0.5 * v2_2);
             memory->inverse_1[28] = 1.0;
-            memory->inverse_1[29] = -h * (w103 + w108 - 0.5 * v2_0);
+            memory->inverse_1[29] = -h * (w107 + w112 - 0.5 * v2_0);
             memory->inverse_1[30] = -h
-                * (0.005193375672974065 * v1_1 + w104 - 0.26664419162443237 * v2_1);
+                * (0.005193375672974065 * v1_1 + w108 - 0.26664419162443237 * v2_1);
             memory->inverse_1[31] = -h
-                * (0.005193375672974065 * v1_0 + w105 + 0.26933756729740643 * v2_0);
+                * (0.005193375672974065 * v1_0 + w109 + 0.26933756729740643 * v2_0);
             memory->inverse_1[32] = 0.0;
-            memory->inverse_1[33] = -h * (w104 + w107 + 0.005 * v2_1);
-            memory->inverse_1[34] = -h * (w105 + w108 + 0.005 * v2_0);
+            memory->inverse_1[33] = -h * (w108 + w111 + 0.005 * v2_1);
+            memory->inverse_1[34] = -h * (w109 + w112 + 0.005 * v2_0);
             memory->inverse_1[35] = 0.01;
             double row_1[6];
             size_t order_1[6];
@@ -758,41 +762,41 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double Y_1_ = (v1_1 + v2_1) * w1;
     const double Y_0_ = (v1_0 + v2_0) * w1;
     const double Y_2_ = (v1_2 + v2_2) * w1;
-    const double w109 = Y_0_ * Y_0_ + Y_1_ * Y_1_ + Y_2_ * Y_2_;
+    const double w113 = Y_0_ * Y_0_ + Y_1_ * Y_1_ + Y_2_ * Y_2_;
     double c1_3, c2_4;
-    stumpff_12(w109, &c1_3, &c2_4);
-    const double w111 = Y_1_ * c2_4;
-    const double w112 = Y_1_ * w111;
-    const double w113 = Y_2_ * c2_4 * Y_2_;
-    const double g_0 = 1.0 - (w112 + w113);
-    const double w115 = Y_2_ * c1_3;
-    const double w116 = Y_0_ * c2_4;
-    const double w117 = Y_1_ * w116;
-    const double g_3 = w115 + w117;
-    const double w118 = Y_2_ * w116;
-    const double w119 = Y_1_ * c1_3;
-    const double g_6 = w118 - w119;
-    const double g_1 = w117 - w115;
-    const double w120 = Y_0_ * w116;
-    const double g_4 = 1.0 - (w113 + w120);
-    const double w121 = Y_0_ * c1_3;
-    const double w122 = Y_2_ * w111;
-    const double g_7 = w121 + w122;
-    const double g_2 = w118 + w119;
-    const double g_5 = w122 - w121;
-    const double g_8 = 1.0 - (w112 + w120);
-    const double w123 = 0.495 * h;
-    const double w124 = s_L_0_seen + v1_2 * w123 * d_v1_1 + v1_1 * w123 * d_v1_2
-        + v2_2 * w123 * d_v2_1 + v2_1 * w123 * d_v2_2;
-    const double w125 = -0.5 * h;
-    const double w126 = s_L_1_seen + v1_2 * w125 * d_v1_0 + v1_0 * w125 * d_v1_2
-        + v2_2 * w125 * d_v2_0 + v2_0 * w125 * d_v2_2;
-    const double w127 = 0.005 * h;
-    const double w128 = s_L_2_seen + v1_1 * w127 * d_v1_0 + v1_0 * w127 * d_v1_1
-        + v2_1 * w127 * d_v2_0 + v2_0 * w127 * d_v2_1;
-    const double change_0 = g_0 * w124 + g_1 * w126 + g_2 * w128 - m_0;
-    const double change_1 = g_3 * w124 + g_4 * w126 + g_5 * w128 - m_1;
-    const double change_2 = g_6 * w124 + g_7 * w126 + g_8 * w128 - m_2;
+    stumpff_12(w113, &c1_3, &c2_4);
+    const double w115 = Y_1_ * c2_4;
+    const double w116 = Y_1_ * w115;
+    const double w117 = Y_2_ * c2_4 * Y_2_;
+    const double g_0 = 1.0 - (w116 + w117);
+    const double w119 = Y_2_ * c1_3;
+    const double w120 = Y_0_ * c2_4;
+    const double w121 = Y_1_ * w120;
+    const double g_3 = w119 + w121;
+    const double w122 = Y_2_ * w120;
+    const double w123 = Y_1_ * c1_3;
+    const double g_6 = w122 - w123;
+    const double g_1 = w121 - w119;
+    const double w124 = Y_0_ * w120;
+    const double g_4 = 1.0 - (w117 + w124);
+    const double w125 = Y_0_ * c1_3;
+    const double w126 = Y_2_ * w115;
+    const double g_7 = w125 + w126;
+    const double g_2 = w122 + w123;
+    const double g_5 = w126 - w125;
+    const double g_8 = 1.0 - (w116 + w124);
+    const double w127 = 0.495 * h;
+    const double w128 = s_L_0_seen + v1_2 * w127 * d_v1_1 + v1_1 * w127 * d_v1_2
+        + v2_2 * w127 * d_v2_1 + v2_1 * w127 * d_v2_2;
+    const double w129 = -0.5 * h;
+    const double w130 = s_L_1_seen + v1_2 * w129 * d_v1_0 + v1_0 * w129 * d_v1_2
+        + v2_2 * w129 * d_v2_0 + v2_0 * w129 * d_v2_2;
+    const double w131 = 0.005 * h;
+    const double w132 = s_L_2_seen + v1_1 * w131 * d_v1_0 + v1_0 * w131 * d_v1_1
+        + v2_1 * w131 * d_v2_0 + v2_0 * w131 * d_v2_1;
+    const double change_0 = g_0 * w128 + g_1 * w130 + g_2 * w132 - m_0;
+    const double change_1 = g_3 * w128 + g_4 * w130 + g_5 * w132 - m_1;
+    const double change_2 = g_6 * w128 + g_7 * w130 + g_8 * w132 - m_2;
     const double new_g00 = g00 * g_0 + g01 * g_3 + g02 * g_6;
     const double new_g01 = g00 * g_1 + g01 * g_4 + g02 * g_7;
     const double new_g02 = g00 * g_2 + g01 * g_5 + g02 * g_8;
@@ -805,8 +809,10 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double new_mu0 = g00 * change_0 + g01 * change_1 + g02 * change_2 + mu0;
     const double new_mu1 = g10 * change_0 + g11 * change_1 + g12 * change_2 + mu1;
     const double new_mu2 = g20 * change_0 + g21 * change_1 + g22 * change_2 + mu2;
-    /* x - x is zero for a number, else NaN: one test for all */
-    if (!(((new_g00 - new_g00) + (new_g01 - new_g01))
+    /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+    if (!isfinite((new_g00 + new_g01) + (new_g02 + new_g10) + (new_g11 + new_g12)
+        + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2))
+        && !(((new_g00 - new_g00) + (new_g01 - new_g01))
         + ((new_g02 - new_g02) + (new_g10 - new_g10))
         + ((new_g11 - new_g11) + (new_g12 - new_g12))
         + ((new_g20 - new_g20) + (new_g21 - new_g21))

@@ -203,8 +203,9 @@ static inline int advance(double state[static 2], double h)
     const double w26 = signed_stumpff1(w23);
     const double new_z0 = w21 * w24 + x_2_0 * w26 * w25;
     const double new_z1 = w22 * w26 * w21 + w24 * w25;
-    /* x - x is zero for a number, else NaN: one test for all */
-    if (!((new_z0 - new_z0) + (new_z1 - new_z1) == 0.0)) {
+    /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+    if (!isfinite(new_z0 + new_z1)
+        && !((new_z0 - new_z0) + (new_z1 - new_z1) == 0.0)) {
         return DUFFING_SL2_CF4_NOT_FINITE;
     }
     state[0] = new_z0;

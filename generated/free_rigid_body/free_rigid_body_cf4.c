@@ -217,8 +217,9 @@ static inline int advance(double state[static 3], double h)
     const double new_m0 = w63 + w71 * c1_5 + (w65 * w73 - w66 * w74) * c2_5;
     const double new_m1 = w70 + w74 * c1_5 + (w66 * w71 - w64 * w73) * c2_5;
     const double new_m2 = w69 + w73 * c1_5 + (w64 * w74 - w65 * w71) * c2_5;
-    /* x - x is zero for a number, else NaN: one test for all */
-    if (!(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
+    /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+    if (!isfinite((new_m0 + new_m1) + new_m2)
+        && !(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
         return FREE_RIGID_BODY_CF4_NOT_FINITE;
     }
     state[0] = new_m0;

@@ -212,8 +212,9 @@ static inline int advance(double state[static 3], double h)
     const double new_m0 = w34 - w63 * c1_6 - (w57 * w65 + w58 * w66) * c2_6;
     const double new_m1 = w62 + w66 * c1_6 - (w58 * w63 + w56 * w65) * c2_6;
     const double new_m2 = w61 + w65 * c1_6 + (w56 * w66 - w57 * w63) * c2_6;
-    /* x - x is zero for a number, else NaN: one test for all */
-    if (!(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
+    /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+    if (!isfinite((new_m0 + new_m1) + new_m2)
+        && !(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
         return FREE_RIGID_BODY_CG3_NOT_FINITE;
     }
     state[0] = new_m0;

@@ -214,8 +214,9 @@ static inline int advance(double state[static 3], double h)
     const double new_m0 = m0 + w34 * c1_4 + (u_1 * w36 - u_2 * w37) * c2_4;
     const double new_m1 = m1 + w37 * c1_4 + (u_2 * w34 - u_0 * w36) * c2_4;
     const double new_m2 = m2 + w36 * c1_4 + (u_0 * w37 - u_1 * w34) * c2_4;
-    /* x - x is zero for a number, else NaN: one test for all */
-    if (!(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
+    /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+    if (!isfinite((new_m0 + new_m1) + new_m2)
+        && !(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
         return FREE_RIGID_BODY_RKMK2_RK4_NOT_FINITE;
     }
     state[0] = new_m0;

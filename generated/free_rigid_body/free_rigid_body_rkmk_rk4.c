@@ -209,8 +209,9 @@ static inline int advance(double state[static 3], double h)
     const double new_m0 = m0 + w58 * c1_4 + (w54 * w60 - w55 * w61) * c2_4;
     const double new_m1 = m1 + w61 * c1_4 + (w55 * w58 - w52 * w60) * c2_4;
     const double new_m2 = m2 + w60 * c1_4 + (w52 * w61 - w54 * w58) * c2_4;
-    /* x - x is zero for a number, else NaN: one test for all */
-    if (!(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
+    /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+    if (!isfinite((new_m0 + new_m1) + new_m2)
+        && !(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
         return FREE_RIGID_BODY_RKMK_RK4_NOT_FINITE;
     }
     state[0] = new_m0;

@@ -987,8 +987,10 @@ static inline int advance(double state[static 4], double h, struct memory *memor
     const double Y_1_ = q3 * w460 - q2 * w461 + (q0 * w459 + q1 * c0_3);
     const double Y_2_ = q1 * w461 - q3 * w459 + (q0 * w460 + q2 * c0_3);
     const double Y_3_ = q2 * w459 - q1 * w460 + (q0 * w461 + q3 * c0_3);
-    /* x - x is zero for a number, else NaN: one test for all */
-    if (!(((Y_0_ - Y_0_) + (Y_1_ - Y_1_)) + ((Y_2_ - Y_2_) + (Y_3_ - Y_3_)) == 0.0)) {
+    /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+    if (!isfinite((Y_0_ + Y_1_) + (Y_2_ + Y_3_))
+        && !(((Y_0_ - Y_0_) + (Y_1_ - Y_1_)) + ((Y_2_ - Y_2_) + (Y_3_ - Y_3_))
+        == 0.0)) {
         return FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE;
     }
     state[0] = Y_0_;

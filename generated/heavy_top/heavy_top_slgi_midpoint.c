@@ -781,11 +781,14 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double new_g21 = g01 * g_6 + g11 * g_7 + g21 * g_8;
     const double new_g22 = g02 * g_6 + g12 * g_7 + g22 * g_8;
     const double new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w118;
-    /* x - x is zero for a number, else NaN: one test for all */
-    if (!(((new_g00 - new_g00) + (new_g01 - new_g01))
+    /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+    if (!isfinite((new_g00 + new_g01) + (new_g02 + new_g10) + (new_g11 + new_g12)
+        + (new_g20 + new_g21) + (new_g22 + mu1_0) + (mu1_1 + new_mu2))
+        && !(((new_g00 - new_g00) + (new_g01 - new_g01))
         + ((new_g02 - new_g02) + (new_g10 - new_g10))
         + ((new_g11 - new_g11) + (new_g12 - new_g12))
-        + ((new_g20 - new_g20) + (new_g21 - new_g21)) + ((new_g22 - new_g22) + (mu1_0 - mu1_0))
+        + ((new_g20 - new_g20) + (new_g21 - new_g21))
+        + ((new_g22 - new_g22) + (mu1_0 - mu1_0))
         + ((mu1_1 - mu1_1) + (new_mu2 - new_mu2)) == 0.0)) {
         return HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE;
     }

@@ -144,8 +144,9 @@ static inline int advance(double state[static 3], double h)
     const double new_m0 = m0 + v0 * c1_1 + (w1 * v2 - w2 * v1) * c2_1;
     const double new_m1 = m1 + v1 * c1_1 + (w2 * v0 - w0 * v2) * c2_1;
     const double new_m2 = m2 + v2 * c1_1 + (w0 * v1 - w1 * v0) * c2_1;
-    /* x - x is zero for a number, else NaN: one test for all */
-    if (!(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
+    /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+    if (!isfinite((new_m0 + new_m1) + new_m2)
+        && !(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
         return RIGID_NOT_FINITE;
     }
     state[0] = new_m0;

@@ -1,0 +1,53 @@
+"""Numbers are gathered: equal expressions, fewer operations, and what is kept stands as it is."""
+
+from __future__ import annotations
+
+import pytest
+
+from codegen.ir.domain import ExprDomain, PreciseDomain
+from codegen.ir.expr import evaluate, walk
+from codegen.ir.gather import gathered
+
+D = ExprDomain()
+x, y = D.space.sym("x"), D.space.sym("y")
+P = PreciseDomain(0, 40)
+
+
+def number(p, q=1):
+    return D.rational(p, q)
+
+
+def operations(roots):
+    return sum(bool(n.args) and n.op != "neg" for n in walk(roots))
+
+
+CASES = {
+    "nested": (number(101, 100) + number(3, 2) * (number(3, 2) - 2 * x - number(1, 5) * y),),
+    "alike": (number(3, 2) * x - number(3, 2) * y - 1,),
+    "power": ((number(1, 2) * x) ** 3 * (number(-4, 3) * y),),
+    "gone": (number(1, 3) * (3 * x + 6 * y) - x - y,),
+    "inside": (2 * D.call("sqrt", number(1) + number(1, 2) * (number(3) - number(4) * x)),),
+    "negative": (-(number(1, 2) * x) - number(1, 2) * (y - 3),),
+}
+
+
+@pytest.mark.parametrize("roots", CASES.values(), ids=CASES)
+def test_the_value_stays_and_operations_become_fewer(roots):
+    found = gathered(roots)
+    assert operations(found) < operations(roots)
+    values = {"x": P.rational(-3, 7), "y": P.rational(5, 11)}
+    for a, b in zip(evaluate(found, P, values), evaluate(roots, P, values), strict=True):
+        assert abs(a - b) < 1e-38
+
+
+def test_what_is_kept_stays_as_it_is():
+    kept = number(3) * (x + number(1, 3) * (y + number(2)))
+    (found,) = gathered((number(2) * (number(5) * kept + 1),), (kept,))
+    assert kept.args[1] in set(walk([found]))
+    assert operations([found]) == operations([kept.args[1]]) + 2
+
+
+def test_what_would_be_longer_stays():
+    shared = x + number(1, 2) * y
+    roots = (number(3) * shared, D.call("sin", shared) * shared)
+    assert gathered(roots) == roots
