@@ -53,7 +53,6 @@ from codegen.setting import TIME, Setting
 INLINE = 10
 """Largest number of operations spelled in one assignment: longer expressions get names on the way."""
 
-
 MANY = 12
 """With more unknowns than this, entries of Newton's matrix keep as it is what does not move in a step."""
 
