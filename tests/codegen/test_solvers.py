@@ -12,7 +12,7 @@ import pytest
 from codegen.emit import compile_method, emit_compiled
 from codegen.ir.domain import FloatDomain
 from codegen.ir.interpret import interpret
-from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Newton
+from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Newton, Start
 from codegen.load import Statistics, Status, StepFailed, load
 from codegen.lower import setting
 from codegen.printers import TARGETS
@@ -145,6 +145,20 @@ def test_the_solution_that_is_found_depends_continuously_on_the_step(h):
     jumps = [math.dist(a, b) for a, b in pairwise(ends)]
     assert max(jumps) < 0.1
     assert max(map(math.hypot, *zip(*ends, strict=True))) < 1 + 1e-12
+
+
+def test_a_part_of_a_step_is_not_taken_for_the_step(monkeypatch):
+    """Tries that run out just when a shorter step was solved are a failure, in every target."""
+    monkeypatch.setattr(Start, "TRIES", 5)
+    made = compiled("heavy_top", "vcg:midpoint", NEWTON)
+    for target in sorted(TARGETS):
+        integrator = load(emit_compiled(made, target))
+        state = [float(x) for x in made.scene.initial(FloatDomain(0.0))]
+        for h in (0.5, 1.0, 2.0, 5.0):
+            with pytest.raises(StepFailed) as failure:
+                integrator.step(state, h)
+            assert failure.value.status == Status.NOT_CONVERGED
+            assert list(failure.value.state) == state
 
 
 @pytest.mark.parametrize("target", sorted(TARGETS))
