@@ -297,6 +297,7 @@ HOSTILE = [
     "previous_1",
 ]
 HOSTILE += ["odd_OK", "ODD_OK", "ODD_BAD_STEP", "odd_statistics", "odd_run"]
+HOSTILE += ["solved", "part", "tries", "guess"]
 
 
 def scene_with_parameters(names):
