@@ -846,7 +846,7 @@ static int continued(double state[static 12], double h, struct memory *memory,
 {
     double guess[6] = {0.0};
     double solved = 0.0, part = 1.0, factor = 2.0;
-    int status = DIPOLE_VRKMK2_GAUSS2_NOT_CONVERGED;
+    int failure = DIPOLE_VRKMK2_GAUSS2_NOT_CONVERGED;
     if (!(h < 0.0 || h > 0.0)) {
         for (size_t i = 0; i < 12; i++) {
             if (!isfinite(state[i])) {
@@ -864,7 +864,7 @@ static int continued(double state[static 12], double h, struct memory *memory,
             memcpy(memory->guess, guess, sizeof guess);
             memory->rate_1 = 1.0;
         }
-        status = advance(trial, part * h, memory, statistics);
+        const int status = advance(trial, part * h, memory, statistics);
         if (status == DIPOLE_VRKMK2_GAUSS2_OK && part >= 1.0) {
             memcpy(state, trial, sizeof trial);
             memory->known = 1; /* the solutions before it are those of shorter steps */
@@ -879,14 +879,15 @@ static int continued(double state[static 12], double h, struct memory *memory,
             }
             solved = part;
             factor *= factor;
-        } else if (solved > 0.0) {
-            factor = sqrt(factor);
+        } else {
+            failure = status;
+            factor = solved > 0.0 ? sqrt(factor) : factor;
         }
         factor = factor < 4.0 ? factor : 4.0;
         part = solved > 0.0 ? solved * factor : 0.5 * part;
         part = part < 1.0 ? part : 1.0;
     }
-    return status;
+    return failure;
 }
 
 int dipole_vrkmk2_gauss2_step(double state[static 12], double h,
