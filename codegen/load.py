@@ -6,7 +6,8 @@ import math
 import operator
 import types
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from pathlib import Path
@@ -66,6 +67,21 @@ class Statistics:
     matrices: int = 0
 
 
+@dataclass(frozen=True)
+class _Begun:
+    """What a call begins with: the state as it was given and as numbers, parameter values, inputs, counts."""
+
+    state: State
+    numbers: list[float]
+    values: list[float]
+    inputs: Signals | None = None
+    statistics: Statistics | None = None
+
+    def failed(self, status: int, step: int, state: Sequence[float], reason: str) -> StepFailed:
+        """Return the error of a step that could not be made, its state of the kind that was given."""
+        return StepFailed(Status(status), step, like(self.state, state), reason)
+
+
 class Integrator(ABC):
     """A loaded step: ``interface`` tells its arguments, ``defaults`` the scene's parameter values."""
 
@@ -103,10 +119,8 @@ class Integrator(ABC):
 
         ``inputs`` is a function from the time to the run-time inputs, in the interface's order.
         """
-        steps = self._checked_count(steps)
-        self._known(inputs)
-        numbers, values = self._numbers(state), self._values(parameters)
-        final, _ = self._call(numbers, t, h, steps, values, 0, statistics, state, inputs)
+        begun = self._begin(state, parameters, inputs, statistics)
+        final, _ = self._call(begun, t, h, self._checked_count(steps), 0)
         return like(state, final)
 
     def trajectory(
@@ -123,10 +137,8 @@ class Integrator(ABC):
         """Return rows: the initial state and every stride-th state after it."""
         if stride < 1:
             raise ValueError(f"expected a stride of at least 1, found {stride}")
-        values = self._values(parameters)
-        steps = self._checked_count(steps)
-        self._known(inputs)
-        _, rows = self._call(self._numbers(state), t, h, steps, values, stride, statistics, state, inputs)
+        begun = self._begin(state, parameters, inputs, statistics)
+        _, rows = self._call(begun, t, h, self._checked_count(steps), stride)
         return like(state, rows)
 
     def adaptive(
@@ -150,12 +162,9 @@ class Integrator(ABC):
         """
         if not self.interface.adaptive:
             raise TypeError("this module has no run that chooses its steps; emit it with --adaptive")
-        self._known(inputs)
         span, tolerances = (float(t), float(end), float(h)), (float(rtol), float(atol))
-        numbers, values = self._numbers(state), self._values(parameters)
-        found = self._adapt(
-            numbers, span, tolerances, operator.index(limit), values, statistics, inputs, state
-        )
+        begun = self._begin(state, parameters, inputs, statistics)
+        found = self._adapt(begun, span, tolerances, operator.index(limit))
         return replace(found, state=like(state, found.state))
 
     def jacobian(
@@ -175,19 +184,27 @@ class Integrator(ABC):
         if bool(self.interface.inputs) != (inputs is not None):
             raise TypeError(f"expected values for {', '.join(self.interface.inputs) or 'no inputs'}")
         held = None if inputs is None else [float(x) for x in inputs]
-        rows = self._derive(self._numbers(state), t, h, self._values(parameters), held, state)
-        return like(state, rows)
+        begun = _Begun(state, self._numbers(state), self._values(parameters))
+        return like(state, self._derive(begun, t, h, held))
+
+    def _begin(
+        self,
+        state: State,
+        parameters: Mapping[str, float],
+        inputs: Signals | None,
+        statistics: Statistics | None,
+    ) -> _Begun:
+        """Return what was given, checked: TypeError for names and inputs, ValueError for the state."""
+        names = self.interface.inputs
+        if bool(names) != (inputs is not None):
+            raise TypeError(f"expected {'a function for ' + ', '.join(names) if names else 'no inputs'}")
+        return _Begun(state, self._numbers(state), self._values(parameters), inputs, statistics)
 
     def _checked_count(self, steps: int) -> int:
         count = operator.index(steps)
         if count < 0:
             raise ValueError(f"expected no negative number of steps, found {steps}")
         return count
-
-    def _known(self, inputs: Signals | None) -> None:
-        names = self.interface.inputs
-        if bool(names) != (inputs is not None):
-            raise TypeError(f"expected {'a function for ' + ', '.join(names) if names else 'no inputs'}")
 
     def _numbers(self, state: State) -> list[float]:
         numbers = [float(x) for x in state]
@@ -217,42 +234,17 @@ class Integrator(ABC):
 
     @abstractmethod
     def _call(
-        self,
-        numbers: list[float],
-        t: float,
-        h: float,
-        steps: int,
-        values: list[float],
-        stride: int,
-        statistics: Statistics | None,
-        like_state: State,
-        inputs: Signals | None,
+        self, begun: _Begun, t: float, h: float, steps: int, stride: int
     ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
         """Run and return the final state and the rows."""
 
     @abstractmethod
-    def _derive(
-        self,
-        numbers: list[float],
-        t: float,
-        h: float,
-        values: list[float],
-        inputs: list[float] | None,
-        like_state: State,
-    ) -> list[list[float]]:
+    def _derive(self, begun: _Begun, t: float, h: float, held: list[float] | None) -> list[list[float]]:
         """Return the rows of the Jacobian."""
 
     @abstractmethod
     def _adapt(
-        self,
-        numbers: list[float],
-        span: tuple[float, float, float],
-        tolerances: tuple[float, float],
-        limit: int,
-        values: list[float],
-        statistics: Statistics | None,
-        inputs: Signals | None,
-        like_state: State,
+        self, begun: _Begun, span: tuple[float, float, float], tolerances: tuple[float, float], limit: int
     ) -> Arrival:
         """Run with chosen steps; ``span`` is (t, end, h)."""
 
@@ -270,85 +262,61 @@ class CompiledIntegrator(Integrator):
         self._run = getattr(self._library, f"{interface.prefix}run")
 
     def _call(
-        self,
-        numbers: list[float],
-        t: float,
-        h: float,
-        steps: int,
-        values: list[float],
-        stride: int,
-        statistics: Statistics | None,
-        like_state: State,
-        inputs: Signals | None,
+        self, begun: _Begun, t: float, h: float, steps: int, stride: int
     ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
-        size, blocks = self.interface.size, self.interface.blocks
-        real = self.interface.format.c_type
-        state = self._ffi.new(f"{real}[]", numbers)
+        size, real, new = self.interface.size, self.interface.format.c_type, self._ffi.new
+        state, completed = new(f"{real}[]", begun.numbers), new("size_t *")
         row_count = steps // stride + 1 if stride else 0
-        rows = self._ffi.new(f"{real}[]", row_count * size) if stride else self._ffi.NULL
-        completed = self._ffi.new("size_t *")
-        counts = self._ffi.new(f"{self.interface.prefix}statistics *") if blocks else None
-        callback = None if inputs is None else _Callback(self._ffi, self.interface, inputs)
-        sampled = [] if callback is None else [callback.pointer, self._ffi.NULL]
-        arguments = [state, *([t] if self.interface.time else []), h, steps, *values, *sampled, rows, stride]
-        status = Status(self._run(*arguments, *([counts] if blocks else []), completed))
-        if callback is not None and callback.failure is not None:
-            raise callback.failure
-        self._count(counts, statistics)
+        rows = new(f"{real}[]", row_count * size) if stride else self._ffi.NULL
+        time = [t] if self.interface.time else []
+        with self._observed(begun) as (sampled, counted):
+            arguments = [state, *time, h, steps, *begun.values, *sampled, rows, stride, *counted, completed]
+            status = self._run(*arguments)
         final = self._ffi.unpack(state, size)
         if status != Status.OK:
-            block = blocks[counts.failed - 1] if counts is not None and counts.failed else ""
-            raise StepFailed(status, completed[0], like(like_state, final), reason(status, block, h))
+            raise begun.failed(status, completed[0], final, reason(status, self._block(counted), h))
         flat = self._ffi.unpack(rows, row_count * size) if stride else []
         return final, [flat[i : i + size] for i in range(0, len(flat), size)]
 
     def _adapt(
-        self,
-        numbers: list[float],
-        span: tuple[float, float, float],
-        tolerances: tuple[float, float],
-        limit: int,
-        values: list[float],
-        statistics: Statistics | None,
-        inputs: Signals | None,
-        like_state: State,
+        self, begun: _Begun, span: tuple[float, float, float], tolerances: tuple[float, float], limit: int
     ) -> Arrival:
-        real, prefix, new = self.interface.format.c_type, self.interface.prefix, self._ffi.new
-        state, t, h = new(f"{real}[]", numbers), new(f"{real} *", span[0]), new(f"{real} *", span[2])
+        real, new = self.interface.format.c_type, self._ffi.new
+        state, t, h = new(f"{real}[]", begun.numbers), new(f"{real} *", span[0]), new(f"{real} *", span[2])
         accepted, rejected = new("size_t *"), new("size_t *")
-        counts = new(f"{prefix}statistics *") if self.interface.blocks else None
-        callback = None if inputs is None else _Callback(self._ffi, self.interface, inputs)
-        sampled = [] if callback is None else [callback.pointer, self._ffi.NULL]
-        run = getattr(self._library, f"{prefix}run_adaptive")
-        counted = [] if counts is None else [counts]
-        found = run(
-            *(state, t, span[1], h, *tolerances, limit, *values, *sampled, *counted, accepted, rejected)
-        )
-        if callback is not None and callback.failure is not None:
-            raise callback.failure
-        self._count(counts, statistics)
-        final, status = self._ffi.unpack(state, self.interface.size), Status(found)
+        run = getattr(self._library, f"{self.interface.prefix}run_adaptive")
+        with self._observed(begun) as (sampled, counted):
+            arguments = [state, t, span[1], h, *tolerances, limit, *begun.values, *sampled, *counted]
+            status = run(*arguments, accepted, rejected)
+        final = self._ffi.unpack(state, self.interface.size)
         if status != Status.OK:
-            block = self.interface.blocks[counts.failed - 1] if counts is not None and counts.failed else ""
-            raise StepFailed(status, accepted[0], like(like_state, final), reason(status, block, span[2]))
+            raise begun.failed(status, accepted[0], final, reason(status, self._block(counted), span[2]))
         return Arrival(final, t[0], h[0], accepted[0], rejected[0])
 
-    def _derive(
-        self,
-        numbers: list[float],
-        t: float,
-        h: float,
-        values: list[float],
-        inputs: list[float] | None,
-        like_state: State,
-    ) -> list[list[float]]:
+    @contextmanager
+    def _observed(self, begun: _Begun) -> Iterator[tuple[list[Any], list[Any]]]:
+        """Hand over the arguments for inputs and for counts; raise after the call what an input raised."""
+        callback = None if begun.inputs is None else _Callback(self._ffi, self.interface, begun.inputs)
+        blocks, prefix = self.interface.blocks, self.interface.prefix
+        counted = [self._ffi.new(f"{prefix}statistics *")] if blocks else []
+        yield [] if callback is None else [callback.pointer, self._ffi.NULL], counted
+        if callback is not None and callback.failure is not None:
+            raise callback.failure
+        self._count(counted[0] if counted else None, begun.statistics)
+
+    def _block(self, counted: list[Any]) -> str:
+        """Return the name of the block that failed, empty where none did."""
+        failed = counted[0].failed if counted else 0
+        return self.interface.blocks[failed - 1] if failed else ""
+
+    def _derive(self, begun: _Begun, t: float, h: float, held: list[float] | None) -> list[list[float]]:
         real, size = self.interface.format.c_type, self.interface.variations
         found = self._ffi.new(f"{real}[]", size * size)
-        time, held = [t] if self.interface.time else [], [] if inputs is None else [inputs]
+        time, inputs = [t] if self.interface.time else [], [] if held is None else [held]
         derive = getattr(self._library, f"{self.interface.prefix}jacobian")
-        status = Status(derive(numbers, *time, h, *values, *held, found))
+        status = derive(begun.numbers, *time, h, *begun.values, *inputs, found)
         if status != Status.OK:
-            raise StepFailed(status, 0, like(like_state, numbers), reason(status, "an implicit block", h))
+            raise begun.failed(status, 0, begun.numbers, reason(status, "an implicit block", h))
         flat = self._ffi.unpack(found, size * size)
         return [flat[i : i + size] for i in range(0, size * size, size)]
 
@@ -384,80 +352,46 @@ class InterpretedIntegrator(Integrator):
         exec(compile(source, f"{interface.module}.py", "exec"), self.module.__dict__)
 
     def _call(
-        self,
-        numbers: list[float],
-        t: float,
-        h: float,
-        steps: int,
-        values: list[float],
-        stride: int,
-        statistics: Statistics | None,
-        like_state: State,
-        inputs: Signals | None,
+        self, begun: _Begun, t: float, h: float, steps: int, stride: int
     ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
-        keywords: dict[str, Any] = {}
-        counts = self.module.Statistics() if self.interface.blocks else None
-        if counts is not None:
-            keywords["statistics"] = counts
-        try:
-            found = self.module.run(
-                *(numbers, *([t] if self.interface.time else []), h, steps),
-                *([] if inputs is None else [inputs]),
-                *values,
-                stride=stride,
-                **keywords,
-            )
-        except self.module.StepFailed as failure:
-            status = Status(failure.status)
-            raise StepFailed(status, failure.step, like(like_state, failure.state), failure.reason) from None
-        finally:
-            self._count(counts, statistics)
+        time, sampled = [t] if self.interface.time else [], [] if begun.inputs is None else [begun.inputs]
+        with self._observed(begun) as counted:
+            arguments = [begun.numbers, *time, h, steps, *sampled, *begun.values]
+            found = self.module.run(*arguments, stride=stride, **counted)
         return (found[-1], found) if stride else (found, [])
 
     def _adapt(
-        self,
-        numbers: list[float],
-        span: tuple[float, float, float],
-        tolerances: tuple[float, float],
-        limit: int,
-        values: list[float],
-        statistics: Statistics | None,
-        inputs: Signals | None,
-        like_state: State,
+        self, begun: _Begun, span: tuple[float, float, float], tolerances: tuple[float, float], limit: int
     ) -> Arrival:
         t, end, h = span
-        sampled = [] if inputs is None else [inputs]
+        sampled = [] if begun.inputs is None else [begun.inputs]
         keywords: dict[str, Any] = dict(zip(("rtol", "atol"), tolerances, strict=True)) | {"limit": limit}
-        keywords |= dict(zip(self.interface.parameters, values, strict=True))
+        keywords |= dict(zip(self.interface.parameters, begun.values, strict=True))
+        with self._observed(begun) as counted:
+            return Arrival(
+                *self.module.run_adaptive(begun.numbers, t, end, *sampled, h, **keywords, **counted)
+            )
+
+    def _derive(self, begun: _Begun, t: float, h: float, held: list[float] | None) -> list[list[float]]:
+        time, inputs = [t] if self.interface.time else [], [] if held is None else [held]
+        try:
+            return list(self.module.jacobian(begun.numbers, *time, h, *inputs, *begun.values))
+        except self.module.StepFailed as failure:
+            raise begun.failed(failure.status, 0, begun.numbers, failure.reason) from None
+
+    @contextmanager
+    def _observed(self, begun: _Begun) -> Iterator[dict[str, Any]]:
+        """Hand over the argument for counts; raise a failed step as ours."""
         counts = self.module.Statistics() if self.interface.blocks else None
-        if counts is not None:
-            keywords["statistics"] = counts
         try:
-            return Arrival(*self.module.run_adaptive(numbers, t, end, *sampled, h, **keywords))
+            yield {} if counts is None else {"statistics": counts}
         except self.module.StepFailed as failure:
-            state = like(like_state, failure.state)
-            raise StepFailed(Status(failure.status), failure.step, state, failure.reason) from None
+            raise begun.failed(failure.status, failure.step, failure.state, failure.reason) from None
         finally:
-            self._count(counts, statistics)
-
-    def _derive(
-        self,
-        numbers: list[float],
-        t: float,
-        h: float,
-        values: list[float],
-        inputs: list[float] | None,
-        like_state: State,
-    ) -> list[list[float]]:
-        time, held = [t] if self.interface.time else [], [] if inputs is None else [inputs]
-        try:
-            return list(self.module.jacobian(numbers, *time, h, *held, *values))
-        except self.module.StepFailed as failure:
-            state = like(like_state, numbers)
-            raise StepFailed(Status(failure.status), 0, state, failure.reason) from None
+            self._count(counts, begun.statistics)
 
 
-def reason(status: Status, block: str, h: float) -> str:
+def reason(status: int, block: str, h: float) -> str:
     """Say in words why a step failed."""
     match status:
         case Status.BAD_STEP:
