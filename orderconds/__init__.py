@@ -36,10 +36,9 @@ Words t_1 ... t_k are written in the order of action: t_1 acts first.
 
 from __future__ import annotations
 
-import sys
-from importlib import import_module
-from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from orderconds.lazy import lazy
 
 if TYPE_CHECKING:
     from orderconds.check import check as check
@@ -49,31 +48,4 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 __all__ = ["Tableau", "check", "derive"]
 
-# PEP 562: importing orderconds costs nothing; a name loads its module when it is first asked for.
-_HOME = {"Tableau": "orderconds.tableau", "check": "orderconds.check", "derive": "orderconds.derive"}
-
-
-def __getattr__(name: str) -> Any:
-    """Load ``derive``, ``check`` or ``Tableau`` from its module."""
-    if name not in _HOME:
-        raise AttributeError(f"module 'orderconds' has no attribute {name!r}")
-    value = globals()[name] = getattr(import_module(_HOME[name]), name)
-    return value
-
-
-def __dir__() -> list[str]:
-    """List the public names, loaded or not."""
-    return sorted({*globals(), *__all__})
-
-
-class _Package(ModuleType):
-    """The package as its own class, so that the modules check and derive do not hide their functions."""
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        # The import system stores every submodule here under its name, after running it.
-        if name in _HOME and isinstance(value, ModuleType):
-            value = getattr(value, name)
-        super().__setattr__(name, value)
-
-
-sys.modules[__name__].__class__ = _Package
+lazy(__name__, check=("check",), derive=("derive",), tableau=("Tableau",))

@@ -7,10 +7,11 @@ right trivialisation, [A, B] = AB - BA (see :mod:`orderconds`).
 
 from __future__ import annotations
 
-from importlib import import_module
+import sys
 from typing import TYPE_CHECKING, Any
 
 from orderconds.errors import UnknownName
+from orderconds.lazy import lazy
 
 if TYPE_CHECKING:
     from codegen.groups.actions import LeftMultiplication, Linear, Motion, Rotation
@@ -39,38 +40,29 @@ __all__ = [
     "Rotation",
 ]
 
-MODULES = {
-    "SO3": "so3",
-    "Rn": "euclidean",
-    "GL": "matrix",
-    "MatrixGroup": "matrix",
-    "S3": "quaternions",
-    "SE2": "plane",
-    "SL2": "sl2",
-    "Product": "product",
-    "Cotangent": "cotangent",
-    "Linear": "actions",
-    "Rotation": "actions",
-    "Motion": "actions",
-    "LeftMultiplication": "actions",
-}
-
 LISTED = ("Cotangent", "GL", "MatrixGroup", "Product", "Rn", "S3", "SE2", "SL2", "SO3")
 
-
-def __getattr__(name: str) -> Any:
-    if name not in MODULES:
-        raise AttributeError(name)
-    return getattr(import_module(f"codegen.groups.{MODULES[name]}"), name)
+lazy(
+    __name__,
+    actions=("Linear", "Rotation", "Motion", "LeftMultiplication"),
+    cotangent=("Cotangent",),
+    euclidean=("Rn",),
+    matrix=("GL", "MatrixGroup"),
+    plane=("SE2",),
+    product=("Product",),
+    quaternions=("S3",),
+    sl2=("SL2",),
+    so3=("SO3",),
+)
 
 
 def listing() -> list[dict[str, str]]:
     """Return name and first docstring line of every group, for ``orderconds list groups``."""
-    return [{"name": n, "about": (__getattr__(n).__doc__ or "").splitlines()[0]} for n in LISTED]
+    return [{"name": n, "about": (get(n).__doc__ or "").splitlines()[0]} for n in LISTED]
 
 
 def get(name: str) -> Any:
     """Return the group class of that name; :class:`orderconds.errors.UnknownName` for another."""
     if name not in LISTED:
         raise UnknownName(f"unknown group {name!r}", expected=f"one of {', '.join(LISTED)}")
-    return __getattr__(name)
+    return getattr(sys.modules[__name__], name)

@@ -6,9 +6,9 @@ package only. The names below load on first use (PEP 562), so that a rational ta
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from orderconds.lazy import lazy
 from orderconds.ring.protocol import Element, Ring
 
 if TYPE_CHECKING:
@@ -18,20 +18,6 @@ if TYPE_CHECKING:
     from orderconds.ring.power_series import PowerSeries, Series
     from orderconds.ring.rationals import QQ, Rationals
     from orderconds.ring.residues import Residue, Residues
-
-_HOME = {
-    "Algebraic": "field",
-    "Ball": "balls",
-    "Balls": "balls",
-    "NumberField": "field",
-    "Polynomials": "polynomials",
-    "PowerSeries": "power_series",
-    "QQ": "rationals",
-    "Rationals": "rationals",
-    "Residue": "residues",
-    "Residues": "residues",
-    "Series": "power_series",
-}
 
 __all__ = [
     "QQ",
@@ -49,10 +35,12 @@ __all__ = [
     "Series",
 ]
 
-
-def __getattr__(name: str) -> Any:
-    try:
-        home = _HOME[name]
-    except KeyError:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}") from None
-    return getattr(import_module(f"{__name__}.{home}"), name)
+lazy(
+    __name__,
+    balls=("Ball", "Balls"),
+    field=("Algebraic", "NumberField"),
+    polynomials=("Polynomials",),
+    power_series=("PowerSeries", "Series"),
+    rationals=("QQ", "Rationals"),
+    residues=("Residue", "Residues"),
+)

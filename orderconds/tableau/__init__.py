@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from orderconds.lazy import lazy
 
 if TYPE_CHECKING:
     from orderconds.tableau.file import load, loads
@@ -20,28 +21,6 @@ if TYPE_CHECKING:
     from orderconds.tableau.products import AdjointComposition, Magnus, Method, Splitting
     from orderconds.tableau.record import Claims, OrderClaim, Tableau
     from orderconds.tableau.write import dumps
-
-_HOME = {
-    "AdjointComposition": "products",
-    "Claims": "record",
-    "CommutatorFree": "methods",
-    "Composition": "methods",
-    "Embedded": "methods",
-    "EmbeddedUpdate": "methods",
-    "Magnus": "products",
-    "Method": "products",
-    "OrderClaim": "record",
-    "PartitionedRungeKutta": "methods",
-    "RungeKutta": "methods",
-    "Splitting": "products",
-    "Stage": "methods",
-    "Tableau": "record",
-    "available": "library",
-    "dumps": "write",
-    "find": "library",
-    "load": "file",
-    "loads": "file",
-}
 
 __all__ = [
     "AdjointComposition",
@@ -65,10 +44,20 @@ __all__ = [
     "loads",
 ]
 
-
-def __getattr__(name: str) -> Any:
-    try:
-        home = _HOME[name]
-    except KeyError:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}") from None
-    return getattr(import_module(f"{__name__}.{home}"), name)
+lazy(
+    __name__,
+    file=("load", "loads"),
+    library=("available", "find"),
+    methods=(
+        "CommutatorFree",
+        "Composition",
+        "Embedded",
+        "EmbeddedUpdate",
+        "PartitionedRungeKutta",
+        "RungeKutta",
+        "Stage",
+    ),
+    products=("AdjointComposition", "Magnus", "Method", "Splitting"),
+    record=("Claims", "OrderClaim", "Tableau"),
+    write=("dumps",),
+)
