@@ -18,24 +18,16 @@ The unknowns are the xi_i and n_i.
 from __future__ import annotations
 
 from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
-from codegen.lower.stages import Stages
+from codegen.lower.variational import begin
 from codegen.method import Method
 from codegen.setting import Setting
-from orderconds.errors import ZeroWeight
 
 
 def lower(scene: Setting, method: Method) -> Program:
     """Return the program of an SLGI method; :class:`orderconds.errors.ZeroWeight` where some b_i = 0."""
-    tableau = method.runge_kutta()
-    q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
-    stages = Stages(scene, method, (q, mu))
+    stages, tableau, A, b = begin(scene, method)
+    q, mu = stages.inputs
     do, s = stages.builder, tableau.s
-    A = [[stages.number(x) for x in row] for row in tableau.A]
-    b = [stages.number(x) for x in tableau.b]
-    for i, weight in enumerate(b):
-        if weight.is_zero:
-            where = f"slgi:{method.tableau.name}"
-            raise ZeroWeight(f"b_{i + 1} = 0", where=where, expected="all b_i non-zero: SLGI divides by them")
     xi = [do.fresh(f"xi{i + 1}", Kind.ALG) for i in range(s)]
     n = [do.fresh(f"n{i + 1}", Kind.DUAL) for i in range(s)]
     shared: dict[str, Var] = {}

@@ -21,9 +21,9 @@ from dataclasses import dataclass
 from codegen.ir.number import Number
 from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
 from codegen.lower.stages import Stages
+from codegen.lower.variational import nonzero
 from codegen.method import Method
 from codegen.setting import Setting
-from orderconds.errors import ZeroWeight
 
 Rows = tuple[tuple[Number, ...], ...]
 """The exponentials of one product from y0 on; the first acts first."""
@@ -122,11 +122,5 @@ def _weights(method: Method, update: Rows, s: int) -> list[Number]:
         weight = Number.rational(0)
         for row in update:
             weight = weight + row[i]
-        if weight.is_zero:
-            raise ZeroWeight(
-                f"b_{i + 1} = 0",
-                where=f"vcf:{method.tableau.name}",
-                expected="all b_i non-zero: VCF divides by them",
-            )
         b.append(weight)
-    return b
+    return nonzero(method, b)

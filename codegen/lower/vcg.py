@@ -15,24 +15,17 @@ terms are kept apart here, one a coefficient; where a_ji = b_i and E_j^{i-1} = e
 from __future__ import annotations
 
 from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
-from codegen.lower.stages import Stages
+from codegen.lower.variational import begin
 from codegen.method import Method
 from codegen.setting import Setting
-from orderconds.errors import ZeroWeight
 from orderconds.ring.protocol import Element
 
 
 def lower(scene: Setting, method: Method) -> Program:
     """Return the program of a VCG method; :class:`orderconds.errors.ZeroWeight` where some b_i = 0."""
-    tableau = method.runge_kutta()
-    q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
-    stages = Stages(scene, method, (q, mu))
+    stages, tableau, A, b = begin(scene, method)
+    q, mu = stages.inputs
     do, s = stages.builder, tableau.s
-    b = [stages.number(x) for x in tableau.b]
-    for i, weight in enumerate(b):
-        if weight.is_zero:
-            where = f"vcg:{method.tableau.name}"
-            raise ZeroWeight(f"b_{i + 1} = 0", where=where, expected="all b_i non-zero: VCG divides by them")
     xi = [do.fresh(f"xi{i + 1}", Kind.ALG) for i in range(s)]
     n = [do.fresh(f"n{i + 1}", Kind.DUAL) for i in range(s)]
     shared: dict[str, list[Var]] = {}
@@ -56,7 +49,7 @@ def lower(scene: Setting, method: Method) -> Program:
         terms = [(ONE, carried(mu))]
         for j in range(s):
             terms.append((stages.times_h(b[j]), carried(nu[j])))
-            a = stages.number(tableau.A[j][i])
+            a = A[j][i]
             if a.is_zero:
                 continue
             x = do.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-a), xi[i])])

@@ -17,12 +17,10 @@ terms cancel that cancel on an abelian group.
 
 from __future__ import annotations
 
-from codegen.errors import MethodError
 from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
-from codegen.lower.stages import Stages
+from codegen.lower.variational import begin, brackets
 from codegen.method import Method
 from codegen.setting import Setting
-from orderconds.errors import ZeroWeight
 
 
 def lower(scene: Setting, method: Method) -> Program:
@@ -31,25 +29,10 @@ def lower(scene: Setting, method: Method) -> Program:
     :class:`orderconds.errors.ZeroWeight` where some b_i = 0, :class:`codegen.errors.MethodError` without a
     cut-off: a program has finitely many brackets.
     """
-    r = method.cutoff
-    name = method.tableau.name
-    if r is None:
-        raise MethodError(
-            f"vrkmk:{name} without a cut-off", expected=f"a number of brackets, as vrkmk(2):{name}"
-        )
-    tableau = method.runge_kutta()
-    q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
-    stages = Stages(scene, method, (q, mu))
+    r = brackets(method)
+    stages, tableau, A, b = begin(scene, method)
+    q, mu = stages.inputs
     do, s = stages.builder, tableau.s
-    A = [[stages.number(x) for x in row] for row in tableau.A]
-    b = [stages.number(x) for x in tableau.b]
-    for i, weight in enumerate(b):
-        if weight.is_zero:
-            raise ZeroWeight(
-                f"b_{i + 1} = 0",
-                where=f"{method.family_label}:{name}",
-                expected="all b_i non-zero: VRKMK divides by them",
-            )
     v = [do.fresh(f"v{i + 1}", Kind.ALG) for i in range(s)]
     m = [do.fresh(f"m{i + 1}", Kind.DUAL) for i in range(s)]
     transported = do.fresh("Lambda", Kind.DUAL)

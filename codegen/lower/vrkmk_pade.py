@@ -18,13 +18,11 @@ from __future__ import annotations
 from fractions import Fraction
 from math import factorial
 
-from codegen.errors import MethodError
 from codegen.ir.number import Number
 from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
-from codegen.lower.stages import Stages
+from codegen.lower.variational import begin, brackets
 from codegen.method import Method
 from codegen.setting import Setting
-from orderconds.errors import ZeroWeight
 
 Terms = list[tuple[Coefficient, Var]]
 
@@ -35,22 +33,10 @@ def lower(scene: Setting, method: Method) -> Program:
     :class:`orderconds.errors.ZeroWeight` where some b_i = 0, :class:`codegen.errors.MethodError` without a
     cut-off: a program has finitely many brackets.
     """
-    name, r = method.tableau.name, method.cutoff
-    if r is None:
-        raise MethodError(
-            f"vrkmk_pade:{name} without a cut-off",
-            expected=f"a number of brackets, as vrkmk_pade(2):{name}",
-        )
-    tableau = method.runge_kutta()
-    q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
-    stages = Stages(scene, method, (q, mu))
+    r = brackets(method)
+    stages, tableau, A, b = begin(scene, method)
+    q, mu = stages.inputs
     do, s = stages.builder, tableau.s
-    A = [[stages.number(x) for x in row] for row in tableau.A]
-    b = [stages.number(x) for x in tableau.b]
-    for i, weight in enumerate(b):
-        if weight.is_zero:
-            where = f"{method.family_label}:{name}"
-            raise ZeroWeight(f"b_{i + 1} = 0", where=where, expected="all b_i non-zero: it divides by them")
     v = [do.fresh(f"v{i + 1}", Kind.ALG) for i in range(s)]
     M = [do.fresh(f"M{i + 1}", Kind.DUAL) for i in range(s)]
     shared: dict[str, Var] = {}
