@@ -16,6 +16,7 @@ from typing import Any
 from flint import arb, arb_poly, fmpq, fmpq_mat, fmpq_poly
 
 from orderconds.ring.decimals import Enclosure, decimal, nearest_float, rational_decimal, rational_float
+from orderconds.ring.power import power
 from orderconds.ring.precision import precision
 from orderconds.ring.roots import isolating
 
@@ -116,8 +117,8 @@ class NumberField:
         if below.degree() <= 0:
             return Algebraic(self, below)
         image = fmpq_poly([0])
-        for power, c in zip(self._parent_powers, below.coeffs(), strict=False):
-            image = image + power * c
+        for x, c in zip(self._parent_powers, below.coeffs(), strict=False):
+            image = image + x * c
         return Algebraic(self, image)
 
     @cached_property
@@ -332,13 +333,7 @@ class Algebraic:
         return self.reciprocal().__mul__(other)
 
     def __pow__(self, n: int) -> Algebraic:
-        base = self if n >= 0 else self.reciprocal()
-        result, n = self.field.one, abs(n)
-        while n:
-            if n & 1:
-                result = result * base
-            base, n = base * base, n >> 1
-        return result
+        return power(self, n, self.field.one)
 
     def __eq__(self, other: object) -> bool:
         try:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from orderconds.ring.power import power
 from orderconds.ring.protocol import Element, Ring
 
 
@@ -56,16 +57,16 @@ class PowerSeries:
     def text(self, x: Series) -> str:
         """Spell x by ascending powers of h; coefficients that are sums stand in parentheses."""
         terms = []
-        for power, c in enumerate(x.coefficients):
+        for k, c in enumerate(x.coefficients):
             if self.base.is_zero(c) is True:
                 continue
             spelled = self.base.text(c)
-            if power == 0:
+            if k == 0:
                 terms.append(spelled)
                 continue
             if " " in spelled:
                 spelled = f"({spelled})"
-            h = "h" if power == 1 else f"h^{power}"
+            h = "h" if k == 1 else f"h^{k}"
             terms.append({"1": h, "-1": f"-{h}"}.get(spelled, f"{spelled}*{h}"))
         return " + ".join(terms).replace("+ -", "- ") if terms else "0"
 
@@ -80,9 +81,9 @@ class PowerSeries:
 
     def valuation(self, x: Series) -> int:
         """Return the lowest power of h whose coefficient is not proved zero; order + 1 for zero."""
-        for power, c in enumerate(x.coefficients):
+        for k, c in enumerate(x.coefficients):
             if self.base.is_zero(c) is not True:
-                return power
+                return k
         return self.order + 1
 
 
@@ -173,11 +174,7 @@ class Series:
         return self.reciprocal().__mul__(other)
 
     def __pow__(self, n: int) -> Series:
-        base = self if n >= 0 else self.reciprocal()
-        result = self.ring.one
-        for _ in range(abs(n)):
-            result = result * base
-        return result
+        return power(self, n, self.ring.one)
 
     def __eq__(self, other: object) -> bool:
         return (

@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from orderconds.ring.power import power
+
 PRIMES = (2147483647, 2147483629)
 """The two largest primes below 2^31."""
 
@@ -129,11 +131,7 @@ class Residue:
         return self.reciprocal().__mul__(other)
 
     def __pow__(self, n: int) -> Residue:
-        base, n = (self, n) if n >= 0 else (self.reciprocal(), -n)
-        result = self.ring.one
-        for _ in range(n):
-            result = result * base
-        return result
+        return power(self, n, self.ring.one)
 
     def __eq__(self, other: object) -> bool:
         return (

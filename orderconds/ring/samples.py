@@ -15,6 +15,8 @@ from typing import Any
 
 from flint import nmod_mat, nmod_poly
 
+from orderconds.ring.power import power
+
 
 class Samples:
     """The ring of ``count`` samples modulo ``prime``, more than that.
@@ -123,11 +125,7 @@ class Sample:
         return self.reciprocal().__mul__(other)
 
     def __pow__(self, n: int) -> Sample:
-        base, n = (self, n) if n >= 0 else (self.reciprocal(), -n)
-        result = self.ring.one
-        for _ in range(n):
-            result = result * base
-        return result
+        return power(self, n, self.ring.one)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Sample) and bool(self.polynomial == other.polynomial)

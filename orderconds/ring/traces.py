@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from orderconds.ring.power import power
+
 ADD, MULTIPLY, DIVIDE, ROOT, CONSTANT, INPUT = range(6)
 """Operations: x + y, x y, x / y of two places, the n-th root of one, a rational number, an input."""
 
@@ -149,11 +151,7 @@ class Trace:
         return self._lift(other) / self
 
     def __pow__(self, n: int) -> Trace:
-        base, n = (self, n) if n >= 0 else (1 / self, -n)
-        result = self.ring.one
-        for _ in range(n):
-            result = result * base
-        return result
+        return power(self, n, self.ring.one)
 
 
 def evaluate(operations: Sequence[Operation], inputs: Sequence[Any], ring: Any) -> list[Any]:
