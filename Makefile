@@ -1,8 +1,8 @@
 # Everything a reader of this repository runs. Needs Python 3.11 or later and a C compiler; makes its own .venv.
 #
 #   make demo      derive, check, emit, compile, converge, report: the whole life of a method
-#   make test      the tests that take seconds, doctests and coverage
-#   make test-all  the same with the proofs that take minutes
+#   make test      the tests that take seconds, and the examples of docstrings
+#   make test-all  the same with the proofs that take minutes, and coverage
 #   make gate      check every tableau of the library
 #   make lint      ruff, mypy --strict, import-linter
 #   make bench     time this project beside its peers (benchmarks/)
@@ -14,7 +14,8 @@ BIN := $(VENV)/bin
 INSTALLED := $(VENV)/.installed
 REPORT := report
 EMITTED := $(REPORT)/emitted
-PYTEST := $(BIN)/python -m pytest -n 2 -rs --doctest-modules --cov --cov-report=term orderconds codegen tests
+# Neighbouring tests share what they derive, so each process begins with a run of neighbours and takes over others' last.
+PYTEST := $(BIN)/python -m pytest -n 2 --dist worksteal -rs --doctest-modules orderconds codegen tests
 
 .PHONY: demo test test-all bench gate lint compiler clean
 .DELETE_ON_ERROR:
@@ -53,8 +54,9 @@ demo: $(INSTALLED) compiler
 test: $(INSTALLED)
 	$(PYTEST) -m 'not slow'
 
+# Coverage is counted here, where time does not matter: it takes half as long again.
 test-all: $(INSTALLED)
-	$(PYTEST)
+	$(PYTEST) --cov --cov-report=term
 
 bench: $(INSTALLED) compiler
 	PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[peers]'
