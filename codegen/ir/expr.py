@@ -240,20 +240,23 @@ def _joinable(a: Expr, b: Expr) -> bool:
     return x.ring is y.ring or x.is_rational or y.is_rational
 
 
-def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] = lambda _: False) -> Iterator[Expr]:
+def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> Iterator[Expr]:
     """Yield every node below the roots once, arguments before users; nodes where stop holds are leaves."""
-    seen: dict[int, bool] = {}
+    seen: set[int] = set()
+    waiting: list[Any] = []
     for root in roots:
-        stack = [(root, False)]
-        while stack:
-            node, expanded = stack.pop()
-            if expanded:
-                yield node
+        waiting.append(root)
+        while waiting:
+            node = waiting.pop()
+            if node is None:  # what stands below it has had all its arguments
+                yield waiting.pop()
             elif node.id not in seen:
-                seen[node.id] = True
-                stack.append((node, True))
-                if not stop(node):
-                    stack.extend((a, False) for a in reversed(node.args))
+                seen.add(node.id)
+                if not node.args or (stop is not None and stop(node)):
+                    yield node
+                    continue
+                waiting += (node, None)
+                waiting += [a for a in node.args[::-1] if a.id not in seen]
 
 
 def evaluate(roots: Iterable[Expr], domain: Any, values: dict[str, Any]) -> list[Any]:
