@@ -122,7 +122,7 @@ def compile_method(
         candidates.append(Compiled(scene, method, view, lowered, program, trace, kernel))
     best = min(candidates, key=lambda c: work(c.kernel))
     if known_solver(solver) and best.kernel.loops:
-        kernel, choices = solved(best.program, view, start_of(scene), solver)
+        kernel, choices = solved(best.program, view, start_of(scene), solver, best.kernel)
         best = replace(best, kernel=kernel, solvers=choices, asked=solver)
     if jacobian:
         vary = to_kernel(best.program, view, variations=Variations.of(view))

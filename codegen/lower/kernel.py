@@ -48,6 +48,7 @@ from codegen.lower.arguments import SharedArguments
 from codegen.lower.outline import LONG, WORTH, Outline
 from codegen.lower.series_sums import SeriesSums
 from codegen.lower.variation import Variations
+from codegen.passes.rewrite import uses
 from codegen.setting import TIME, Setting
 
 INLINE = 10
@@ -164,7 +165,7 @@ def to_kernel(
         inside = False
         corrected = solvers.get(statement.label, FIXED_POINT) != FIXED_POINT
         comparing = corrected and solvers[statement.label] == NEWTON and variations is None
-        compared = _compared(statement, entered, env, name) if comparing else None
+        compared = _compared(statement, entered, env, name, program) if comparing else None
         if compared is not None:
             entered = compared
         elif corrected:
@@ -200,7 +201,7 @@ def to_kernel(
     scalars = (TIME, "h", *scene.runtime, *durations)
     body = schedule.run()
     pieces: tuple[Piece, ...] = ()
-    if blocks and variations is None and _count(body) > LONG:
+    if blocks and variations is None and is_long(body):
         taken.clear()
         taken.update(before)
         shorter, pieces = _outlined(outline, blocks, (*outputs, *errors), hints, name)
@@ -218,6 +219,11 @@ def to_kernel(
     if errors:
         made = replace(made, estimate=Estimate(schedule.outputs[len(outputs) :], 0))
     return _sampled(made, scene, domain)
+
+
+def is_long(body: Iterable[Let | Start | Loop]) -> bool:
+    """Whether a step has so many assignments that what it repeats is looked for."""
+    return _count(body) > LONG
 
 
 def _count(body: Iterable[Let | Start | Loop | Piece]) -> int:
@@ -349,7 +355,7 @@ def _enter(
 
 
 def _compared(
-    block: Solve, entered: _Block, env: dict[Var, Any], name: Callable[[str], str]
+    block: Solve, entered: _Block, env: dict[Var, Any], name: Callable[[str], str], program: Program
 ) -> _Block | None:
     """Return the block with its residuals for images and their derivative to first order in h for a matrix.
 
@@ -370,7 +376,9 @@ def _compared(
         if x.op in ("add", "sub")
     ]
     # Few unknowns: what is kept takes registers that sweeps need. Many: what is expanded takes lines.
-    free = _independent(known, entered.unknowns) if len(entered.unknowns) > MANY else []
+    many = len(entered.unknowns) > MANY
+    later = _read_after(block, program) if many else frozenset()
+    free = _independent(known, entered.unknowns) if many else []
     normal, linear = NormalForms(space, whole=free), FirstOrder(entered.unknowns)
     try:
         rows = linear.jacobian(residuals)
@@ -379,7 +387,7 @@ def _compared(
     changes = tuple(name(f"d_{u}") for u in entered.unknowns)
     kept: list[tuple[str, Expr]] = []
     for var in (target for assign in block.body for target in assign.targets):
-        if var.kind not in (Kind.ALG, Kind.DUAL):
+        if var.kind not in (Kind.ALG, Kind.DUAL) or (many and var not in later):
             continue
         try:
             slopes = linear.jacobian(env[var])
@@ -405,6 +413,12 @@ def _compared(
         changes=changes,
         kept=tuple(kept),
     )
+
+
+def _read_after(block: Solve, program: Program) -> frozenset[Var]:
+    """Return the variables that a program reads after a block."""
+    rest = program.body[program.body.index(block) + 1 :]
+    return frozenset(uses(replace(program, body=rest)))
 
 
 def _independent(values: Sequence[Expr], unknowns: Sequence[str]) -> list[Expr]:

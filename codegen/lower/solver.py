@@ -7,7 +7,9 @@ are computed within a sweep; were they unknowns beside the velocities, two sweep
 All are tried: the step is printed as Python and makes a few steps from the initial state, of the length that
 the usage example takes. Sweeps and matrices are counted and weighed by their operations. What settles with
 steps :data:`LONGER` times as long too, soon, is preferred: near its limit a method fails at a user's next
-step size.
+step size. Blocks of more than :data:`MANY` unknowns that a fixed point solves in :data:`FEW` sweeps are left
+to it: multiplying by the inverse takes what the fewer sweeps of Newton's method save, and its matrix is longer
+than the step. Of long steps chords are not tried where momenta are compared, which Newton's method serves.
 """
 
 from __future__ import annotations
@@ -20,7 +22,7 @@ from codegen.errors import MethodError
 from codegen.ir.differentiate import NotDifferentiable
 from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Kernel, Loop
 from codegen.ir.program import Program
-from codegen.lower.kernel import to_kernel
+from codegen.lower.kernel import is_long, to_kernel
 from codegen.printers.arrange import METHODS, arrange
 from codegen.printers.interface import Interface
 from codegen.printers.operations import matrix_of, operations
@@ -38,6 +40,9 @@ STEPS, LONGER, PARTS = 20, 8, 100
 
 SWEEPS = 20
 """The most sweeps that a longer step may take."""
+
+MANY, FEW = 20, 5.0
+"""In how many sweeps a fixed point must solve a block of more than so many unknowns to be taken untried."""
 
 WEIGHTS = {"add": 1, "mul": 1, "div": 4}
 """What operations cost; calls cost :data:`CALL`."""
@@ -78,26 +83,45 @@ def known_solver(name: str) -> str:
 
 
 def solved(
-    program: Program, scene: Setting, initial: tuple[float, ...], asked: str = AUTO
+    program: Program,
+    scene: Setting,
+    initial: tuple[float, ...],
+    asked: str = AUTO,
+    iterated: Kernel | None = None,
 ) -> tuple[Kernel, tuple[Choice, ...]]:
     """Return the kernel of a program with every block solved as ``asked``, and what was chosen.
 
     ``initial`` is the state that trials start from; signals that are taken at run time are zero in them.
     ``asked`` is one of :data:`CHOICES`; UnknownName for another, MethodError for Newton's method where a
-    function of the scene or group has no derivative here.
+    function of the scene or group has no derivative here. ``iterated`` is the kernel with fixed points, for a
+    caller that has it.
     """
     known_solver(asked)
-    kernels = {FIXED_POINT: to_kernel(program, scene)}
-    labels = [loop.label for loop in kernels[FIXED_POINT].loops]
+    fixed = iterated or to_kernel(program, scene)
+    labels = [loop.label for loop in fixed.loops]
     if not labels:
-        return kernels[FIXED_POINT], ()
+        return fixed, ()
+    if asked == FIXED_POINT:
+        return fixed, _choices(fixed, dict.fromkeys(labels, "asked for"))
+    tried = _Tried(scene, initial)
+    if asked == AUTO:
+        tried.add(FIXED_POINT, fixed)
+        if tried.soon():
+            return fixed, _choices(fixed, tried.reasons_for_fixed_points())
     refused: dict[str, str] = {}
     for solver in (NEWTON, CHORD):
-        if asked in (AUTO, solver):
-            try:
-                kernels[solver] = to_kernel(program, scene, dict.fromkeys(labels, solver))
-            except (NotDifferentiable, ZeroDivisionError) as error:
-                refused[solver] = str(error)
+        if asked not in (AUTO, solver):
+            continue
+        if solver == CHORD and (fixed.pieces or is_long(fixed.body)) and tried.serves(NEWTON):
+            continue
+        try:
+            kernel = to_kernel(program, scene, dict.fromkeys(labels, solver))
+        except (NotDifferentiable, ZeroDivisionError) as error:
+            refused[solver] = str(error)
+            continue
+        if asked == solver:
+            return kernel, _choices(kernel, dict.fromkeys(labels, "asked for"))
+        tried.add(solver, kernel)
     if asked in refused:
         raise MethodError(
             f"{METHODS[asked]} for {program.name}: {refused[asked]}",
@@ -105,13 +129,11 @@ def solved(
             expected="functions whose derivatives are known",
             hint=f"ask for --solver {FIXED_POINT}",
         )
-    if asked != AUTO:
-        return kernels[asked], _choices(kernels[asked], dict.fromkeys(labels, "asked for"))
-    if len(kernels) == 1:
-        return kernels[FIXED_POINT], _choices(kernels[FIXED_POINT], dict.fromkeys(labels, refused[NEWTON]))
-    chosen, reasons = _compared(kernels, scene, initial)
+    if len(tried.kernels) == 1:
+        return fixed, _choices(fixed, dict.fromkeys(labels, refused[NEWTON]))
+    chosen, reasons = tried.compared()
     alike = set(chosen.values())
-    kernel = kernels[alike.pop()] if len(alike) == 1 else to_kernel(program, scene, chosen)
+    kernel = tried.kernels[alike.pop()] if len(alike) == 1 else to_kernel(program, scene, chosen)
     return kernel, _choices(kernel, reasons)
 
 
@@ -121,49 +143,94 @@ def _choices(kernel: Kernel, reasons: Mapping[str, str]) -> tuple[Choice, ...]:
     )
 
 
-def _compared(
-    kernels: Mapping[str, Kernel], scene: Setting, initial: tuple[float, ...]
-) -> tuple[dict[str, str], dict[str, str]]:
-    """Return the solver that serves each block best, and the reason for each block."""
-    trials = {solver: _Trials(kernel, scene, initial) for solver, kernel in kernels.items()}
-    usual = {solver: trial.run(1) for solver, trial in trials.items()}
-    far = {solver: trial.run(LONGER) for solver, trial in trials.items()}
-    able = [s for s in kernels if usual[s].good]
-    sure = [s for s in able if far[s].good and max(far[s].sweeps) <= SWEEPS] or able
-    work = {solver: operations(arrange(kernel)) for solver, kernel in kernels.items()}
-    chosen, reasons = {}, {}
-    for k, loop in enumerate(kernels[FIXED_POINT].loops):
-        cost, spelled = {}, {}
-        for solver in kernels:
-            each, trial = _weight(work[solver][loop.label]), usual[solver]
-            cost[solver] = trial.sweeps[k] * each
-            spelled[solver] = f"{trial.sweeps[k]:.1f} sweeps of {each} operations"
-            if solver != FIXED_POINT:
-                matrix = _matrix(kernels[solver].loops[k], work[solver])
-                made = trial.matrices if solver == NEWTON else 1.0
-                cost[solver] += made * matrix
-                spelled[solver] += f" and {made:.2f} matrices of {matrix}"
-            if solver not in sure:
-                lasting = (
-                    f"takes {max(far[solver].sweeps):.0f} sweeps" if far[solver].good else "does not settle"
-                )
-                spelled[solver] = (
-                    f"{lasting} with steps {LONGER} times as long" if solver in able else "does not settle"
-                )
-        newton = kernels[NEWTON].loops[k].newton if NEWTON in kernels else None
-        compared = newton is not None and newton.residuals and NEWTON in able
-        best = (
-            NEWTON
-            if compared
-            else min(sure, key=lambda s: cost[s] / RELIABLE.get(s, 1.0))
-            if sure
-            else NEWTON
+class _Tried:
+    """Kernels of one program by solver, each with its trials in usual and in longer steps."""
+
+    def __init__(self, scene: Setting, initial: tuple[float, ...]) -> None:
+        self.scene, self.initial = scene, initial
+        self.kernels: dict[str, Kernel] = {}
+        self.usual: dict[str, _Trial] = {}
+        self.far: dict[str, _Trial] = {}
+        self.work: dict[str, dict[str, dict[str, int]]] = {}
+
+    def add(self, solver: str, kernel: Kernel) -> None:
+        """Try a kernel."""
+        trials = _Trials(kernel, self.scene, self.initial)
+        self.kernels[solver] = kernel
+        self.usual[solver], self.far[solver] = trials.run(1), trials.run(LONGER)
+        self.work[solver] = operations(arrange(kernel))
+
+    def soon(self) -> bool:
+        """Whether fixed points solve what are large blocks throughout in few sweeps."""
+        usual, far = self.usual[FIXED_POINT], self.far[FIXED_POINT]
+        return (
+            min(len(loop.unknowns) for loop in self.kernels[FIXED_POINT].loops) > MANY
+            and (usual.good and max(usual.sweeps) <= FEW)
+            and (far.good and max(far.sweeps) <= SWEEPS)
         )
-        others = [f"{METHODS[s]}: {text}" for s, text in spelled.items() if s != best]
-        chosen[loop.label] = best
-        part = "substep" if kernels[FIXED_POINT].substeps else "step"
-        reasons[loop.label] = "; ".join([f"{spelled[best]} a {part}", *others])
-    return chosen, reasons
+
+    def reasons_for_fixed_points(self) -> dict[str, str]:
+        """Return the reason for each block where nothing else was tried."""
+        part = "substep" if self.kernels[FIXED_POINT].substeps else "step"
+        return {
+            loop.label: f"{self._sweeps(FIXED_POINT, k)} a {part}; no matrix of so many unknowns was tried"
+            for k, loop in enumerate(self.kernels[FIXED_POINT].loops)
+        }
+
+    def serves(self, solver: str) -> bool:
+        """Whether a solver was tried that compares momenta in every block, and settles."""
+        return (
+            solver in self.kernels
+            and self.usual[solver].good
+            and all(loop.newton is not None and loop.newton.residuals for loop in self.kernels[solver].loops)
+        )
+
+    def compared(self) -> tuple[dict[str, str], dict[str, str]]:
+        """Return the solver that serves each block best, and the reason for each block."""
+        kernels, usual, far = self.kernels, self.usual, self.far
+        able = [s for s in kernels if usual[s].good]
+        sure = [s for s in able if far[s].good and max(far[s].sweeps) <= SWEEPS] or able
+        chosen, reasons = {}, {}
+        for k, loop in enumerate(kernels[FIXED_POINT].loops):
+            cost, spelled = {}, {}
+            for solver in kernels:
+                cost[solver] = usual[solver].sweeps[k] * _weight(self.work[solver][loop.label])
+                spelled[solver] = self._sweeps(solver, k)
+                if solver != FIXED_POINT:
+                    matrix = _matrix(kernels[solver].loops[k], self.work[solver])
+                    made = usual[solver].matrices if solver == NEWTON else 1.0
+                    cost[solver] += made * matrix
+                    spelled[solver] += f" and {made:.2f} matrices of {matrix}"
+                if solver not in sure:
+                    lasting = (
+                        f"takes {max(far[solver].sweeps):.0f} sweeps"
+                        if far[solver].good
+                        else "does not settle"
+                    )
+                    spelled[solver] = (
+                        f"{lasting} with steps {LONGER} times as long"
+                        if solver in able
+                        else "does not settle"
+                    )
+            newton = kernels[NEWTON].loops[k].newton if NEWTON in kernels else None
+            compared = newton is not None and newton.residuals and NEWTON in able
+            best = (
+                NEWTON
+                if compared
+                else min(sure, key=lambda s: cost[s] / RELIABLE.get(s, 1.0))
+                if sure
+                else NEWTON
+            )
+            others = [f"{METHODS[s]}: {text}" for s, text in spelled.items() if s != best]
+            chosen[loop.label] = best
+            part = "substep" if kernels[FIXED_POINT].substeps else "step"
+            reasons[loop.label] = "; ".join([f"{spelled[best]} a {part}", *others])
+        return chosen, reasons
+
+    def _sweeps(self, solver: str, k: int) -> str:
+        """Spell what the sweeps over a block cost."""
+        each = _weight(self.work[solver][self.kernels[solver].loops[k].label])
+        return f"{self.usual[solver].sweeps[k]:.1f} sweeps of {each} operations"
 
 
 def _matrix(loop: Loop, work: Mapping[str, Mapping[str, int]]) -> int:

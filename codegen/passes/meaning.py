@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import islice
 from typing import Any
 
 from codegen.errors import SceneError
@@ -37,6 +38,21 @@ AGREE = 2.0**-36
 """Relative difference of results that mean the same: far above rounding and the tolerance of a block."""
 
 
+class _Point:
+    """Results from one state; those in smaller steps are computed when they are asked for."""
+
+    def __init__(self, more: Iterator[Result]) -> None:
+        self._more = more
+        self.made = list(islice(more, 1))
+
+    def results(self) -> Iterator[Result]:
+        """Yield the results, the largest step first."""
+        yield from self.made
+        for result in self._more:
+            self.made.append(result)
+            yield result
+
+
 class Reference:
     """What a program means: its results after one step from points of a scene.
 
@@ -49,9 +65,9 @@ class Reference:
     def __init__(self, program: Program, scene: Setting) -> None:
         self.scene = scene
         self.kinds = {v.name: v.kind for v in program.inputs}
-        found = (self._some(program, state) for state in _states(scene))
-        self.results = [results for results in found if results]
-        if not self.results:
+        points = [_Point(self._some(program, state)) for state in _states(scene)]
+        self.points = [point for point in points if point.made]
+        if not self.points:
             raise SceneError(
                 "no step can be computed from the initial state, nor from one nearby",
                 where=scene.name,
@@ -59,27 +75,27 @@ class Reference:
                 hint="look for roots of negative numbers, zero denominators and numbers above 1e308",
             )
 
-    def _some(self, program: Program, state: dict[str, Any]) -> list[Result]:
-        """Return what happens in the largest step and in two smaller ones, for programs that settle later."""
+    def _some(self, program: Program, state: dict[str, Any]) -> Iterator[Result]:
+        """Yield what happens in the largest step and in two smaller ones, for programs that settle later."""
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
-        results: list[Result] = []
         if not math.isfinite(speed):
-            return results
+            return
         excess = math.frexp(speed * STEPS[0] / REACH)[1]  # a power of two above it
+        found, last = 0, math.inf
         for moderate in STEPS:
             step = math.ldexp(moderate, -max(excess, 0))
-            if results and step > results[-1][0] / APART:
+            if found and step > last / APART:
                 continue
             solutions: dict[Var, Any] = {}
             try:
                 after = self._run(program, step, inputs, SWEEPS, solutions)
             except FAILURES:
                 continue
-            results.append((step, inputs, after, solutions))
-            if len(results) == TRIES:
+            yield step, inputs, after, solutions
+            found, last = found + 1, step
+            if found == TRIES:
                 break
-        return results
 
     def _run(
         self, program: Program, step: float, inputs: dict[str, Any], limit: int, solutions: dict[Var, Any]
@@ -89,16 +105,16 @@ class Reference:
 
     def differs(self, program: Program) -> str:
         """Return an account of what a program does differently, or ''."""
-        for results in self.results:
-            account = self._in_some_step(program, results)
+        for point in self.points:
+            account = self._in_some_step(program, point)
             if account:
                 return account
         return ""
 
-    def _in_some_step(self, program: Program, results: list[Result]) -> str:
+    def _in_some_step(self, program: Program, point: _Point) -> str:
         """Compare in the first step that the program makes."""
         failure = ""
-        for step, inputs, before, solutions in results:
+        for step, inputs, before, solutions in point.results():
             try:
                 after = self._run(program, step, inputs, 2 * SWEEPS, solutions)
             except NotConverged as error:
