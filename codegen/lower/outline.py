@@ -12,7 +12,7 @@ The rewriting is exact. It is verified: the outlined expressions are evaluated a
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -20,8 +20,9 @@ from codegen.ir.domain import ExprDomain, FloatDomain
 from codegen.ir.expr import Expr, Space, evaluate, walk
 from codegen.ir.interpret import apply, flatten
 from codegen.ir.kernel import Piece
-from codegen.ir.program import Assign, Coefficient, Kind, Program, Var
+from codegen.ir.program import Assign, Coefficient, Kind, Operation, Program, Var
 from codegen.ir.verify import IllFormed
+from codegen.lower.series_sums import SeriesSum
 from codegen.setting import Setting
 
 LONG = 700
@@ -82,9 +83,23 @@ class Outline:
     def __post_init__(self) -> None:
         self._users: dict[Var, list[int | None]] = {}
         self._lines: dict[Any, int] = {}
+        self._multiples: dict[Var, tuple[Coefficient, Var, Any]] = {}
 
-    def note(self, assign: Assign, args: Sequence[Any], results: Sequence[Any], place: int) -> None:
-        """Take note of an assignment in the block that is number ``place``, -1 between blocks."""
+    def note(
+        self,
+        assign: Assign,
+        args: Sequence[Any],
+        results: Sequence[Any],
+        place: int,
+        within: Collection[Var] = (),
+    ) -> None:
+        """Take note of an assignment in the block that is number ``place``, -1 between blocks.
+
+        What makes variables that are computed ``within`` it is forgotten.
+        """
+        if within:
+            self.made = [m for m in self.made if m.assign.targets[0] not in within]
+        assign, args = self._from_the_whole(assign, args)
         self.made.append(
             _Made(
                 assign,
@@ -93,6 +108,18 @@ class Outline:
                 place,
             )
         )
+
+    def _from_the_whole(self, assign: Assign, args: Sequence[Any]) -> tuple[Assign, Sequence[Any]]:
+        """Return a multiple of a multiple as one of that, so that the first is not read twice."""
+        if assign.operation.name != "lin" or len(assign.args) != 1:
+            return assign, args
+        (c,), (v,), (target,) = assign.operation.coefficients, assign.args, assign.targets
+        if v in self._multiples:
+            d, v, value = self._multiples[v]
+            c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)
+            assign = Assign((target,), Operation("lin", (c,)), (v,))
+        self._multiples[target] = c, v, args[0]
+        return assign, args
 
     def run(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> list[Expr] | None:
         """Return the roots with calls of ``pieces``; None where nothing is repeated.
@@ -243,9 +270,10 @@ class Outline:
             assign = self.made[i].assign
             operation = assign.operation
             own = _pattern(operation.coefficients)
-            shape.append(
-                (operation.name, operation.order, operation.word, own, places, assign.targets[0].kind)
-            )
+            words: Any = operation.word
+            if isinstance(operation, SeriesSum):
+                words = operation.words, operation.of, operation.dual
+            shape.append((operation.name, operation.order, words, own, places, assign.targets[0].kind))
         return tuple(shape)
 
     # Choice -----------------------------------------------------------------------------------------------
@@ -369,20 +397,27 @@ class Outline:
             assign = self.made[i].assign
             args = tuple(values[p] if p >= 0 else results[-p - 1] for p in places)
             text = [words[p] if p >= 0 else spelled[-p - 1] for p in places]
-            if assign.operation.name == "lin":
+            operation = assign.operation
+            if _scaled(operation):
                 distinct = _distinct(assign)
                 own = numbered[scales : scales + len(distinct)]
                 scales += len(distinct)
                 scaled = tuple(
                     x * step**c.power if c.power else x for c, x in zip(distinct, own, strict=True)
                 )
-                made: tuple[Any, ...] = (_sum(assign.operation.coefficients, distinct, scaled, args),)
+                symbol = dict(zip(distinct, scaled, strict=True))
+                if isinstance(operation, SeriesSum):
+                    factors = [symbol.get(c, space.one) for c in operation.coefficients]
+                    made: tuple[Any, ...] = (operation.value(self.scene, self.domain, factors, args),)
+                else:
+                    made = (_sum(operation.coefficients, symbol, args),)
                 names = {
                     c: (x.payload.removeprefix(f"{name}.") if x.op == "sym" else c.value.text())
                     + " h" * c.power
                     for c, x in zip(distinct, own, strict=True)
                 }
-                pairs = zip(assign.operation.coefficients, text, strict=True)
+                own_text = operation.spelled(text) if isinstance(operation, SeriesSum) else text
+                pairs = zip(operation.coefficients, own_text, strict=True)
                 terms = [x if c.is_one else f"{names[c]} {x}" for c, x in pairs]
                 said = [f"({' + '.join(terms)})" if len(terms) > 1 else terms[0]]
             else:
@@ -459,16 +494,20 @@ def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]
 
 def _distinct(assign: Assign) -> list[Coefficient]:
     """Return the coefficients of a sum, each once, without those that are one."""
-    if assign.operation.name != "lin":
+    if not _scaled(assign.operation):
         return []
     return list(dict.fromkeys(c for c in assign.operation.coefficients if not c.is_one))
 
 
+def _scaled(operation: Operation) -> bool:
+    """Whether an operation is a sum, whose coefficients may differ from call to call."""
+    return operation.name == "lin" or isinstance(operation, SeriesSum)
+
+
 def _sum(
-    coefficients: Sequence[Coefficient], distinct: Sequence[Coefficient], own: Values, args: Sequence[Values]
+    coefficients: Sequence[Coefficient], symbol: Mapping[Coefficient, Expr], args: Sequence[Values]
 ) -> Values:
     """Return a sum with symbols for its coefficients; terms with equal ones are added first."""
-    symbol = dict(zip(distinct, own, strict=True))
     groups: dict[Coefficient, Values] = {}
     for c, x in zip(coefficients, args, strict=True):
         groups[c] = tuple(a + b for a, b in zip(groups[c], x, strict=True)) if c in groups else x

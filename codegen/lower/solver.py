@@ -7,9 +7,11 @@ are computed within a sweep; were they unknowns beside the velocities, two sweep
 All are tried: the step is printed as Python and makes a few steps from the initial state, of the length that
 the usage example takes. Sweeps and matrices are counted and weighed by their operations. What settles with
 steps :data:`LONGER` times as long too, soon, is preferred: near its limit a method fails at a user's next
-step size. Blocks of more than :data:`MANY` unknowns that a fixed point solves in :data:`FEW` sweeps are left
-to it: multiplying by the inverse takes what the fewer sweeps of Newton's method save, and its matrix is longer
-than the step. Of long steps chords are not tried where momenta are compared, which Newton's method serves.
+step size.
+
+Blocks of more than :data:`MANY` unknowns that a fixed point solves in :data:`FEW` sweeps are left to it:
+products with the inverse take what the fewer sweeps of Newton's method save, and its matrix is longer than
+the step. Of long steps chords are not tried where momenta are compared, which Newton's method serves.
 """
 
 from __future__ import annotations
