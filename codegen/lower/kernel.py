@@ -22,7 +22,7 @@ from codegen.groups.actions import LeftMultiplication
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.gather import gathered
-from codegen.ir.interpret import flatten
+from codegen.ir.interpret import apply, flatten
 from codegen.ir.kernel import (
     CHORD,
     ELAPSED,
@@ -46,7 +46,7 @@ from codegen.ir.tangent import tangents
 from codegen.lower import late, newton
 from codegen.lower.arguments import SharedArguments
 from codegen.lower.outline import LONG, WORTH, Outline
-from codegen.lower.series_sums import SeriesSums, executed
+from codegen.lower.series_sums import SeriesSums
 from codegen.lower.variation import Variations
 from codegen.passes.rewrite import uses
 from codegen.setting import TIME, Setting
@@ -126,10 +126,10 @@ def to_kernel(
     sums = SeriesSums(program, scene)
 
     def run(assign: Assign) -> None:
-        assign, within = sums.taken(assign)
         args = tuple(env[a] for a in assign.args)
         try:
-            results = executed(scene, domain, assign, args)
+            nested = sums.value(domain, assign, env)
+            results = (nested,) if nested is not None else apply(scene, domain, assign, args)
         except ArithmeticError as error:
             raise SceneError(
                 f"{assign.operation.name} on {scene.group.name}: {error}",
@@ -140,7 +140,7 @@ def to_kernel(
         if assign.operation.name.startswith("force"):
             known = [x for v in assign.args for x in flatten(v.kind, env[v])]
             results = tuple(gathered(x, known) for x in results)
-        outline.note(assign, args, results, len(blocks) if inside else -1, within)
+        outline.trees.note(assign, args, results, len(blocks) if inside else -1, joined=nested is None)
         for target, value in zip(assign.targets, results, strict=True):
             env[target] = value
             remember(target)

@@ -10,7 +10,7 @@ from codegen.ir.interpret import interpret
 from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Let, Loop, Start
 from codegen.ir.program import Solve
 from codegen.lower.kernel import INLINE, to_kernel
-from codegen.lower.outline import WithPieces
+from codegen.lower.pieces import WithPieces
 from codegen.passes import optimise
 from orderconds.ring import QQ
 from tests.strategies import field_scene, full, hamiltonian_scene, lowered, starting

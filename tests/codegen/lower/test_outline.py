@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import pytest
@@ -10,13 +11,14 @@ from codegen import scenes
 from codegen.emit import compile_method, emit_compiled
 from codegen.ir.domain import ExprDomain
 from codegen.ir.interpret import apply, flatten
-from codegen.ir.kernel import Piece
 from codegen.ir.number import Number
-from codegen.ir.program import Assign, Builder, Coefficient, Kind, Program, Var
+from codegen.ir.program import Assign, Builder, Coefficient, Kind, Operation, Program, Var
 from codegen.ir.verify import IllFormed
 from codegen.load import load
 from codegen.lower import kernel as lowering
+from codegen.lower import outline as outlining
 from codegen.lower.outline import Outline
+from codegen.lower.trees import Trees
 from tests.strategies import hamiltonian_scene
 
 SPECS = [("dipole", "vcg:gauss4")]
@@ -88,7 +90,7 @@ def twice(c1, c2):
         assert isinstance(assign, Assign)
         args = [env[a] for a in assign.args]
         results = apply(scene, domain, assign, tuple(args))
-        outline.note(assign, args, results, -1)
+        outline.trees.note(assign, args, results, -1)
         env.update(zip(assign.targets, results, strict=True))
     return outline, flatten(Kind.GROUP, env[y])
 
@@ -110,18 +112,49 @@ def test_equal_coefficients_stay_folded():
 
 def test_a_wrong_piece_is_caught(monkeypatch):
     outline, roots = twice(Number.rational(1, 3), Number.rational(2, 5))
-    right = Outline._piece
+    right = outlining.piece
 
-    def wrong(self, *args):
-        places = right(self, *args)
-        last = self.pieces.pop()
-        spoilt = (last.outputs[0] + last.outputs[1], *last.outputs[1:])
-        self.pieces.append(Piece(last.name, last.inputs, last.body, spoilt, last.about))
-        return places
+    def wrong(*args):
+        made, places = right(*args)
+        spoilt = (made.outputs[0] + made.outputs[1], *made.outputs[1:])
+        return replace(made, outputs=spoilt), places
 
-    monkeypatch.setattr(Outline, "_piece", wrong)
+    monkeypatch.setattr(outlining, "piece", wrong)
     with pytest.raises(IllFormed, match="outlining changed the meaning"):
         outline.run(roots, {})
+
+
+def noted(*assigns):
+    """Trees of assignments, noted as they are executed over symbols."""
+    scene, domain = hamiltonian_scene("SO(3)"), ExprDomain()
+    inputs = {v for a in assigns for v in a.args} - {v for a in assigns for v in a.targets}
+    trees = Trees(Program("some", tuple(inputs), assigns, ()), domain)
+    env = {v: tuple(domain.space.sym(f"{v.name}{k}") for k in range(3)) for v in inputs}
+    for assign in assigns:
+        args = tuple(env[v] for v in assign.args)
+        env |= zip(assign.targets, apply(scene, domain, assign, args), strict=True)
+        trees.note(assign, args, [env[v] for v in assign.targets], -1)
+    return trees
+
+
+def multiple(target, c, of):
+    return Assign((target,), Operation("lin", (Coefficient(Number.rational(*c), 1),)), (of,))
+
+
+def test_a_multiple_of_a_multiple_is_one_of_the_whole():
+    x, y, z = (Var(name, Kind.ALG) for name in "xyz")
+    trees = noted(multiple(y, (1, 3), x), multiple(z, (-3, 2), y))
+    last = trees.made[-1].assign
+    assert last.args == (x,)
+    assert last.operation.coefficients == (Coefficient(Number.rational(-1, 2), 2),)
+
+
+def test_what_was_made_otherwise_is_joined_with_nothing():
+    x, y = Var("x", Kind.ALG), Var("y", Kind.ALG)
+    trees = noted(multiple(y, (1, 3), x))
+    assert [tree.members for tree in trees.joined()] == [[0]]
+    trees.made = [replace(made, joined=False) for made in trees.made]
+    assert trees.joined() == []
 
 
 @pytest.mark.parametrize("method", LONGEST)

@@ -1,0 +1,253 @@
+"""Trees: assignments of a program that are computed together, for functions that several places call.
+
+The pair that saves most lines is joined first: a value that one operation alone uses is computed with it.
+Trees have one key where they do the same to other operands, with other coefficients in their sums.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr, walk
+from codegen.ir.interpret import flatten
+from codegen.ir.program import Assign, Coefficient, Operation, Program, Var
+
+NEVER = frozenset({"advance", "zero", "identity", "flow", "flowt", "flowfor", "flowtfor"})
+"""Operations that are not outlined: hardly any work, or flows, whose steps are timed as a whole."""
+
+NODES = 3
+"""About how many operations stand on a line."""
+
+Values = tuple[Expr, ...]
+
+
+@dataclass(frozen=True)
+class Made:
+    """An assignment as it was executed: values of its arguments, its results, and where it stands."""
+
+    assign: Assign
+    args: tuple[Values, ...]
+    results: tuple[Values, ...]
+    place: int
+    joined: bool = True
+
+    @property
+    def may_join(self) -> bool:
+        """Whether it may be computed in a function."""
+        return self.joined and self.assign.operation.name not in NEVER
+
+
+@dataclass
+class Tree:
+    """Assignments that are computed together, the last using what the others make, in order."""
+
+    members: list[int]
+
+    @property
+    def root(self) -> int:
+        """The assignment whose results are the tree's."""
+        return self.members[-1]
+
+
+@dataclass
+class Trees:
+    """The assignments of a program as they were executed, and how they are joined."""
+
+    program: Program
+    domain: ExprDomain
+    made: list[Made] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self._users: dict[Var, list[int | None]] = {}
+        self._lines: dict[Any, int] = {}
+        self._multiples: dict[Var, tuple[Coefficient, Var, Any]] = {}
+
+    def note(
+        self,
+        assign: Assign,
+        args: Sequence[Any],
+        results: Sequence[Any],
+        place: int,
+        joined: bool = True,
+    ) -> None:
+        """Take note of an assignment in the block that is number ``place``, -1 between blocks.
+
+        One whose results were made otherwise than by its operation is not ``joined`` with others.
+        """
+        assign, args = self._from_the_whole(assign, args)
+        self.made.append(
+            Made(
+                assign,
+                tuple(flatten(v.kind, x) for v, x in zip(assign.args, args, strict=True)),
+                tuple(flatten(v.kind, x) for v, x in zip(assign.targets, results, strict=True)),
+                place,
+                joined,
+            )
+        )
+
+    def _from_the_whole(self, assign: Assign, args: Sequence[Any]) -> tuple[Assign, Sequence[Any]]:
+        """Return a multiple of a multiple as one of that, so that the first is not read twice."""
+        if assign.operation.name != "lin" or len(assign.args) != 1:
+            return assign, args
+        (c,), (v,), (target,) = assign.operation.coefficients, assign.args, assign.targets
+        if v in self._multiples:
+            d, v, value = self._multiples[v]
+            c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)
+            assign = Assign((target,), Operation("lin", (c,)), (v,))
+        self._multiples[target] = c, v, args[0]
+        return assign, args
+
+    def joined(self) -> list[Tree]:
+        """Return the assignments joined into trees, as long as that saves lines."""
+        self._find_users()
+        trees = {i: Tree([i]) for i, m in enumerate(self.made) if m.may_join}
+        owner = {i: i for i in trees}
+        while True:
+            pairs: dict[Any, list[tuple[int, int]]] = {}
+            keys = {i: self.key(t) for i, t in trees.items()}
+            count: dict[Any, int] = {}
+            for key in keys.values():
+                count[key] = count.get(key, 0) + 1
+            for i in trees:
+                user = self._only_user(i)
+                if user is not None and user in owner and owner[user] != i:
+                    j = owner[user]
+                    joined = self.key(self._join(trees[i], trees[j]))
+                    pairs.setdefault((keys[i], keys[j], joined), []).append((i, j))
+            best, saved = None, 0
+            for key, found in pairs.items():
+                gain = self._gain(key, found, count)
+                if gain > saved:
+                    best, saved = key, gain
+            if best is None:
+                return list(trees.values())
+            used: set[int] = set()
+            for i, j in pairs[best]:
+                if i in used or j in used:
+                    continue
+                used |= {i, j}
+                trees[j] = self._join(trees[i], trees[j])
+                for member in trees.pop(i).members:
+                    owner[member] = j
+
+    def _gain(self, key: Any, found: list[tuple[int, int]], count: Mapping[Any, int]) -> int:
+        """Return about how many lines joining pairs of trees saves."""
+        first, second, _ = key
+        k = len(found)
+        if k < 2:
+            return 0
+        i, j = found[0]
+        copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
+        return k * 3 - copies
+
+    def _size(self, i: int) -> int:
+        """Return about how many lines the operation that ends a tree takes."""
+        name = self.made[i].assign.operation.name
+        if name not in self._lines:
+            results = [x for value in self.made[i].results for x in value]
+            stop = {x.id for value in self.made[i].args for x in value}
+            nodes = sum(1 for n in walk(results, lambda n: n.id in stop) if n.args and n.id not in stop)
+            self._lines[name] = 1 + nodes // NODES
+        return self._lines[name]
+
+    def _join(self, a: Tree, b: Tree) -> Tree:
+        return Tree(sorted([*a.members, *b.members]))
+
+    def _find_users(self) -> None:
+        for i, m in enumerate(self.made):
+            for v in m.assign.args:
+                self._users.setdefault(v, []).append(i)
+        for statement in self.program.body:
+            if not isinstance(statement, Assign):
+                for v in (*statement.starts, *statement.images, *statement.residuals):
+                    self._users.setdefault(v, []).append(None)
+        for _, v in self.program.outputs:
+            self._users.setdefault(v, []).append(None)
+
+    def _only_user(self, i: int) -> int | None:
+        """Return the one assignment that uses what the assignment makes, if it stands in the same place."""
+        users = {u for v in self.made[i].assign.targets for u in self._users.get(v, [])}
+        if len(users) != 1:
+            return None
+        (user,) = users
+        return user if user is not None and self.made[user].place == self.made[i].place else None
+
+    def wiring(self, tree: Tree) -> tuple[list[Var], list[tuple[int, ...]]]:
+        """Return the variables that a tree is given, in order, and for each member where its arguments are.
+
+        An argument is the place of such a variable, or less than zero: minus the number of a member's result.
+        """
+        targets: dict[Var, int] = {}
+        given: dict[Var, int] = {}
+        wires = []
+        for i in tree.members:
+            places = []
+            for v in self.made[i].assign.args:
+                if v in targets:
+                    places.append(-targets[v])
+                else:
+                    places.append(given.setdefault(v, len(given)))
+            wires.append(tuple(places))
+            for v in self.made[i].assign.targets:
+                targets[v] = 1 + len(targets)
+        return list(given), wires
+
+    def key(self, tree: Tree) -> Any:
+        """Return what trees of one shape have in common; coefficients differ, but those equal stay so."""
+        _, wires = self.wiring(tree)
+        shape = []
+        for i, places in zip(tree.members, wires, strict=True):
+            assign = self.made[i].assign
+            operation = assign.operation
+            own = _pattern(operation.coefficients)
+            shape.append(
+                (operation.name, operation.order, operation.word, own, places, assign.targets[0].kind)
+            )
+        return tuple(shape)
+
+    def useful(self, tree: Tree) -> bool:
+        """Whether a tree does enough for a call."""
+        results = self.results(tree)
+        stop = {x.id for x in self.inputs(tree)}
+        nodes = sum(1 for n in walk(results, lambda n: n.id in stop) if n.args and n.id not in stop)
+        return nodes > 4 * NODES
+
+    def results(self, tree: Tree) -> Values:
+        """Return the numbers that a tree computes."""
+        return tuple(x for value in self.made[tree.root].results for x in value)
+
+    def inputs(self, tree: Tree) -> list[Expr]:
+        """Return all numbers that a tree is given: values of variables, then coefficients of its sums."""
+        given, _ = self.wiring(tree)
+        found: dict[Var, Values] = {}
+        for i in tree.members:
+            made = self.made[i]
+            found |= {v: x for v, x in zip(made.assign.args, made.args, strict=True) if v in given}
+        flat = [x for v in given for x in found[v]]
+        scales = [c for i in tree.members for c in distinct(self.made[i].assign)]
+        flat += [self.domain.number(c.value) for c in scales]
+        return [*flat, self.domain.h] if any(c.power for c in scales) else flat
+
+    def width(self, tree: Tree, var: Var) -> int:
+        """Return of how many numbers a variable consists that a tree is given."""
+        for i in tree.members:
+            for v, x in zip(self.made[i].assign.args, self.made[i].args, strict=True):
+                if v == var:
+                    return len(x)
+        raise AssertionError(var.name)
+
+
+def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]:
+    """Return which coefficients are alike: 0 for one, else numbers in order; and their powers of h."""
+    seen: dict[Coefficient, int] = {}
+    return tuple((0, 0) if c.is_one else (seen.setdefault(c, 1 + len(seen)), c.power) for c in coefficients)
+
+
+def distinct(assign: Assign) -> list[Coefficient]:
+    """Return the coefficients of a sum, each once, without those that are one."""
+    if assign.operation.name != "lin":
+        return []
+    return list(dict.fromkeys(c for c in assign.operation.coefficients if not c.is_one))
