@@ -9,8 +9,10 @@ from typing import Any, Protocol
 
 from codegen.ir.domain import Domain, NotConverged
 from codegen.ir.program import (
+    BODY,
     FLOWS,
     FLOWS_FOR,
+    SPACE,
     Assign,
     Coefficient,
     Factor,
@@ -107,6 +109,11 @@ def interpret(
     numbers near the unknowns, a list for each block in the order they are solved, where Newton's method
     begins at once; they are replaced by what was found.
     """
+    if program.frame == BODY:
+        core, start = replace(program, frame=SPACE), {**inputs, "mu": inward(setting, domain, inputs)}
+        options: dict[str, Any] = {"limit": limit, "newton": newton, "solutions": solutions, "near": near}
+        found = interpret(core, setting, domain, start, **options)
+        return found | {"mu": outward(setting, domain, inputs, start, found)}
     if program.substeps:
         return _composed(program, setting, domain, inputs, limit, newton, near)
     expected = {} if solutions is None else solutions
@@ -131,6 +138,24 @@ def interpret(
                 _correct(statement, env, domain, run, limit)
             expected.update((unknown, env[unknown]) for unknown in statement.unknowns)
     return {name: env[var] for name, var in program.outputs}
+
+
+def inward(setting: Setting, domain: Domain, state: Mapping[str, Any]) -> tuple[Any, ...]:
+    """Return Ad*_q mu, the momentum of the body."""
+    (m,) = setting.apply(domain, "Adt", None, (state["q"], state["mu"]))
+    return tuple(m)
+
+
+def outward(
+    setting: Setting, domain: Domain, state: Mapping[str, Any], *ends: Mapping[str, Any]
+) -> tuple[Any, ...]:
+    """Return the momentum in space after a step from a state, made in the body between two ends.
+
+    It is that of the state and what has been added: where rounding has made q not quite orthogonal, it turns
+    this alone.
+    """
+    before, after = (setting.apply(domain, "Adtinv", None, (x["q"], x["mu"]))[0] for x in ends)
+    return tuple(mu + (b - a) for mu, a, b in zip(state["mu"], before, after, strict=True))
 
 
 def _composed(

@@ -194,6 +194,21 @@ class PutOff:
 
 
 @dataclass(frozen=True)
+class Carried:
+    """Which momentum m a run carries from step to step in place of the state's mu.
+
+    m = ``inward``(q, mu) and mu = ``outward``(q, m), which are the numbers from ``first`` on. A step is
+    ``inward``, the kernel on (q, m), and mu + outward(q', m') - outward(q, m) with the new q', m'. Steps one
+    after the other are ``inward`` once, the kernel as often, and such an end once. A q that rounding has made
+    not quite orthogonal so turns what has been added alone.
+    """
+
+    inward: Kernel
+    outward: Kernel
+    first: int
+
+
+@dataclass(frozen=True)
 class Sample:
     """Run-time inputs at one time of the step: a symbol for each, in the order of ``Kernel.inputs``."""
 
@@ -231,7 +246,8 @@ class Kernel:
     ``inputs`` names functions of time that the caller supplies, ``samples`` are the times they are read at.
     ``vary`` carries a variation along: its state is this one's and then the variation, its outputs are the
     variation of the new state. With ``substeps`` this is one of the parts of a step, all alike: h and t are
-    those of the part. ``pieces`` are functions that its expressions call.
+    those of the part. ``pieces`` are functions that its expressions call. With ``carried`` the state's
+    momentum is another for the kernel.
     """
 
     name: str
@@ -246,6 +262,7 @@ class Kernel:
     vary: Kernel | None = None
     substeps: tuple[Substep, ...] = ()
     pieces: tuple[Piece, ...] = ()
+    carried: Carried | None = None
 
     @property
     def loops(self) -> tuple[Loop, ...]:

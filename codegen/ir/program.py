@@ -204,6 +204,10 @@ EMBEDDED = "embedded"
 """The output of a program that is a second new state y, of lower order, for an estimate of the error."""
 
 
+SPACE, BODY = "space", "body"
+"""Whose momentum it is that a program's statements take and give."""
+
+
 @dataclass(frozen=True)
 class Substep:
     """A part of a step: it is ``fraction`` h long and begins at t + ``offset`` h."""
@@ -216,7 +220,9 @@ class Substep:
 class Program:
     """One step: inputs, statements, and the new state, named as the inputs that it replaces.
 
-    With ``substeps`` a step is the statements made for each of them, one after the other.
+    With ``substeps`` a step is the statements made for each of them, one after the other. In the ``frame``
+    :data:`BODY` the statements take m = Ad*_q mu for mu and give the new m: a step begins with that, and
+    ends with mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m, where q', m' are the new q and m.
     """
 
     name: str
@@ -224,6 +230,7 @@ class Program:
     body: tuple[Statement, ...]
     outputs: tuple[tuple[str, Var], ...]
     substeps: tuple[Substep, ...] = ()
+    frame: str = SPACE
 
     def assigns(self) -> Iterator[Assign]:
         """Yield every assignment in order, those inside blocks included."""
@@ -244,6 +251,7 @@ class Program:
         """Spell the program, one statement a line."""
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
         lines += [f"  for h = ({step.fraction.text()}) h:" for step in self.substeps]
+        lines += ["  with Adt(q, mu) for mu:"] if self.frame == BODY else []
         for statement in self.body:
             if isinstance(statement, Assign):
                 lines.append("  " + statement.text())

@@ -31,6 +31,9 @@ def compensated(compiled: Compiled) -> Compiled:
     kernel = compiled.kernel
     if kernel.put_off is not None:  # what commutes with all steps would be made for many of them at once
         kernel = to_kernel(compiled.program, compiled.view)
+    if kernel.carried is not None:
+        solvers = {loop.label: loop.solver for loop in kernel.loops}
+        kernel = to_kernel(compiled.program, compiled.view, solvers, whole=True)
     return replace(compiled, kernel=with_carries(kernel))
 
 

@@ -18,7 +18,6 @@ from types import MappingProxyType
 from typing import Any
 
 from codegen.errors import SceneError
-from codegen.groups.actions import LeftMultiplication
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.gather import gathered
@@ -45,6 +44,7 @@ from codegen.ir.program import EMBEDDED, Assign, Kind, Program, Solve, Var
 from codegen.ir.tangent import tangents
 from codegen.lower import late, newton
 from codegen.lower.arguments import SharedArguments
+from codegen.lower.frames import Frames
 from codegen.lower.outline import LONG, WORTH, Outline
 from codegen.lower.series_sums import SeriesSums
 from codegen.lower.variation import Variations
@@ -94,12 +94,14 @@ def to_kernel(
     solvers: Mapping[str, str] = MappingProxyType({}),
     variations: Variations | None = None,
     chains: int = AS_WRITTEN,
+    whole: bool = False,
 ) -> Kernel:
     """Return the kernel of a program in its setting (:func:`codegen.lower.setting`).
 
     ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or CHORD, the others are iterated.
     With ``variations`` it is the kernel that carries one of the state along (``Kernel.vary``). ``chains``
-    other than :data:`AS_WRITTEN` is for programs without blocks.
+    other than :data:`AS_WRITTEN` is for programs without blocks. A ``whole`` step begins and ends with the
+    state's own momentum (:mod:`codegen.lower.frames`), and so does one with variations.
     :class:`codegen.errors.SceneError` where an operation of the group has no closed form,
     :class:`codegen.ir.differentiate.NotDifferentiable` where Newton's method has no matrix, ZeroDivisionError
     where it has none to first order.
@@ -145,9 +147,9 @@ def to_kernel(
             env[target] = value
             remember(target)
 
-    given = tuple(space.sym(s) for s in scene.symbols)
-    if scene.body_group is not None:
-        given = _framed(scene, given, lambda q, mu: scene.body_group.Adtinv(domain, q, mu))
+    state = tuple(map(space.sym, scene.symbols))
+    frames = Frames(scene, program, whole or variations is not None)
+    given = start = frames.begin(domain, state)
     starts: dict[str, tuple[Expr, ...]] = {}
     for block in scene.state:
         starts[block.name], given = given[: len(block.symbols)], given[len(block.symbols) :]
@@ -174,9 +176,7 @@ def to_kernel(
         blocks.append(entered)
     outputs = tuple(x for n, var in program.outputs if n != EMBEDDED for x in flatten(var.kind, env[var]))
     lower = tuple(x for n, var in program.outputs if n == EMBEDDED for x in flatten(var.kind, env[var]))
-    if scene.body_group is not None:
-        outputs = _framed(scene, outputs, lambda q, mu: scene.body_group.Adt(domain, q, mu))
-        lower = lower and _framed(scene, lower, lambda q, mu: scene.body_group.Adt(domain, q, mu))
+    outputs, lower = (frames.end(domain, state, start, new) for new in (outputs, lower))
     if chains in (COMBINED, SHORTENED):
         outputs = late.run(
             outputs, frozenset({"h", LEAD, ELAPSED, *scene.runtime}), spread=chains == SHORTENED
@@ -189,11 +189,9 @@ def to_kernel(
     errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
     before = frozenset(taken)
     schedule = _Schedule(blocks, (*outputs, *errors), hints, name, variations is None)
-    state = tuple(Field(b.name, b.symbols, _meaning(b.kind, scene)) for b in scene.state)
-    if scene.body_group is not None:
-        state = _body_fields(scene)
+    fields = frames.fields()
     if variations is not None:
-        state = (*state, Field("variation", variations.names, variations.text()))
+        fields = (*fields, Field("variation", variations.names, variations.text()))
     durations = [v.name for v in program.inputs if v.name in (LEAD, ELAPSED)]
     scalars = (TIME, "h", *scene.runtime, *durations)
     body = schedule.run()
@@ -209,9 +207,10 @@ def to_kernel(
     if chains in (ORDERED, SHORTENED):
         body = late.ordered([let for let in body if isinstance(let, Let)])
     made = Kernel(
-        *(program.name, state, scalars, body, schedule.outputs[: len(outputs)]),
+        *(program.name, fields, scalars, body, schedule.outputs[: len(outputs)]),
         substeps=program.substeps,
         pieces=pieces,
+        carried=frames.carried(domain),
     )
     if errors:
         made = replace(made, estimate=Estimate(schedule.outputs[len(outputs) :], 0))
@@ -296,36 +295,6 @@ def _sampled(kernel: Kernel, scene: Setting, domain: ExprDomain) -> Kernel:
     ]
     samples = tuple(sample for sample in found if read.intersection(sample.symbols))
     return replace(kernel, inputs=scene.inputs if samples else (), samples=samples)
-
-
-def _framed(
-    scene: Setting, state: tuple[Expr, ...], change: Callable[[Any, Any], tuple[Expr, ...]]
-) -> tuple[Expr, ...]:
-    """Return the coordinates of a state (q, mu) with the momentum changed to that of another frame."""
-    q = state[: scene.body_group.size]
-    return q + tuple(change(q, state[scene.body_group.size :]))
-
-
-def _body_fields(scene: Setting) -> tuple[Field, Field]:
-    """Return the fields of a state whose momentum is that of the body."""
-    group, symbols = scene.body_group, scene.symbols
-    return (
-        Field("q", symbols[: group.size], f"element of {group.name}{group.layout}"),
-        Field(
-            "mu",
-            symbols[group.size :],
-            f"left-trivialised momentum, that of the body, in the dual algebra of {group.name}",
-        ),
-    )
-
-
-def _meaning(kind: Kind, scene: Setting) -> str:
-    group, action = scene.group, scene.action
-    if kind is Kind.DUAL:
-        return f"right-trivialised momentum in the dual algebra of {group.name}"
-    if kind is Kind.POINT and not isinstance(action, LeftMultiplication):
-        return f"point that {group.name} acts on by {action.name}"
-    return f"element of {group.name}{group.layout}"
 
 
 def _enter(

@@ -3,7 +3,8 @@
 Exact. With E~ = q^-1 E q for a group element, Ad_{q^-1} x for a value in the algebra and Ad*_q mu for one in
 its dual, a program keeps its operations, which commute with the group; Q = E q becomes q E~. The field is
 taken from :mod:`codegen.body`: xi = Ad_E~ W(Q, P), n = Ad*_{E~^-1} N(Q, P), P = Ad*_E~ M. So the equations of
-a block need of q only what the body's field needs. Of the momentum the change is turned back.
+a block need of q only what the body's field needs. The program takes and gives the momentum of the body
+(:data:`codegen.ir.program.BODY`), so that steps one after the other need not turn it.
 
 A program of other operations, or of a scene without a body frame, is left alone.
 """
@@ -12,8 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from codegen.ir.number import Number
-from codegen.ir.program import ONE, Assign, Builder, Coefficient, Kind, Program, Solve, Statement, Var
+from codegen.ir.program import BODY, Assign, Builder, Kind, Program, Solve, Statement, Var
 from codegen.passes.rewrite import defined
 from codegen.setting import Setting
 
@@ -21,9 +21,6 @@ EQUIVARIANT = frozenset(
     {"exp", "lin", "zero", "ad", "adt", "dexpinv", "dexpinvt", "P", "dexpt", "Ad", "Adinv", "Adt", "Adtinv"}
 )
 """Operations that commute with the adjoint action; group arguments are products of exponentials."""
-
-
-MINUS = Coefficient(Number.rational(-1))
 
 
 class NotFramed(Exception):
@@ -52,10 +49,9 @@ class _Framing:
         program = self.program
         self.do = Builder({v.name for v in defined(program)})
         inputs = {v.name: v for v in program.inputs}
-        self.q, mu = inputs["q"], inputs["mu"]
+        self.q = inputs["q"]
         self.relative[self.q] = None
-        self.names[mu] = self.do.do("Adt", "m", self.q, mu)
-        body: list[Statement] = list(self.do.take())
+        body: list[Statement] = []
         for statement in program.body:
             if isinstance(statement, Assign):
                 self._visit(statement)
@@ -75,12 +71,13 @@ class _Framing:
         outputs = dict(program.outputs)
         if set(outputs) != {"q", "mu"} or outputs["q"] not in self.relative:
             raise NotFramed
-        element = outputs["q"]
-        ends = {"q": self.names.get(element, element), "mu": self._outward(mu, outputs["mu"])}
+        element, (momentum,) = outputs["q"], self._now((outputs["mu"],))
+        E = self.relative[element]
+        m = momentum if E is None else self.do.do("Adt", "m", E, momentum)
+        ends = {"q": self.names.get(element, element), "mu": m}
         body += self.do.take()
-        return replace(
-            program, body=tuple(body), outputs=tuple((name, ends[name]) for name, _ in program.outputs)
-        )
+        named = tuple((name, ends[name]) for name, _ in program.outputs)
+        return replace(program, body=tuple(body), outputs=named, frame=BODY)
 
     def _now(self, variables: tuple[Var, ...]) -> tuple[Var, ...]:
         if any(v in self.relative for v in variables):
@@ -119,13 +116,3 @@ class _Framing:
         N = do.do(f"force{suffix}", f"N{n.name}", element, P, *time)
         self.names[xi] = W if E is None else do.do("Ad", f"b{xi.name}", E, W)
         self.names[n] = N if E is None else do.do("Adtinv", f"b{n.name}", E, N)
-
-    def _outward(self, old: Var, momentum: Var) -> Var:
-        """Return the momentum in space: the old one and the change, turned back.
-
-        So that q, where rounding has made it not quite orthogonal, does not act on the whole of it.
-        """
-        (inside,), before = self._now((momentum,)), self.names[old]
-        change = self.do.lin("change", Kind.DUAL, [(ONE, inside), (MINUS, before)])
-        turned = self.do.do("Adtinv", "change_space", self.q, change)
-        return self.do.lin("mu_space", Kind.DUAL, [(ONE, old), (ONE, turned)])

@@ -82,8 +82,15 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
 
 
 def costs(kernel: Kernel) -> list[str]:
-    """Spell what a step, each sweep of its blocks and the end of a run cost."""
+    """Spell what a step, each sweep of its blocks, and the ends of a run cost."""
     lines = sentences(operations(arrange(kernel)))
+    if kernel.carried is not None:
+        turned = (kernel.carried.inward, kernel.carried.outward)
+        there, back = (operations(arrange(made))[STEP] for made in turned)
+        added = {"add": 2 * len(turned[1].outputs)}
+        spelled = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
+        first, last = (line.removesuffix(" a step") for line in spelled)
+        lines.append(f"{first} where a run begins, {last} where it ends")
     for made in kernel.put_off.kernels if kernel.put_off is not None else ():
         (once,) = sentences(operations(arrange(made)))
         lines.append(f"{once.removesuffix(' a step')} once in a run of steps")

@@ -6,8 +6,8 @@
  * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
  * solved by:  the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: Newton's method, 12 unknowns
- *             (2.5 sweeps of 1202 operations and 0.05 matrices of 3910 a step; fixed point: 3.0
- *             sweeps of 959 operations; Newton's method with the matrix to first order in h: 2.2
+ *             (2.4 sweeps of 1202 operations and 0.05 matrices of 3742 a step; fixed point: 3.0
+ *             sweeps of 959 operations; Newton's method with the matrix to first order in h: 2.1
  *             sweeps of 1235 operations and 1.00 matrices of 4064)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
@@ -19,20 +19,22 @@
  *             1 lin (cancellation)
  *             1 lin (sharing)
  *             5 hamilton (body frame)
+ *             1 Adt (opposites)
  *             3 Adt (opposites)
- *             6 Adtinv, 1 force (dead code)
+ *             7 Adtinv, 1 force (dead code)
  *             1 lin (sharing)
  *             2 mul (rows)
  *             5 dexpt (functions)
  *             3 Adinv, 4 legendre (sharing)
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
- * operations: 140 add, 209 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
+ * operations: 116 add, 182 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
  *             2 mul a start, in steps that follow no other
- *             150 add, 304 mul a matrix of the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
+ *             102 add, 184 mul a matrix of the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
  *             442 add, 571 mul, 6 div, 6 sqrt, 4 stumpff_123, 1 stumpff_23 a sweep of the
  *             equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
- * stack:      at most 10688 bytes, without what the mathematical library takes
+ *             12 add, 18 mul where a run begins, 12 add, 9 mul where it ends
+ * stack:      at most 10944 bytes, without what the mathematical library takes
  * made by:    orderconds emit dipole --method vcf:cf4 --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -341,7 +343,10 @@ static const double differences[17][18] = {
     {1, -16, 120, -560, 1820, -4368, 8008, -11440, 12870, -11440, 8008, -4368, 1820, -560, 120, -16, 1},
 };
 
-/* A backward difference, times sign, of an order without its first terms, which were of later solutions. */
+/*
+ * A backward difference, times sign, of an order without its first terms, which were of later solutions. The
+ * latest is added last: the rest of the sum does not wait for it.
+ */
 static inline void difference(const struct memory *memory, size_t order, size_t first, double sign,
     double sum[static 12])
 {
@@ -357,21 +362,21 @@ static inline void difference(const struct memory *memory, size_t order, size_t 
     double sum_9 = 0.0;
     double sum_10 = 0.0;
     double sum_11 = 0.0;
-    for (size_t j = first; j <= order; j += 2) {
-        const double f = sign * differences[order][j], g = sign * differences[order][j + 1];
-        const double *x = memory->values[memory->place + j - first], *y = x + 12;
-        sum_0 += f * x[0] + g * y[0];
-        sum_1 += f * x[1] + g * y[1];
-        sum_2 += f * x[2] + g * y[2];
-        sum_3 += f * x[3] + g * y[3];
-        sum_4 += f * x[4] + g * y[4];
-        sum_5 += f * x[5] + g * y[5];
-        sum_6 += f * x[6] + g * y[6];
-        sum_7 += f * x[7] + g * y[7];
-        sum_8 += f * x[8] + g * y[8];
-        sum_9 += f * x[9] + g * y[9];
-        sum_10 += f * x[10] + g * y[10];
-        sum_11 += f * x[11] + g * y[11];
+    const double (*const values)[12] = memory->values + memory->place;
+    for (size_t k = (order - first) / 2 + 1; k-- > 0;) {
+        const double *f = differences[order] + first + 2 * k, *x = values[2 * k], *y = values[2 * k + 1];
+        sum_0 += sign * (f[0] * x[0] + f[1] * y[0]);
+        sum_1 += sign * (f[0] * x[1] + f[1] * y[1]);
+        sum_2 += sign * (f[0] * x[2] + f[1] * y[2]);
+        sum_3 += sign * (f[0] * x[3] + f[1] * y[3]);
+        sum_4 += sign * (f[0] * x[4] + f[1] * y[4]);
+        sum_5 += sign * (f[0] * x[5] + f[1] * y[5]);
+        sum_6 += sign * (f[0] * x[6] + f[1] * y[6]);
+        sum_7 += sign * (f[0] * x[7] + f[1] * y[7]);
+        sum_8 += sign * (f[0] * x[8] + f[1] * y[8]);
+        sum_9 += sign * (f[0] * x[9] + f[1] * y[9]);
+        sum_10 += sign * (f[0] * x[10] + f[1] * y[10]);
+        sum_11 += sign * (f[0] * x[11] + f[1] * y[11]);
     }
     sum[0] = sum_0;
     sum[1] = sum_1;
@@ -468,9 +473,6 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double mu0 = state[9];
     const double mu1 = state[10];
     const double mu2 = state[11];
-    const double m_0 = g00 * mu0 + g10 * mu1 + g20 * mu2;
-    const double m_1 = g01 * mu0 + g11 * mu1 + g21 * mu2;
-    const double m_2 = g02 * mu0 + g12 * mu1 + g22 * mu2;
     double xi1_0, xi1_1, xi1_2, xi2_0, xi2_1, xi2_2, xi3_0, xi3_1, xi3_2, xi4_0, xi4_1, xi4_2;
     if (memory->known > 0) {
         xi1_0 = memory->guess[0];
@@ -486,19 +488,19 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         xi4_1 = memory->guess[10];
         xi4_2 = memory->guess[11];
     } else {
-        const double Wxi0_0 = 0.9900990099009901 * m_0;
-        const double Wxi0_2 = 100.0 * m_2;
+        const double Wxi0_0 = 0.9900990099009901 * mu0;
+        const double Wxi0_2 = 100.0 * mu2;
         xi1_0 = Wxi0_0;
-        xi1_1 = m_1;
+        xi1_1 = mu1;
         xi1_2 = Wxi0_2;
         xi2_0 = Wxi0_0;
-        xi2_1 = m_1;
+        xi2_1 = mu1;
         xi2_2 = Wxi0_2;
         xi3_0 = Wxi0_0;
-        xi3_1 = m_1;
+        xi3_1 = mu1;
         xi3_2 = Wxi0_2;
         xi4_0 = Wxi0_0;
-        xi4_1 = m_1;
+        xi4_1 = mu1;
         xi4_2 = Wxi0_2;
     }
     const double w1 = -0.5 * h;
@@ -692,7 +694,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double w104 = -1.0 - 1.5 * (w101 - w103);
         const double w105 = 0.15 * (w101 + w103);
         const double Nr3_0 = Q3_7 * w104 + Q3_8 * w105 + 0.99 * (a_3_1 * a_3_2);
-        const double s_p1_0 = m_0 + w59 * (sum_Nr4_0 + Nr1_0) + Nr3_0 * w106;
+        const double s_p1_0 = mu0 + w59 * (sum_Nr4_0 + Nr1_0) + Nr3_0 * w106;
         const double w108 = xi2_0 + xi3_0;
         const double w109 = w59 * w108;
         const double xe1_0 = xi1_0 * w107 + w109 + xi4_0 * w110;
@@ -712,10 +714,10 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double a_3_0 = xi3_0 * gE3_1_0 + xi3_1 * gE3_1_3 + xi3_2 * gE3_1_6;
         const double Q3_6 = g20 + w97 * c1_3 + (xE3_1_2 * w95 - xE3_1_1 * w96) * c2_3;
         const double w119 = a_3_2 * a_3_0 + w104 * Q3_6;
-        const double s_p1_1 = m_1 + w59 * (sum_Nr4_1 - w118) - w106 * w119;
+        const double s_p1_1 = mu1 + w59 * (sum_Nr4_1 - w118) - w106 * w119;
         const double Nr1_2 = 0.01 * (xi1_0 * xi1_1) - w120;
         const double Nr3_2 = 0.01 * (a_3_1 * a_3_0) - w105 * Q3_6;
-        const double s_p1_2 = m_2 + w59 * (sum_Nr4_2 + Nr1_2) + w106 * Nr3_2;
+        const double s_p1_2 = mu2 + w59 * (sum_Nr4_2 + Nr1_2) + w106 * Nr3_2;
         const double w121 = xe1_2 * s_p1_1 - xe1_1 * s_p1_2;
         const double w123 = xe1_0 * s_p1_2 - s_p1_0 * xe1_2;
         const double w124 = s_p1_0 * xe1_1 - xe1_0 * s_p1_1;
@@ -814,33 +816,27 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         s_p1_2_seen = s_p1_2;
         if (make_1) {
             const double w153 = 0.165 * xi1_2;
-            const double w154 = 0.08333333333333333 * g02 * mu0 + 0.08333333333333333 * g12 * mu1
-                + 0.08333333333333333 * g22 * mu2;
+            const double w154 = 0.08333333333333333 * mu2;
             const double w155 = 0.165 * xi1_1;
-            const double w156 = -0.08333333333333333 * g01 * mu0 - 0.08333333333333333 * g11 * mu1
-                - 0.08333333333333333 * g21 * mu2;
+            const double w156 = -0.08333333333333333 * mu1;
             const double w157 = -0.66 * h;
             const double w158 = 0.33 * h;
             const double w159 = xi3_2 * w158;
             const double w160 = xi3_1 * w158;
             const double w161 = 0.165 * xi4_2;
-            const double w162 = -0.08333333333333333 * g02 * mu0 - 0.08333333333333333 * g12 * mu1
-                - 0.08333333333333333 * g22 * mu2;
+            const double w162 = -0.08333333333333333 * mu2;
             const double w163 = 0.165 * xi4_1;
-            const double w164 = 0.08333333333333333 * g01 * mu0 + 0.08333333333333333 * g11 * mu1
-                + 0.08333333333333333 * g21 * mu2;
+            const double w164 = 0.08333333333333333 * mu1;
             const double w165 = -0.16666666666666666 * xi1_2;
             const double w166 = -0.16666666666666666 * xi1_0;
-            const double w167 = 0.08333333333333333 * g00 * mu0 + 0.08333333333333333 * g10 * mu1
-                + 0.08333333333333333 * g20 * mu2;
+            const double w167 = 0.08333333333333333 * mu0;
             const double w168 = 0.6666666666666666 * h;
             const double w169 = -0.3333333333333333 * h;
             const double w170 = xi3_2 * w169;
             const double w171 = xi3_0 * w169;
             const double w172 = -0.16666666666666666 * xi4_2;
             const double w173 = -0.16666666666666666 * xi4_0;
-            const double w174 = -0.08333333333333333 * g00 * mu0 - 0.08333333333333333 * g10 * mu1
-                - 0.08333333333333333 * g20 * mu2;
+            const double w174 = -0.08333333333333333 * mu0;
             const double w175 = 0.0016666666666666668 * xi1_1;
             const double w176 = 0.0016666666666666668 * xi1_0;
             const double w177 = -0.006666666666666667 * h;
@@ -849,11 +845,9 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             const double w180 = xi3_0 * w178;
             const double w181 = 0.0016666666666666668 * xi4_1;
             const double w182 = 0.0016666666666666668 * xi4_0;
-            const double w183 = 0.16666666666666666 * g02 * mu0 + 0.16666666666666666 * g12 * mu1
-                + 0.16666666666666666 * g22 * mu2;
+            const double w183 = 0.16666666666666666 * mu2;
             const double w184 = w153 + w183;
-            const double w185 = -0.16666666666666666 * g01 * mu0 - 0.16666666666666666 * g11 * mu1
-                - 0.16666666666666666 * g21 * mu2;
+            const double w185 = -0.16666666666666666 * mu1;
             const double w186 = w155 + w185;
             const double w187 = 0.33 * xi2_2;
             const double w188 = -0.005 * xi1_2;
@@ -862,22 +856,18 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             const double w191 = 0.165 * h;
             const double w192 = xi4_2 * w191;
             const double w193 = xi4_1 * w191;
-            const double w194 = -0.16666666666666666 * g02 * mu0 - 0.16666666666666666 * g12 * mu1
-                - 0.16666666666666666 * g22 * mu2;
+            const double w194 = -0.16666666666666666 * mu2;
             const double w195 = w165 + w194;
-            const double w196 = 0.16666666666666666 * g00 * mu0 + 0.16666666666666666 * g10 * mu1
-                + 0.16666666666666666 * g20 * mu2;
+            const double w196 = 0.16666666666666666 * mu0;
             const double w197 = w166 + w196;
             const double w198 = -0.3333333333333333 * xi2_2;
             const double w199 = -0.3333333333333333 * xi2_0;
             const double w200 = -0.495 * xi1_0;
             const double w201 = xi4_2 * w135;
             const double w202 = xi4_0 * w135;
-            const double w203 = 0.16666666666666666 * g01 * mu0 + 0.16666666666666666 * g11 * mu1
-                + 0.16666666666666666 * g21 * mu2;
+            const double w203 = 0.16666666666666666 * mu1;
             const double w204 = w175 + w203;
-            const double w205 = -0.16666666666666666 * g00 * mu0 - 0.16666666666666666 * g10 * mu1
-                - 0.16666666666666666 * g20 * mu2;
+            const double w205 = -0.16666666666666666 * mu0;
             const double w206 = w176 + w205;
             const double w207 = 0.0033333333333333335 * xi2_1;
             const double w208 = 0.0033333333333333335 * xi2_0;
@@ -895,26 +885,14 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             const double w220 = 0.0033333333333333335 * xi3_1;
             const double w221 = 0.0033333333333333335 * xi3_0;
             const double w222 = -0.0033333333333333335 * h;
-            const double w223 = h * (0.25 * g02 * mu0 + 0.25 * g12 * mu1 + 0.25 * g22 * mu2 + w153);
-            const double w224 = h * (-0.25 * g01 * mu0 - 0.25 * g11 * mu1 - 0.25 * g21 * mu2 + w155);
-            const double w225 = 0.3333333333333333 * g02 * mu0 + 0.3333333333333333 * g12 * mu1
-                + 0.3333333333333333 * g22 * mu2;
-            const double w226 = -0.3333333333333333 * g01 * mu0 - 0.3333333333333333 * g11 * mu1
-                - 0.3333333333333333 * g21 * mu2;
-            const double w227 = -0.01 * xi3_2;
-            const double w228 = h * (-0.25 * g02 * mu0 - 0.25 * g12 * mu1 - 0.25 * g22 * mu2 + w165);
-            const double w229 = h * (0.25 * g00 * mu0 + 0.25 * g10 * mu1 + 0.25 * g20 * mu2 + w166);
-            const double w230 = -0.3333333333333333 * g02 * mu0 - 0.3333333333333333 * g12 * mu1
-                - 0.3333333333333333 * g22 * mu2;
-            const double w231 = 0.3333333333333333 * g00 * mu0 + 0.3333333333333333 * g10 * mu1
-                + 0.3333333333333333 * g20 * mu2;
-            const double w232 = -0.99 * xi3_0;
-            const double w233 = h * (0.25 * g01 * mu0 + 0.25 * g11 * mu1 + 0.25 * g21 * mu2 + w175);
-            const double w234 = h * (-0.25 * g00 * mu0 - 0.25 * g10 * mu1 - 0.25 * g20 * mu2 + w176);
-            const double w235 = 0.3333333333333333 * g01 * mu0 + 0.3333333333333333 * g11 * mu1
-                + 0.3333333333333333 * g21 * mu2;
-            const double w236 = -0.3333333333333333 * g00 * mu0 - 0.3333333333333333 * g10 * mu1
-                - 0.3333333333333333 * g20 * mu2;
+            const double w223 = 0.3333333333333333 * mu2;
+            const double w224 = -0.3333333333333333 * mu1;
+            const double w225 = -0.01 * xi3_2;
+            const double w226 = -0.3333333333333333 * mu2;
+            const double w227 = 0.3333333333333333 * mu0;
+            const double w228 = -0.99 * xi3_0;
+            const double w229 = 0.3333333333333333 * mu1;
+            const double w230 = -0.3333333333333333 * mu0;
             memory->inverse_1[0] = 1.01;
             memory->inverse_1[1] = -h * (w153 + w154);
             memory->inverse_1[2] = -h * (w155 + w156);
@@ -1024,40 +1002,40 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             memory->inverse_1[106] = -xi4_0 * w222;
             memory->inverse_1[107] = 0.0;
             memory->inverse_1[108] = 0.0;
-            memory->inverse_1[109] = -w223;
-            memory->inverse_1[110] = -w224;
+            memory->inverse_1[109] = -h * (0.25 * mu2 + w153);
+            memory->inverse_1[110] = -h * (w155 - 0.25 * mu1);
             memory->inverse_1[111] = 0.0;
-            memory->inverse_1[112] = -h * (w187 + w225);
-            memory->inverse_1[113] = -h * (w189 + w226);
+            memory->inverse_1[112] = -h * (w187 + w223);
+            memory->inverse_1[113] = -h * (w189 + w224);
             memory->inverse_1[114] = 0.0;
-            memory->inverse_1[115] = -h * (w212 + w225 + xi4_2);
-            memory->inverse_1[116] = -h * (w214 + w226 - 0.01 * xi4_1);
+            memory->inverse_1[115] = -h * (w212 + w223 + xi4_2);
+            memory->inverse_1[116] = -h * (w214 + w224 - 0.01 * xi4_1);
             memory->inverse_1[117] = 1.01;
-            memory->inverse_1[118] = -h * (w154 + w227 + w161);
+            memory->inverse_1[118] = -h * (w154 + w225 + w161);
             memory->inverse_1[119] = -h * (xi3_1 + w156 + w163);
-            memory->inverse_1[120] = -w228;
+            memory->inverse_1[120] = -h * (w165 - 0.25 * mu2);
             memory->inverse_1[121] = 0.0;
-            memory->inverse_1[122] = -w229;
-            memory->inverse_1[123] = -h * (w198 + w230);
+            memory->inverse_1[122] = -h * (0.25 * mu0 + w166);
+            memory->inverse_1[123] = -h * (w198 + w226);
             memory->inverse_1[124] = 0.0;
-            memory->inverse_1[125] = -h * (w199 + w231);
-            memory->inverse_1[126] = -h * (w217 + w230 - 0.99 * xi4_2);
+            memory->inverse_1[125] = -h * (w199 + w227);
+            memory->inverse_1[126] = -h * (w217 + w226 - 0.99 * xi4_2);
             memory->inverse_1[127] = 0.0;
-            memory->inverse_1[128] = -h * (w218 + w231 - 0.01 * xi4_0);
-            memory->inverse_1[129] = -h * (w162 + w227 + w172);
+            memory->inverse_1[128] = -h * (w218 + w227 - 0.01 * xi4_0);
+            memory->inverse_1[129] = -h * (w162 + w225 + w172);
             memory->inverse_1[130] = 1.0;
-            memory->inverse_1[131] = -h * (w167 + w232 + w173);
-            memory->inverse_1[132] = -w233;
-            memory->inverse_1[133] = -w234;
+            memory->inverse_1[131] = -h * (w167 + w228 + w173);
+            memory->inverse_1[132] = -h * (0.25 * mu1 + w175);
+            memory->inverse_1[133] = -h * (w176 - 0.25 * mu0);
             memory->inverse_1[134] = 0.0;
-            memory->inverse_1[135] = -h * (w207 + w235);
-            memory->inverse_1[136] = -h * (w208 + w236);
+            memory->inverse_1[135] = -h * (w207 + w229);
+            memory->inverse_1[136] = -h * (w208 + w230);
             memory->inverse_1[137] = 0.0;
-            memory->inverse_1[138] = -h * (w220 + w235 - 0.99 * xi4_1);
-            memory->inverse_1[139] = -h * (w221 + w236 + xi4_0);
+            memory->inverse_1[138] = -h * (w220 + w229 - 0.99 * xi4_1);
+            memory->inverse_1[139] = -h * (w221 + w230 + xi4_0);
             memory->inverse_1[140] = 0.0;
             memory->inverse_1[141] = -h * (xi3_1 + w164 + w181);
-            memory->inverse_1[142] = -h * (w174 + w232 + w182);
+            memory->inverse_1[142] = -h * (w174 + w228 + w182);
             memory->inverse_1[143] = 0.01;
             double row_1[12];
             size_t order_1[12];
@@ -1184,108 +1162,99 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double solution[12] = {xi1_0, xi1_1, xi1_2, xi2_0, xi2_1, xi2_2, xi3_0, xi3_1, xi3_2,
         xi4_0, xi4_1, xi4_2};
     remember(memory, solution);
-    const double w237 = xi2_1 + xi3_1;
-    const double w238 = w59 * w237;
-    const double xe1_1_ = xi1_1 * w107 + w238 + xi4_1 * w110;
-    const double w239 = xi2_0 + xi3_0;
-    const double w240 = w59 * w239;
-    const double xe1_0_ = xi1_0 * w107 + w240 + xi4_0 * w110;
-    const double w241 = xi2_2 + xi3_2;
-    const double w242 = w59 * w241;
-    const double xe1_2_ = xi1_2 * w107 + w242 + xi4_2 * w110;
-    const double w243 = xe1_0_ * xe1_0_ + xe1_1_ * xe1_1_ + xe1_2_ * xe1_2_;
+    const double w231 = xi2_1 + xi3_1;
+    const double w232 = w59 * w231;
+    const double xe1_1_ = xi1_1 * w107 + w232 + xi4_1 * w110;
+    const double w233 = xi2_0 + xi3_0;
+    const double w234 = w59 * w233;
+    const double xe1_0_ = xi1_0 * w107 + w234 + xi4_0 * w110;
+    const double w235 = xi2_2 + xi3_2;
+    const double w236 = w59 * w235;
+    const double xe1_2_ = xi1_2 * w107 + w236 + xi4_2 * w110;
+    const double w237 = xe1_0_ * xe1_0_ + xe1_1_ * xe1_1_ + xe1_2_ * xe1_2_;
     double c1_5, c2_6;
-    stumpff_12(w243, &c1_5, &c2_6);
-    const double w245 = xe1_1_ * c2_6;
-    const double w246 = xe1_1_ * w245;
-    const double w247 = xe1_2_ * c2_6 * xe1_2_;
-    const double ge1_0_ = 1.0 - (w246 + w247);
-    const double xe2_1 = w238 + xi1_1 * w110 + xi4_1 * w107;
-    const double ye2_0_ = xi1_0 * w134 + w135 * w239 + xi4_0 * w136;
-    const double ye2_1_ = xi1_1 * w134 + w135 * w237 + xi4_1 * w136;
-    const double ye2_2_ = xi1_2 * w134 + w135 * w241 + xi4_2 * w136;
-    const double w248 = ye2_0_ * ye2_0_ + ye2_1_ * ye2_1_ + ye2_2_ * ye2_2_;
+    stumpff_12(w237, &c1_5, &c2_6);
+    const double w239 = xe1_1_ * c2_6;
+    const double w240 = xe1_1_ * w239;
+    const double w241 = xe1_2_ * c2_6 * xe1_2_;
+    const double ge1_0_ = 1.0 - (w240 + w241);
+    const double xe2_1 = w232 + xi1_1 * w110 + xi4_1 * w107;
+    const double ye2_0_ = xi1_0 * w134 + w135 * w233 + xi4_0 * w136;
+    const double ye2_1_ = xi1_1 * w134 + w135 * w231 + xi4_1 * w136;
+    const double ye2_2_ = xi1_2 * w134 + w135 * w235 + xi4_2 * w136;
+    const double w242 = ye2_0_ * ye2_0_ + ye2_1_ * ye2_1_ + ye2_2_ * ye2_2_;
     double c1_6, c2_7;
-    stumpff_12(w248, &c1_6, &c2_7);
-    const double w250 = xe2_1 * c2_7;
-    const double w251 = xe2_1 * w250;
-    const double xe2_2 = w242 + xi1_2 * w110 + xi4_2 * w107;
-    const double w252 = xe2_2 * c2_7 * xe2_2;
-    const double ge2_0 = 1.0 - (w251 + w252);
-    const double w254 = xe1_2_ * c1_5;
-    const double w255 = xe1_0_ * c2_6;
-    const double w256 = xe1_1_ * w255;
-    const double ge1_3_ = w254 + w256;
-    const double xe2_0 = w240 + xi1_0 * w110 + xi4_0 * w107;
-    const double w257 = xe2_0 * c2_7;
-    const double w258 = xe2_1 * w257;
-    const double w260 = xe2_2 * c1_6;
-    const double ge2_1 = w258 - w260;
-    const double w261 = xe1_2_ * w255;
-    const double w262 = xe1_1_ * c1_5;
-    const double ge1_6_ = w261 - w262;
-    const double w263 = xe2_1 * c1_6;
-    const double w264 = xe2_2 * w257;
-    const double ge2_2 = w263 + w264;
+    stumpff_12(w242, &c1_6, &c2_7);
+    const double w244 = xe2_1 * c2_7;
+    const double w245 = xe2_1 * w244;
+    const double xe2_2 = w236 + xi1_2 * w110 + xi4_2 * w107;
+    const double w246 = xe2_2 * c2_7 * xe2_2;
+    const double ge2_0 = 1.0 - (w245 + w246);
+    const double w248 = xe1_2_ * c1_5;
+    const double w249 = xe1_0_ * c2_6;
+    const double w250 = xe1_1_ * w249;
+    const double ge1_3_ = w248 + w250;
+    const double xe2_0 = w234 + xi1_0 * w110 + xi4_0 * w107;
+    const double w251 = xe2_0 * c2_7;
+    const double w252 = xe2_1 * w251;
+    const double w254 = xe2_2 * c1_6;
+    const double ge2_1 = w252 - w254;
+    const double w255 = xe1_2_ * w249;
+    const double w256 = xe1_1_ * c1_5;
+    const double ge1_6_ = w255 - w256;
+    const double w257 = xe2_1 * c1_6;
+    const double w258 = xe2_2 * w251;
+    const double ge2_2 = w257 + w258;
     const double e2_0 = ge1_0_ * ge2_0 + ge1_3_ * ge2_1 + ge1_6_ * ge2_2;
-    const double ge2_3 = w258 + w260;
-    const double w265 = xe2_0 * w257;
-    const double ge2_4 = 1.0 - (w252 + w265);
-    const double w266 = w250 * xe2_2;
-    const double w267 = xe2_0 * c1_6;
-    const double ge2_5 = w266 - w267;
+    const double ge2_3 = w252 + w254;
+    const double w259 = xe2_0 * w251;
+    const double ge2_4 = 1.0 - (w246 + w259);
+    const double w260 = w244 * xe2_2;
+    const double w261 = xe2_0 * c1_6;
+    const double ge2_5 = w260 - w261;
     const double e2_3 = ge1_0_ * ge2_3 + ge1_3_ * ge2_4 + ge1_6_ * ge2_5;
-    const double ge2_6 = w264 - w263;
-    const double ge2_7 = w266 + w267;
-    const double ge2_8 = 1.0 - (w251 + w265);
+    const double ge2_6 = w258 - w257;
+    const double ge2_7 = w260 + w261;
+    const double ge2_8 = 1.0 - (w245 + w259);
     const double e2_6 = ge1_0_ * ge2_6 + ge1_3_ * ge2_7 + ge1_6_ * ge2_8;
-    const double ge1_1_ = w256 - w254;
-    const double w268 = xe1_0_ * w255;
-    const double ge1_4_ = 1.0 - (w247 + w268);
-    const double w269 = xe1_0_ * c1_5;
-    const double w270 = xe1_2_ * w245;
-    const double ge1_7_ = w269 + w270;
+    const double ge1_1_ = w250 - w248;
+    const double w262 = xe1_0_ * w249;
+    const double ge1_4_ = 1.0 - (w241 + w262);
+    const double w263 = xe1_0_ * c1_5;
+    const double w264 = xe1_2_ * w239;
+    const double ge1_7_ = w263 + w264;
     const double e2_1 = ge2_0 * ge1_1_ + ge2_1 * ge1_4_ + ge2_2 * ge1_7_;
     const double e2_4 = ge2_3 * ge1_1_ + ge2_4 * ge1_4_ + ge2_5 * ge1_7_;
     const double e2_7 = ge2_6 * ge1_1_ + ge2_7 * ge1_4_ + ge2_8 * ge1_7_;
-    const double ge1_2_ = w261 + w262;
-    const double ge1_5_ = w270 - w269;
-    const double ge1_8_ = 1.0 - (w246 + w268);
+    const double ge1_2_ = w255 + w256;
+    const double ge1_5_ = w264 - w263;
+    const double ge1_8_ = 1.0 - (w240 + w262);
     const double e2_2 = ge2_0 * ge1_2_ + ge2_1 * ge1_5_ + ge2_2 * ge1_8_;
     const double e2_5 = ge2_3 * ge1_2_ + ge2_4 * ge1_5_ + ge2_5 * ge1_8_;
     const double e2_8 = ge2_6 * ge1_2_ + ge2_7 * ge1_5_ + ge2_8 * ge1_8_;
-    const double w271 = 0.165 * h;
-    const double w272 = 0.33 * h;
-    const double w273 = s_p1_0_seen + xi1_2 * w271 * d_xi1_1 + xi1_1 * w271 * d_xi1_2
-        + xi2_2 * w272 * d_xi2_1 + xi2_1 * w272 * d_xi2_2;
+    const double w265 = 0.165 * h;
+    const double w266 = 0.33 * h;
+    const double w267 = s_p1_0_seen + xi1_2 * w265 * d_xi1_1 + xi1_1 * w265 * d_xi1_2
+        + xi2_2 * w266 * d_xi2_1 + xi2_1 * w266 * d_xi2_2;
+    const double w268 = xi3_2 * w266;
+    const double w269 = xi3_1 * w266;
+    const double w270 = xi4_2 * w265;
+    const double w271 = xi4_1 * w265;
+    const double w272 = -0.3333333333333333 * h;
+    const double w273 = s_p1_1_seen + xi1_2 * w135 * d_xi1_0 + xi1_0 * w135 * d_xi1_2
+        + xi2_2 * w272 * d_xi2_0 + xi2_0 * w272 * d_xi2_2;
     const double w274 = xi3_2 * w272;
-    const double w275 = xi3_1 * w272;
-    const double w276 = xi4_2 * w271;
-    const double w277 = xi4_1 * w271;
-    const double w278 = w273 + d_xi3_1 * w274 + d_xi3_2 * w275 + d_xi4_1 * w276
-        + d_xi4_2 * w277;
-    const double w279 = -0.3333333333333333 * h;
-    const double w280 = s_p1_1_seen + xi1_2 * w135 * d_xi1_0 + xi1_0 * w135 * d_xi1_2
-        + xi2_2 * w279 * d_xi2_0 + xi2_0 * w279 * d_xi2_2;
-    const double w281 = xi3_2 * w279;
+    const double w275 = xi3_0 * w272;
+    const double w276 = xi4_2 * w135;
+    const double w277 = xi4_0 * w135;
+    const double w278 = 0.0016666666666666668 * h;
+    const double w279 = 0.0033333333333333335 * h;
+    const double w280 = s_p1_2_seen + xi1_1 * w278 * d_xi1_0 + xi1_0 * w278 * d_xi1_1
+        + xi2_1 * w279 * d_xi2_0 + xi2_0 * w279 * d_xi2_1;
+    const double w281 = xi3_1 * w279;
     const double w282 = xi3_0 * w279;
-    const double w283 = xi4_2 * w135;
-    const double w284 = xi4_0 * w135;
-    const double w285 = w280 + d_xi3_0 * w281 + d_xi3_2 * w282 + d_xi4_0 * w283
-        + d_xi4_2 * w284;
-    const double w286 = 0.0016666666666666668 * h;
-    const double w287 = 0.0033333333333333335 * h;
-    const double w288 = s_p1_2_seen + xi1_1 * w286 * d_xi1_0 + xi1_0 * w286 * d_xi1_1
-        + xi2_1 * w287 * d_xi2_0 + xi2_0 * w287 * d_xi2_1;
-    const double w289 = xi3_1 * w287;
-    const double w290 = xi3_0 * w287;
-    const double w291 = xi4_1 * w286;
-    const double w292 = xi4_0 * w286;
-    const double w293 = w288 + d_xi3_0 * w289 + d_xi3_1 * w290 + d_xi4_0 * w291
-        + d_xi4_1 * w292;
-    const double change_0 = e2_0 * w278 + e2_1 * w285 + e2_2 * w293 - m_0;
-    const double change_1 = e2_3 * w278 + e2_4 * w285 + e2_5 * w293 - m_1;
-    const double change_2 = e2_6 * w278 + e2_7 * w285 + e2_8 * w293 - m_2;
+    const double w283 = xi4_1 * w278;
+    const double w284 = xi4_0 * w278;
     const double new_g00 = g00 * e2_0 + g01 * e2_3 + g02 * e2_6;
     const double new_g01 = g00 * e2_1 + g01 * e2_4 + g02 * e2_7;
     const double new_g02 = g00 * e2_2 + g01 * e2_5 + g02 * e2_8;
@@ -1295,9 +1264,12 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double new_g20 = g20 * e2_0 + g21 * e2_3 + g22 * e2_6;
     const double new_g21 = g20 * e2_1 + g21 * e2_4 + g22 * e2_7;
     const double new_g22 = g20 * e2_2 + g21 * e2_5 + g22 * e2_8;
-    const double new_mu0 = g00 * change_0 + g01 * change_1 + g02 * change_2 + mu0;
-    const double new_mu1 = g10 * change_0 + g11 * change_1 + g12 * change_2 + mu1;
-    const double new_mu2 = g20 * change_0 + g21 * change_1 + g22 * change_2 + mu2;
+    const double new_mu0 = w267 + d_xi3_1 * w268 + d_xi3_2 * w269 + d_xi4_1 * w270
+        + d_xi4_2 * w271;
+    const double new_mu1 = w273 + d_xi3_0 * w274 + d_xi3_2 * w275 + d_xi4_0 * w276
+        + d_xi4_2 * w277;
+    const double new_mu2 = w280 + d_xi3_0 * w281 + d_xi3_1 * w282 + d_xi4_0 * w283
+        + d_xi4_1 * w284;
     /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
     if (!isfinite((new_g00 + new_g01) + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2))
@@ -1379,15 +1351,86 @@ static int continued(double state[static 12], double h, struct memory *memory,
     return failure;
 }
 
+/* The momentum that steps are made with, of a state. */
+static inline void inward(const double state[static 12], double momentum[static 3])
+{
+    const double g00 = state[0];
+    const double g01 = state[1];
+    const double g02 = state[2];
+    const double g10 = state[3];
+    const double g11 = state[4];
+    const double g12 = state[5];
+    const double g20 = state[6];
+    const double g21 = state[7];
+    const double g22 = state[8];
+    const double mu0 = state[9];
+    const double mu1 = state[10];
+    const double mu2 = state[11];
+    momentum[0] = g00 * mu0 + g10 * mu1 + g20 * mu2;
+    momentum[1] = g01 * mu0 + g11 * mu1 + g21 * mu2;
+    momentum[2] = g02 * mu0 + g12 * mu1 + g22 * mu2;
+}
+
+/* The momentum in space, of a state with the other. */
+static inline void outward(const double state[static 12], double momentum[static 3])
+{
+    const double g00 = state[0];
+    const double g01 = state[1];
+    const double g02 = state[2];
+    const double g10 = state[3];
+    const double g11 = state[4];
+    const double g12 = state[5];
+    const double g20 = state[6];
+    const double g21 = state[7];
+    const double g22 = state[8];
+    const double mu0 = state[9];
+    const double mu1 = state[10];
+    const double mu2 = state[11];
+    momentum[0] = g00 * mu0 + g01 * mu1 + g02 * mu2;
+    momentum[1] = g11 * mu1 + g10 * mu0 + g12 * mu2;
+    momentum[2] = g20 * mu0 + g21 * mu1 + g22 * mu2;
+}
+
+/* Begin: make moving the state with that momentum, and before what this is in space. */
+static void enter(const double state[static 12], double moving[static 12],
+    double before[static 3])
+{
+    memcpy(moving, state, 9 * sizeof *state);
+    inward(state, moving + 9);
+    outward(moving, before);
+}
+
+/*
+ * End: change the state to what moving is. What its momentum has gained in space is added to that of the state:
+ * where rounding has made q not quite orthogonal, it turns that alone.
+ */
+static int leave(const double moving[static 12], const double before[static 3],
+    double state[static 12])
+{
+    double momentum[3];
+    outward(moving, momentum);
+    for (int i = 0; i < 3; i++) {
+        momentum[i] = state[9 + i] + (momentum[i] - before[i]);
+        if (!isfinite(momentum[i])) {
+            return DIPOLE_VCF_CF4_NOT_FINITE;
+        }
+    }
+    memcpy(state, moving, 9 * sizeof *state);
+    memcpy(state + 9, momentum, sizeof momentum);
+    return DIPOLE_VCF_CF4_OK;
+}
+
 int dipole_vcf_cf4_step(double state[static 12], double h,
     dipole_vcf_cf4_statistics *statistics)
 {
+    double moving[12], before[3];
+    enter(state, moving, before);
     struct memory memory = {0};
-    int status = advance(state, h, &memory, statistics);
+    int status = advance(moving, h, &memory, statistics);
     if (status == DIPOLE_VCF_CF4_NOT_CONVERGED || status == DIPOLE_VCF_CF4_NOT_FINITE) {
-        status = continued(state, h, &memory, statistics);
+        status = continued(moving, h, &memory, statistics);
     }
-    return status;
+    return status == DIPOLE_VCF_CF4_OK ? leave(moving, before, state) : status;
 }
 
 int dipole_vcf_cf4_run(double state[static 12], double h, size_t steps, double *trajectory,
@@ -1400,10 +1443,12 @@ int dipole_vcf_cf4_run(double state[static 12], double h, size_t steps, double *
     if (row != NULL) {
         memcpy(row, state, 12 * sizeof *state);
     }
+    double moving[12], before[3];
+    enter(state, moving, before);
     while (step < steps) {
-        status = advance(state, h, &memory, statistics);
+        status = advance(moving, h, &memory, statistics);
         if (status == DIPOLE_VCF_CF4_NOT_CONVERGED || status == DIPOLE_VCF_CF4_NOT_FINITE) {
-            status = continued(state, h, &memory, statistics);
+            status = continued(moving, h, &memory, statistics);
         }
         if (status != DIPOLE_VCF_CF4_OK) {
             break;
@@ -1412,7 +1457,15 @@ int dipole_vcf_cf4_run(double state[static 12], double h, size_t steps, double *
         if (row != NULL && step % stride == 0) {
             row += 12;
             memcpy(row, state, 12 * sizeof *state);
+            status = leave(moving, before, row);
+            if (status != DIPOLE_VCF_CF4_OK) {
+                break;
+            }
         }
+    }
+    if (step > 0 && leave(moving, before, state) != DIPOLE_VCF_CF4_OK) { /* finite in the body alone */
+        status = DIPOLE_VCF_CF4_NOT_FINITE;
+        step = 0;
     }
     if (completed != NULL) {
         *completed = step;

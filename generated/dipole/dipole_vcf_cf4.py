@@ -7,9 +7,9 @@ order:      4, certificate: exact (every order condition up to it is zero in exa
             arithmetic)
 scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
 solved by:  the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: Newton's method, 12
-            unknowns (2.5 sweeps of 1202 operations and 0.05 matrices of 3910 a
+            unknowns (2.4 sweeps of 1202 operations and 0.05 matrices of 3742 a
             step; fixed point: 3.0 sweeps of 959 operations; Newton's method with
-            the matrix to first order in h: 2.2 sweeps of 1235 operations and 1.00
+            the matrix to first order in h: 2.1 sweeps of 1235 operations and 1.00
             matrices of 4064)
 state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
@@ -21,20 +21,22 @@ left out:   1 Adt, 23 Adtinv, 5 mul (zeros)
             1 lin (cancellation)
             1 lin (sharing)
             5 hamilton (body frame)
+            1 Adt (opposites)
             3 Adt (opposites)
-            6 Adtinv, 1 force (dead code)
+            7 Adtinv, 1 force (dead code)
             1 lin (sharing)
             2 mul (rows)
             5 dexpt (functions)
             3 Adinv, 4 legendre (sharing)
             parameters, folded: beta = 1, depth = 3/2
             the time: the scene does not depend on it
-operations: 140 add, 209 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
+operations: 116 add, 182 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
             2 mul a start, in steps that follow no other
-            150 add, 304 mul a matrix of the equations of xi1, xi2, xi3, xi4, n1,
+            102 add, 184 mul a matrix of the equations of xi1, xi2, xi3, xi4, n1,
             n2, n3, n4
             442 add, 571 mul, 6 div, 6 sqrt, 4 stumpff_123, 1 stumpff_23 a sweep of
             the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
+            12 add, 18 mul where a run begins, 12 add, 9 mul where it ends
 made by:    orderconds emit dipole --method vcf:cf4 --target python -o .
 version:    orderconds 0.1.0
 
@@ -136,12 +138,15 @@ class _Memory:
             self.degree = k - 1
 
     def difference(self, order, first):
-        """Return a backward difference without its first terms, which were of later solutions."""
+        """Return a backward difference without its first terms, which were of later solutions.
+
+        The latest is added last.
+        """
         rows = range(first, order + 1)
         factors = [float((-1) ** j * comb(order, j)) for j in rows]
         terms = [[f * x for x in row] for f, row in zip(factors, self.past)]
         pairs = [[x + y for x, y in zip(*pair)] for pair in zip(terms[::2], terms[1::2])]
-        total, *rest = pairs + (terms[-1:] if len(terms) % 2 else [])
+        total, *rest = (terms[-1:] if len(terms) % 2 else []) + pairs[::-1]
         for pair in rest:
             total = [x + y for x, y in zip(total, pair)]
         return total
@@ -327,28 +332,25 @@ def invert(a):
 def _advance(state, h, memory, statistics):
     """Return the state after one step as a tuple."""
     g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
-    m_0 = g00 * mu0 + g10 * mu1 + g20 * mu2
-    m_1 = g01 * mu0 + g11 * mu1 + g21 * mu2
-    m_2 = g02 * mu0 + g12 * mu1 + g22 * mu2
     if memory.past:
         (
             xi1_0, xi1_1, xi1_2, xi2_0, xi2_1, xi2_2, xi3_0, xi3_1, xi3_2, xi4_0, xi4_1,
             xi4_2,
         ) = memory.guess
     else:
-        Wxi0_0 = 0.9900990099009901 * m_0
-        Wxi0_2 = 100.0 * m_2
+        Wxi0_0 = 0.9900990099009901 * mu0
+        Wxi0_2 = 100.0 * mu2
         xi1_0 = Wxi0_0
-        xi1_1 = m_1
+        xi1_1 = mu1
         xi1_2 = Wxi0_2
         xi2_0 = Wxi0_0
-        xi2_1 = m_1
+        xi2_1 = mu1
         xi2_2 = Wxi0_2
         xi3_0 = Wxi0_0
-        xi3_1 = m_1
+        xi3_1 = mu1
         xi3_2 = Wxi0_2
         xi4_0 = Wxi0_0
-        xi4_1 = m_1
+        xi4_1 = mu1
         xi4_2 = Wxi0_2
     w1 = -0.5 * h
     w2 = 0.5 * h
@@ -536,7 +538,7 @@ def _advance(state, h, memory, statistics):
         w104 = -1.0 - 1.5 * (w101 - w103)
         w105 = 0.15 * (w101 + w103)
         Nr3_0 = Q3_7 * w104 + Q3_8 * w105 + 0.99 * (a_3_1 * a_3_2)
-        s_p1_0 = m_0 + w59 * (sum_Nr4_0 + Nr1_0) + Nr3_0 * w106
+        s_p1_0 = mu0 + w59 * (sum_Nr4_0 + Nr1_0) + Nr3_0 * w106
         w108 = xi2_0 + xi3_0
         w109 = w59 * w108
         xe1_0 = xi1_0 * w107 + w109 + xi4_0 * w110
@@ -555,10 +557,10 @@ def _advance(state, h, memory, statistics):
         a_3_0 = xi3_0 * gE3_1_0 + xi3_1 * gE3_1_3 + xi3_2 * gE3_1_6
         Q3_6 = g20 + w97 * c1_3 + (xE3_1_2 * w95 - xE3_1_1 * w96) * c2_3
         w119 = a_3_2 * a_3_0 + w104 * Q3_6
-        s_p1_1 = m_1 + w59 * (sum_Nr4_1 - w118) - w106 * w119
+        s_p1_1 = mu1 + w59 * (sum_Nr4_1 - w118) - w106 * w119
         Nr1_2 = 0.01 * (xi1_0 * xi1_1) - w120
         Nr3_2 = 0.01 * (a_3_1 * a_3_0) - w105 * Q3_6
-        s_p1_2 = m_2 + w59 * (sum_Nr4_2 + Nr1_2) + w106 * Nr3_2
+        s_p1_2 = mu2 + w59 * (sum_Nr4_2 + Nr1_2) + w106 * Nr3_2
         w121 = xe1_2 * s_p1_1 - xe1_1 * s_p1_2
         w123 = xe1_0 * s_p1_2 - s_p1_0 * xe1_2
         w124 = s_p1_0 * xe1_1 - xe1_0 * s_p1_1
@@ -667,45 +669,27 @@ def _advance(state, h, memory, statistics):
             raise _failed(NOT_FINITE, "the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4", 0, sweep, statistics)
         if make_1:
             w153 = 0.165 * xi1_2
-            w154 = (
-                0.08333333333333333 * g02 * mu0 + 0.08333333333333333 * g12 * mu1
-                + 0.08333333333333333 * g22 * mu2
-            )
+            w154 = 0.08333333333333333 * mu2
             w155 = 0.165 * xi1_1
-            w156 = (
-                -0.08333333333333333 * g01 * mu0 - 0.08333333333333333 * g11 * mu1
-                - 0.08333333333333333 * g21 * mu2
-            )
+            w156 = -0.08333333333333333 * mu1
             w157 = -0.66 * h
             w158 = 0.33 * h
             w159 = xi3_2 * w158
             w160 = xi3_1 * w158
             w161 = 0.165 * xi4_2
-            w162 = (
-                -0.08333333333333333 * g02 * mu0 - 0.08333333333333333 * g12 * mu1
-                - 0.08333333333333333 * g22 * mu2
-            )
+            w162 = -0.08333333333333333 * mu2
             w163 = 0.165 * xi4_1
-            w164 = (
-                0.08333333333333333 * g01 * mu0 + 0.08333333333333333 * g11 * mu1
-                + 0.08333333333333333 * g21 * mu2
-            )
+            w164 = 0.08333333333333333 * mu1
             w165 = -0.16666666666666666 * xi1_2
             w166 = -0.16666666666666666 * xi1_0
-            w167 = (
-                0.08333333333333333 * g00 * mu0 + 0.08333333333333333 * g10 * mu1
-                + 0.08333333333333333 * g20 * mu2
-            )
+            w167 = 0.08333333333333333 * mu0
             w168 = 0.6666666666666666 * h
             w169 = -0.3333333333333333 * h
             w170 = xi3_2 * w169
             w171 = xi3_0 * w169
             w172 = -0.16666666666666666 * xi4_2
             w173 = -0.16666666666666666 * xi4_0
-            w174 = (
-                -0.08333333333333333 * g00 * mu0 - 0.08333333333333333 * g10 * mu1
-                - 0.08333333333333333 * g20 * mu2
-            )
+            w174 = -0.08333333333333333 * mu0
             w175 = 0.0016666666666666668 * xi1_1
             w176 = 0.0016666666666666668 * xi1_0
             w177 = -0.006666666666666667 * h
@@ -714,15 +698,9 @@ def _advance(state, h, memory, statistics):
             w180 = xi3_0 * w178
             w181 = 0.0016666666666666668 * xi4_1
             w182 = 0.0016666666666666668 * xi4_0
-            w183 = (
-                0.16666666666666666 * g02 * mu0 + 0.16666666666666666 * g12 * mu1
-                + 0.16666666666666666 * g22 * mu2
-            )
+            w183 = 0.16666666666666666 * mu2
             w184 = w153 + w183
-            w185 = (
-                -0.16666666666666666 * g01 * mu0 - 0.16666666666666666 * g11 * mu1
-                - 0.16666666666666666 * g21 * mu2
-            )
+            w185 = -0.16666666666666666 * mu1
             w186 = w155 + w185
             w187 = 0.33 * xi2_2
             w188 = -0.005 * xi1_2
@@ -731,30 +709,18 @@ def _advance(state, h, memory, statistics):
             w191 = 0.165 * h
             w192 = xi4_2 * w191
             w193 = xi4_1 * w191
-            w194 = (
-                -0.16666666666666666 * g02 * mu0 - 0.16666666666666666 * g12 * mu1
-                - 0.16666666666666666 * g22 * mu2
-            )
+            w194 = -0.16666666666666666 * mu2
             w195 = w165 + w194
-            w196 = (
-                0.16666666666666666 * g00 * mu0 + 0.16666666666666666 * g10 * mu1
-                + 0.16666666666666666 * g20 * mu2
-            )
+            w196 = 0.16666666666666666 * mu0
             w197 = w166 + w196
             w198 = -0.3333333333333333 * xi2_2
             w199 = -0.3333333333333333 * xi2_0
             w200 = -0.495 * xi1_0
             w201 = xi4_2 * w135
             w202 = xi4_0 * w135
-            w203 = (
-                0.16666666666666666 * g01 * mu0 + 0.16666666666666666 * g11 * mu1
-                + 0.16666666666666666 * g21 * mu2
-            )
+            w203 = 0.16666666666666666 * mu1
             w204 = w175 + w203
-            w205 = (
-                -0.16666666666666666 * g00 * mu0 - 0.16666666666666666 * g10 * mu1
-                - 0.16666666666666666 * g20 * mu2
-            )
+            w205 = -0.16666666666666666 * mu0
             w206 = w176 + w205
             w207 = 0.0033333333333333335 * xi2_1
             w208 = 0.0033333333333333335 * xi2_0
@@ -772,38 +738,14 @@ def _advance(state, h, memory, statistics):
             w220 = 0.0033333333333333335 * xi3_1
             w221 = 0.0033333333333333335 * xi3_0
             w222 = -0.0033333333333333335 * h
-            w223 = h * (0.25 * g02 * mu0 + 0.25 * g12 * mu1 + 0.25 * g22 * mu2 + w153)
-            w224 = h * (-0.25 * g01 * mu0 - 0.25 * g11 * mu1 - 0.25 * g21 * mu2 + w155)
-            w225 = (
-                0.3333333333333333 * g02 * mu0 + 0.3333333333333333 * g12 * mu1
-                + 0.3333333333333333 * g22 * mu2
-            )
-            w226 = (
-                -0.3333333333333333 * g01 * mu0 - 0.3333333333333333 * g11 * mu1
-                - 0.3333333333333333 * g21 * mu2
-            )
-            w227 = -0.01 * xi3_2
-            w228 = h * (-0.25 * g02 * mu0 - 0.25 * g12 * mu1 - 0.25 * g22 * mu2 + w165)
-            w229 = h * (0.25 * g00 * mu0 + 0.25 * g10 * mu1 + 0.25 * g20 * mu2 + w166)
-            w230 = (
-                -0.3333333333333333 * g02 * mu0 - 0.3333333333333333 * g12 * mu1
-                - 0.3333333333333333 * g22 * mu2
-            )
-            w231 = (
-                0.3333333333333333 * g00 * mu0 + 0.3333333333333333 * g10 * mu1
-                + 0.3333333333333333 * g20 * mu2
-            )
-            w232 = -0.99 * xi3_0
-            w233 = h * (0.25 * g01 * mu0 + 0.25 * g11 * mu1 + 0.25 * g21 * mu2 + w175)
-            w234 = h * (-0.25 * g00 * mu0 - 0.25 * g10 * mu1 - 0.25 * g20 * mu2 + w176)
-            w235 = (
-                0.3333333333333333 * g01 * mu0 + 0.3333333333333333 * g11 * mu1
-                + 0.3333333333333333 * g21 * mu2
-            )
-            w236 = (
-                -0.3333333333333333 * g00 * mu0 - 0.3333333333333333 * g10 * mu1
-                - 0.3333333333333333 * g20 * mu2
-            )
+            w223 = 0.3333333333333333 * mu2
+            w224 = -0.3333333333333333 * mu1
+            w225 = -0.01 * xi3_2
+            w226 = -0.3333333333333333 * mu2
+            w227 = 0.3333333333333333 * mu0
+            w228 = -0.99 * xi3_0
+            w229 = 0.3333333333333333 * mu1
+            w230 = -0.3333333333333333 * mu0
             row_1_1 = [
                 1.01, -h * (w153 + w154), -h * (w155 + w156), 0.0, -xi2_2 * w157,
                 -xi2_1 * w157, 0.0, -w159, -w160, 0.0, -h * (w161 + w162),
@@ -853,20 +795,23 @@ def _advance(state, h, memory, statistics):
                 -h * (w205 + w219 + w221), 0.01, -xi4_1 * w222, -xi4_0 * w222, 0.0,
             ]
             row_1_10 = [
-                0.0, -w223, -w224, 0.0, -h * (w187 + w225), -h * (w189 + w226), 0.0,
-                -h * (w212 + w225 + xi4_2), -h * (w214 + w226 - 0.01 * xi4_1), 1.01,
-                -h * (w154 + w227 + w161), -h * (xi3_1 + w156 + w163),
+                0.0, -h * (0.25 * mu2 + w153), -h * (w155 - 0.25 * mu1), 0.0,
+                -h * (w187 + w223), -h * (w189 + w224), 0.0, -h * (w212 + w223 + xi4_2),
+                -h * (w214 + w224 - 0.01 * xi4_1), 1.01, -h * (w154 + w225 + w161),
+                -h * (xi3_1 + w156 + w163),
             ]
             row_1_11 = [
-                -w228, 0.0, -w229, -h * (w198 + w230), 0.0, -h * (w199 + w231),
-                -h * (w217 + w230 - 0.99 * xi4_2), 0.0,
-                -h * (w218 + w231 - 0.01 * xi4_0), -h * (w162 + w227 + w172), 1.0,
-                -h * (w167 + w232 + w173),
+                -h * (w165 - 0.25 * mu2), 0.0, -h * (0.25 * mu0 + w166),
+                -h * (w198 + w226), 0.0, -h * (w199 + w227),
+                -h * (w217 + w226 - 0.99 * xi4_2), 0.0,
+                -h * (w218 + w227 - 0.01 * xi4_0), -h * (w162 + w225 + w172), 1.0,
+                -h * (w167 + w228 + w173),
             ]
             row_1_12 = [
-                -w233, -w234, 0.0, -h * (w207 + w235), -h * (w208 + w236), 0.0,
-                -h * (w220 + w235 - 0.99 * xi4_1), -h * (w221 + w236 + xi4_0), 0.0,
-                -h * (xi3_1 + w164 + w181), -h * (w174 + w232 + w182), 0.01,
+                -h * (0.25 * mu1 + w175), -h * (w176 - 0.25 * mu0), 0.0,
+                -h * (w207 + w229), -h * (w208 + w230), 0.0,
+                -h * (w220 + w229 - 0.99 * xi4_1), -h * (w221 + w230 + xi4_0), 0.0,
+                -h * (xi3_1 + w164 + w181), -h * (w174 + w228 + w182), 0.01,
             ]
             memory.inverses[0] = invert([row_1_1, row_1_2, row_1_3, row_1_4, row_1_5, row_1_6, row_1_7, row_1_8, row_1_9, row_1_10, row_1_11, row_1_12])
             if statistics is not None:
@@ -1009,109 +954,103 @@ def _advance(state, h, memory, statistics):
         raise _failed(NOT_CONVERGED, "the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4", 0, sweep, statistics)
     if statistics is not None:
         statistics.count(0, sweep)
-    w237 = xi2_1 + xi3_1
-    w238 = w59 * w237
-    xe1_1_ = xi1_1 * w107 + w238 + xi4_1 * w110
-    w239 = xi2_0 + xi3_0
-    w240 = w59 * w239
-    xe1_0_ = xi1_0 * w107 + w240 + xi4_0 * w110
-    w241 = xi2_2 + xi3_2
-    w242 = w59 * w241
-    xe1_2_ = xi1_2 * w107 + w242 + xi4_2 * w110
-    w243 = xe1_0_ * xe1_0_ + xe1_1_ * xe1_1_ + xe1_2_ * xe1_2_
-    c1_5, c2_6 = _stumpff_12(w243)
-    w245 = xe1_1_ * c2_6
-    w246 = xe1_1_ * w245
-    w247 = xe1_2_ * c2_6 * xe1_2_
-    ge1_0_ = 1.0 - (w246 + w247)
-    xe2_1 = w238 + xi1_1 * w110 + xi4_1 * w107
-    ye2_0_ = xi1_0 * w134 + w135 * w239 + xi4_0 * w136
-    ye2_1_ = xi1_1 * w134 + w135 * w237 + xi4_1 * w136
-    ye2_2_ = xi1_2 * w134 + w135 * w241 + xi4_2 * w136
-    w248 = ye2_0_ * ye2_0_ + ye2_1_ * ye2_1_ + ye2_2_ * ye2_2_
-    c1_6, c2_7 = _stumpff_12(w248)
-    w250 = xe2_1 * c2_7
-    w251 = xe2_1 * w250
-    xe2_2 = w242 + xi1_2 * w110 + xi4_2 * w107
-    w252 = xe2_2 * c2_7 * xe2_2
-    ge2_0 = 1.0 - (w251 + w252)
-    w254 = xe1_2_ * c1_5
-    w255 = xe1_0_ * c2_6
-    w256 = xe1_1_ * w255
-    ge1_3_ = w254 + w256
-    xe2_0 = w240 + xi1_0 * w110 + xi4_0 * w107
-    w257 = xe2_0 * c2_7
-    w258 = xe2_1 * w257
-    w260 = xe2_2 * c1_6
-    ge2_1 = w258 - w260
-    w261 = xe1_2_ * w255
-    w262 = xe1_1_ * c1_5
-    ge1_6_ = w261 - w262
-    w263 = xe2_1 * c1_6
-    w264 = xe2_2 * w257
-    ge2_2 = w263 + w264
+    w231 = xi2_1 + xi3_1
+    w232 = w59 * w231
+    xe1_1_ = xi1_1 * w107 + w232 + xi4_1 * w110
+    w233 = xi2_0 + xi3_0
+    w234 = w59 * w233
+    xe1_0_ = xi1_0 * w107 + w234 + xi4_0 * w110
+    w235 = xi2_2 + xi3_2
+    w236 = w59 * w235
+    xe1_2_ = xi1_2 * w107 + w236 + xi4_2 * w110
+    w237 = xe1_0_ * xe1_0_ + xe1_1_ * xe1_1_ + xe1_2_ * xe1_2_
+    c1_5, c2_6 = _stumpff_12(w237)
+    w239 = xe1_1_ * c2_6
+    w240 = xe1_1_ * w239
+    w241 = xe1_2_ * c2_6 * xe1_2_
+    ge1_0_ = 1.0 - (w240 + w241)
+    xe2_1 = w232 + xi1_1 * w110 + xi4_1 * w107
+    ye2_0_ = xi1_0 * w134 + w135 * w233 + xi4_0 * w136
+    ye2_1_ = xi1_1 * w134 + w135 * w231 + xi4_1 * w136
+    ye2_2_ = xi1_2 * w134 + w135 * w235 + xi4_2 * w136
+    w242 = ye2_0_ * ye2_0_ + ye2_1_ * ye2_1_ + ye2_2_ * ye2_2_
+    c1_6, c2_7 = _stumpff_12(w242)
+    w244 = xe2_1 * c2_7
+    w245 = xe2_1 * w244
+    xe2_2 = w236 + xi1_2 * w110 + xi4_2 * w107
+    w246 = xe2_2 * c2_7 * xe2_2
+    ge2_0 = 1.0 - (w245 + w246)
+    w248 = xe1_2_ * c1_5
+    w249 = xe1_0_ * c2_6
+    w250 = xe1_1_ * w249
+    ge1_3_ = w248 + w250
+    xe2_0 = w234 + xi1_0 * w110 + xi4_0 * w107
+    w251 = xe2_0 * c2_7
+    w252 = xe2_1 * w251
+    w254 = xe2_2 * c1_6
+    ge2_1 = w252 - w254
+    w255 = xe1_2_ * w249
+    w256 = xe1_1_ * c1_5
+    ge1_6_ = w255 - w256
+    w257 = xe2_1 * c1_6
+    w258 = xe2_2 * w251
+    ge2_2 = w257 + w258
     e2_0 = ge1_0_ * ge2_0 + ge1_3_ * ge2_1 + ge1_6_ * ge2_2
-    ge2_3 = w258 + w260
-    w265 = xe2_0 * w257
-    ge2_4 = 1.0 - (w252 + w265)
-    w266 = w250 * xe2_2
-    w267 = xe2_0 * c1_6
-    ge2_5 = w266 - w267
+    ge2_3 = w252 + w254
+    w259 = xe2_0 * w251
+    ge2_4 = 1.0 - (w246 + w259)
+    w260 = w244 * xe2_2
+    w261 = xe2_0 * c1_6
+    ge2_5 = w260 - w261
     e2_3 = ge1_0_ * ge2_3 + ge1_3_ * ge2_4 + ge1_6_ * ge2_5
-    ge2_6 = w264 - w263
-    ge2_7 = w266 + w267
-    ge2_8 = 1.0 - (w251 + w265)
+    ge2_6 = w258 - w257
+    ge2_7 = w260 + w261
+    ge2_8 = 1.0 - (w245 + w259)
     e2_6 = ge1_0_ * ge2_6 + ge1_3_ * ge2_7 + ge1_6_ * ge2_8
-    ge1_1_ = w256 - w254
-    w268 = xe1_0_ * w255
-    ge1_4_ = 1.0 - (w247 + w268)
-    w269 = xe1_0_ * c1_5
-    w270 = xe1_2_ * w245
-    ge1_7_ = w269 + w270
+    ge1_1_ = w250 - w248
+    w262 = xe1_0_ * w249
+    ge1_4_ = 1.0 - (w241 + w262)
+    w263 = xe1_0_ * c1_5
+    w264 = xe1_2_ * w239
+    ge1_7_ = w263 + w264
     e2_1 = ge2_0 * ge1_1_ + ge2_1 * ge1_4_ + ge2_2 * ge1_7_
     e2_4 = ge2_3 * ge1_1_ + ge2_4 * ge1_4_ + ge2_5 * ge1_7_
     e2_7 = ge2_6 * ge1_1_ + ge2_7 * ge1_4_ + ge2_8 * ge1_7_
-    ge1_2_ = w261 + w262
-    ge1_5_ = w270 - w269
-    ge1_8_ = 1.0 - (w246 + w268)
+    ge1_2_ = w255 + w256
+    ge1_5_ = w264 - w263
+    ge1_8_ = 1.0 - (w240 + w262)
     e2_2 = ge2_0 * ge1_2_ + ge2_1 * ge1_5_ + ge2_2 * ge1_8_
     e2_5 = ge2_3 * ge1_2_ + ge2_4 * ge1_5_ + ge2_5 * ge1_8_
     e2_8 = ge2_6 * ge1_2_ + ge2_7 * ge1_5_ + ge2_8 * ge1_8_
-    w271 = 0.165 * h
-    w272 = 0.33 * h
+    w265 = 0.165 * h
+    w266 = 0.33 * h
+    w267 = (
+        s_p1_0_seen + xi1_2 * w265 * d_xi1_1 + xi1_1 * w265 * d_xi1_2
+        + xi2_2 * w266 * d_xi2_1 + xi2_1 * w266 * d_xi2_2
+    )
+    w268 = xi3_2 * w266
+    w269 = xi3_1 * w266
+    w270 = xi4_2 * w265
+    w271 = xi4_1 * w265
+    w272 = -0.3333333333333333 * h
     w273 = (
-        s_p1_0_seen + xi1_2 * w271 * d_xi1_1 + xi1_1 * w271 * d_xi1_2
-        + xi2_2 * w272 * d_xi2_1 + xi2_1 * w272 * d_xi2_2
+        s_p1_1_seen + xi1_2 * w135 * d_xi1_0 + xi1_0 * w135 * d_xi1_2
+        + xi2_2 * w272 * d_xi2_0 + xi2_0 * w272 * d_xi2_2
     )
     w274 = xi3_2 * w272
-    w275 = xi3_1 * w272
-    w276 = xi4_2 * w271
-    w277 = xi4_1 * w271
-    w278 = w273 + d_xi3_1 * w274 + d_xi3_2 * w275 + d_xi4_1 * w276 + d_xi4_2 * w277
-    w279 = -0.3333333333333333 * h
+    w275 = xi3_0 * w272
+    w276 = xi4_2 * w135
+    w277 = xi4_0 * w135
+    w278 = 0.0016666666666666668 * h
+    w279 = 0.0033333333333333335 * h
     w280 = (
-        s_p1_1_seen + xi1_2 * w135 * d_xi1_0 + xi1_0 * w135 * d_xi1_2
-        + xi2_2 * w279 * d_xi2_0 + xi2_0 * w279 * d_xi2_2
+        s_p1_2_seen + xi1_1 * w278 * d_xi1_0 + xi1_0 * w278 * d_xi1_1
+        + xi2_1 * w279 * d_xi2_0 + xi2_0 * w279 * d_xi2_1
     )
-    w281 = xi3_2 * w279
+    w281 = xi3_1 * w279
     w282 = xi3_0 * w279
-    w283 = xi4_2 * w135
-    w284 = xi4_0 * w135
-    w285 = w280 + d_xi3_0 * w281 + d_xi3_2 * w282 + d_xi4_0 * w283 + d_xi4_2 * w284
-    w286 = 0.0016666666666666668 * h
-    w287 = 0.0033333333333333335 * h
-    w288 = (
-        s_p1_2_seen + xi1_1 * w286 * d_xi1_0 + xi1_0 * w286 * d_xi1_1
-        + xi2_1 * w287 * d_xi2_0 + xi2_0 * w287 * d_xi2_1
-    )
-    w289 = xi3_1 * w287
-    w290 = xi3_0 * w287
-    w291 = xi4_1 * w286
-    w292 = xi4_0 * w286
-    w293 = w288 + d_xi3_0 * w289 + d_xi3_1 * w290 + d_xi4_0 * w291 + d_xi4_1 * w292
-    change_0 = e2_0 * w278 + e2_1 * w285 + e2_2 * w293 - m_0
-    change_1 = e2_3 * w278 + e2_4 * w285 + e2_5 * w293 - m_1
-    change_2 = e2_6 * w278 + e2_7 * w285 + e2_8 * w293 - m_2
+    w283 = xi4_1 * w278
+    w284 = xi4_0 * w278
     new_g00 = g00 * e2_0 + g01 * e2_3 + g02 * e2_6
     new_g01 = g00 * e2_1 + g01 * e2_4 + g02 * e2_7
     new_g02 = g00 * e2_2 + g01 * e2_5 + g02 * e2_8
@@ -1121,9 +1060,9 @@ def _advance(state, h, memory, statistics):
     new_g20 = g20 * e2_0 + g21 * e2_3 + g22 * e2_6
     new_g21 = g20 * e2_1 + g21 * e2_4 + g22 * e2_7
     new_g22 = g20 * e2_2 + g21 * e2_5 + g22 * e2_8
-    new_mu0 = g00 * change_0 + g01 * change_1 + g02 * change_2 + mu0
-    new_mu1 = g10 * change_0 + g11 * change_1 + g12 * change_2 + mu1
-    new_mu2 = g20 * change_0 + g21 * change_1 + g22 * change_2 + mu2
+    new_mu0 = w267 + d_xi3_1 * w268 + d_xi3_2 * w269 + d_xi4_1 * w270 + d_xi4_2 * w271
+    new_mu1 = w273 + d_xi3_0 * w274 + d_xi3_2 * w275 + d_xi4_0 * w276 + d_xi4_2 * w277
+    new_mu2 = w280 + d_xi3_0 * w281 + d_xi3_1 * w282 + d_xi4_0 * w283 + d_xi4_1 * w284
     found = (
         xi1_0, xi1_1, xi1_2, xi2_0, xi2_1, xi2_2, xi3_0, xi3_1, xi3_2, xi4_0, xi4_1,
         xi4_2,
@@ -1182,6 +1121,43 @@ def _continued(state, h, memory, statistics):
     raise failure
 
 
+def _inward(state):
+    """Return the momentum that steps are made with, of a state, as a tuple."""
+    g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
+    momentum_0 = g00 * mu0 + g10 * mu1 + g20 * mu2
+    momentum_1 = g01 * mu0 + g11 * mu1 + g21 * mu2
+    momentum_2 = g02 * mu0 + g12 * mu1 + g22 * mu2
+    return momentum_0, momentum_1, momentum_2
+
+
+def _outward(state):
+    """Return the momentum in space, of a state with the other, as a tuple."""
+    g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
+    momentum_0 = g00 * mu0 + g01 * mu1 + g02 * mu2
+    momentum_1 = g11 * mu1 + g10 * mu0 + g12 * mu2
+    momentum_2 = g20 * mu0 + g21 * mu1 + g22 * mu2
+    return momentum_0, momentum_1, momentum_2
+
+
+def _entered(state):
+    """Return the state with that momentum, and what this is in space."""
+    moving = state[:9] + _inward(state)
+    return moving, _outward(moving)
+
+
+def _left(state, moving, before):
+    """Return the state in space of one with the other momentum.
+
+    What this has gained in space is added to that of the state: where rounding has made q
+    not quite orthogonal, it turns that alone.
+    """
+    gained = zip(state[9:], _outward(moving), before)
+    new = moving[:9] + tuple(mu + (y - x) for mu, y, x in gained)
+    if not all(map(isfinite, new)):
+        raise StepFailed(NOT_FINITE, "the new momentum is finite in the body alone")
+    return new
+
+
 def step(state, h, *, statistics=None):
     """Return the state after one step of size h as a list; state itself is left alone.
 
@@ -1203,20 +1179,26 @@ def run(state, h, steps, *, stride=0, statistics=None):
     rows = [list(state)]
     memory = _Memory()
     made = 0
+    moving, before = _entered(state)
     try:
         if steps > 0 and not isfinite(h):
             raise StepFailed(BAD_STEP, f"the step size h = {h} is not finite")
         for made in range(steps):
             try:
-                state = _checked(state, h, memory, statistics)
+                moving = _checked(moving, h, memory, statistics)
             except StepFailed:
                 if statistics is not None:
                     statistics.failed = 0
-                new = _continued(state, h, memory, statistics)
-                state = new
+                new = _continued(moving, h, memory, statistics)
+                moving = new
             if stride > 0 and (made + 1) % stride == 0:
-                rows.append(list(state))
+                rows.append(list(_left(state, moving, before)))
+        end = _left(state, moving, before) if steps > 0 else state
     except StepFailed as failure:
-        failure.step, failure.state = made, state
+        try:
+            end = _left(state, moving, before) if made > 0 else state
+        except StepFailed:
+            made, end = 0, state
+        failure.step, failure.state = made, end
         raise
-    return rows if stride > 0 else list(state)
+    return rows if stride > 0 else list(end)

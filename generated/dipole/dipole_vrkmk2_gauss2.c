@@ -6,9 +6,9 @@
  *             of Bogfjellmo and Marthinsen
  * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
- * solved by:  the equations of v1, v2, m1, m2: Newton's method, 6 unknowns (2.1 sweeps of 775
- *             operations and 0.05 matrices of 594 a step; fixed point: 3.2 sweeps of 851
- *             operations; Newton's method with the matrix to first order in h: 2.0 sweeps of 917
+ * solved by:  the equations of v1, v2, m1, m2: Newton's method, 6 unknowns (2.0 sweeps of 775
+ *             operations and 0.05 matrices of 552 a step; fixed point: 3.2 sweeps of 851
+ *             operations; Newton's method with the matrix to first order in h: 2.1 sweeps of 917
  *             operations and 1.00 matrices of 667)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
@@ -17,8 +17,8 @@
  *             2 dexpt (common sums)
  *             1 lin (sharing)
  *             3 hamilton (body frame)
- *             2 Adt (opposites)
- *             1 force, 1 lin (dead code)
+ *             3 Adt (opposites)
+ *             1 Adtinv, 1 force, 1 lin (dead code)
  *             2 mul (rows)
  *             2 Adinv, 2 Adt, 2 dexpinv, 2 dexpinvt, 3 dexpt (functions)
  *             2 legendre, 2 lin, 2 series, 2 seriest (sharing)
@@ -26,12 +26,13 @@
  *             2 lin (scalars)
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
- * operations: 71 add, 107 mul, 1 stumpff_12 a step
+ * operations: 47 add, 80 mul, 1 stumpff_12 a step
  *             2 mul a start, in steps that follow no other
- *             60 add, 102 mul a matrix of the equations of v1, v2, m1, m2
+ *             48 add, 72 mul a matrix of the equations of v1, v2, m1, m2
  *             269 add, 377 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 a sweep of the
  *             equations of v1, v2, m1, m2
- * stack:      at most 5568 bytes, without what the mathematical library takes
+ *             12 add, 18 mul where a run begins, 12 add, 9 mul where it ends
+ * stack:      at most 5888 bytes, without what the mathematical library takes
  * made by:    orderconds emit dipole --method 'vrkmk(2):gauss2' --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -340,7 +341,10 @@ static const double differences[17][18] = {
     {1, -16, 120, -560, 1820, -4368, 8008, -11440, 12870, -11440, 8008, -4368, 1820, -560, 120, -16, 1},
 };
 
-/* A backward difference, times sign, of an order without its first terms, which were of later solutions. */
+/*
+ * A backward difference, times sign, of an order without its first terms, which were of later solutions. The
+ * latest is added last: the rest of the sum does not wait for it.
+ */
 static inline void difference(const struct memory *memory, size_t order, size_t first, double sign,
     double sum[static 6])
 {
@@ -350,15 +354,15 @@ static inline void difference(const struct memory *memory, size_t order, size_t 
     double sum_3 = 0.0;
     double sum_4 = 0.0;
     double sum_5 = 0.0;
-    for (size_t j = first; j <= order; j += 2) {
-        const double f = sign * differences[order][j], g = sign * differences[order][j + 1];
-        const double *x = memory->values[memory->place + j - first], *y = x + 6;
-        sum_0 += f * x[0] + g * y[0];
-        sum_1 += f * x[1] + g * y[1];
-        sum_2 += f * x[2] + g * y[2];
-        sum_3 += f * x[3] + g * y[3];
-        sum_4 += f * x[4] + g * y[4];
-        sum_5 += f * x[5] + g * y[5];
+    const double (*const values)[6] = memory->values + memory->place;
+    for (size_t k = (order - first) / 2 + 1; k-- > 0;) {
+        const double *f = differences[order] + first + 2 * k, *x = values[2 * k], *y = values[2 * k + 1];
+        sum_0 += sign * (f[0] * x[0] + f[1] * y[0]);
+        sum_1 += sign * (f[0] * x[1] + f[1] * y[1]);
+        sum_2 += sign * (f[0] * x[2] + f[1] * y[2]);
+        sum_3 += sign * (f[0] * x[3] + f[1] * y[3]);
+        sum_4 += sign * (f[0] * x[4] + f[1] * y[4]);
+        sum_5 += sign * (f[0] * x[5] + f[1] * y[5]);
     }
     sum[0] = sum_0;
     sum[1] = sum_1;
@@ -437,9 +441,6 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double mu0 = state[9];
     const double mu1 = state[10];
     const double mu2 = state[11];
-    const double m_0 = g00 * mu0 + g10 * mu1 + g20 * mu2;
-    const double m_1 = g01 * mu0 + g11 * mu1 + g21 * mu2;
-    const double m_2 = g02 * mu0 + g12 * mu1 + g22 * mu2;
     double v1_0, v1_1, v1_2, v2_0, v2_1, v2_2;
     if (memory->known > 0) {
         v1_0 = memory->guess[0];
@@ -449,13 +450,13 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         v2_1 = memory->guess[4];
         v2_2 = memory->guess[5];
     } else {
-        const double Wxi0_0 = 0.9900990099009901 * m_0;
-        const double Wxi0_2 = 100.0 * m_2;
+        const double Wxi0_0 = 0.9900990099009901 * mu0;
+        const double Wxi0_2 = 100.0 * mu2;
         v1_0 = Wxi0_0;
-        v1_1 = m_1;
+        v1_1 = mu1;
         v1_2 = Wxi0_2;
         v2_0 = Wxi0_0;
-        v2_1 = m_1;
+        v2_1 = mu1;
         v2_2 = Wxi0_2;
     }
     const double w1 = 0.5 * h;
@@ -538,7 +539,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double w53 = -1.0 - 1.5 * (w50 - w52);
         const double w54 = 0.15 * (w50 + w52);
         const double Nn1_0 = Q1_7 * w53 + Q1_8 * w54 + 0.99 * (a_2_1 * a_2_2);
-        const double s_L_0 = m_0 + w1 * (Nn2_0 + Nn1_0);
+        const double s_L_0 = mu0 + w1 * (Nn2_0 + Nn1_0);
         const double Y_0 = (v1_0 + v2_0) * w1;
         const double Y_1 = (v1_1 + v2_1) * w1;
         const double Y_2 = (v1_2 + v2_2) * w1;
@@ -553,10 +554,10 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double a_2_0 = v1_0 + w38 * w39 + w42 * w59;
         const double Q1_6 = g20 + w46 * c1_2 + (X1_2 * w44 - X1_1 * w45) * c2_2;
         const double w60 = a_2_2 * a_2_0 + w53 * Q1_6;
-        const double s_L_1 = m_1 - w1 * (w58 + w60);
+        const double s_L_1 = mu1 - w1 * (w58 + w60);
         const double Nn2_2 = 0.01 * (a_6_1 * a_6_0) - w28 * Q2_6;
         const double Nn1_2 = 0.01 * (a_2_1 * a_2_0) - w54 * Q1_6;
-        const double s_L_2 = m_2 + w1 * (Nn2_2 + Nn1_2);
+        const double s_L_2 = mu2 + w1 * (Nn2_2 + Nn1_2);
         const double w61 = Y_2 * s_L_1 - Y_1 * s_L_2;
         const double w63 = Y_0 * s_L_2 - s_L_0 * Y_2;
         const double w64 = s_L_0 * Y_1 - Y_0 * s_L_1;
@@ -638,14 +639,14 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         s_L_2_seen = s_L_2;
         if (make_1) {
             const double w101 = 0.0001933756729740644 * v2_2;
-            const double w102 = 0.25 * g02 * mu0 + 0.25 * g12 * mu1 + 0.25 * g22 * mu2;
+            const double w102 = 0.25 * mu2;
             const double w103 = -0.01933756729740644 * v2_1;
-            const double w104 = -0.25 * g01 * mu0 - 0.25 * g11 * mu1 - 0.25 * g21 * mu2;
-            const double w105 = -0.25 * g02 * mu0 - 0.25 * g12 * mu1 - 0.25 * g22 * mu2;
+            const double w104 = -0.25 * mu1;
+            const double w105 = -0.25 * mu2;
             const double w106 = 0.019144191624432375 * v2_0;
-            const double w107 = 0.25 * g00 * mu0 + 0.25 * g10 * mu1 + 0.25 * g20 * mu2;
-            const double w108 = 0.25 * g01 * mu0 + 0.25 * g11 * mu1 + 0.25 * g21 * mu2;
-            const double w109 = -0.25 * g00 * mu0 - 0.25 * g10 * mu1 - 0.25 * g20 * mu2;
+            const double w107 = 0.25 * mu0;
+            const double w108 = 0.25 * mu1;
+            const double w109 = -0.25 * mu0;
             const double w110 = -0.0026933756729740645 * v1_2;
             const double w111 = 0.26933756729740643 * v1_1;
             const double w112 = -0.26664419162443237 * v1_0;
@@ -794,9 +795,6 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double w131 = 0.005 * h;
     const double w132 = s_L_2_seen + v1_1 * w131 * d_v1_0 + v1_0 * w131 * d_v1_1
         + v2_1 * w131 * d_v2_0 + v2_0 * w131 * d_v2_1;
-    const double change_0 = g_0 * w128 + g_1 * w130 + g_2 * w132 - m_0;
-    const double change_1 = g_3 * w128 + g_4 * w130 + g_5 * w132 - m_1;
-    const double change_2 = g_6 * w128 + g_7 * w130 + g_8 * w132 - m_2;
     const double new_g00 = g00 * g_0 + g01 * g_3 + g02 * g_6;
     const double new_g01 = g00 * g_1 + g01 * g_4 + g02 * g_7;
     const double new_g02 = g00 * g_2 + g01 * g_5 + g02 * g_8;
@@ -806,18 +804,15 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double new_g20 = g20 * g_0 + g21 * g_3 + g22 * g_6;
     const double new_g21 = g20 * g_1 + g21 * g_4 + g22 * g_7;
     const double new_g22 = g20 * g_2 + g21 * g_5 + g22 * g_8;
-    const double new_mu0 = g00 * change_0 + g01 * change_1 + g02 * change_2 + mu0;
-    const double new_mu1 = g10 * change_0 + g11 * change_1 + g12 * change_2 + mu1;
-    const double new_mu2 = g20 * change_0 + g21 * change_1 + g22 * change_2 + mu2;
     /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
     if (!isfinite((new_g00 + new_g01) + (new_g02 + new_g10) + (new_g11 + new_g12)
-        + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2))
+        + (new_g20 + new_g21) + (new_g22 + w128) + (w130 + w132))
         && !(((new_g00 - new_g00) + (new_g01 - new_g01))
         + ((new_g02 - new_g02) + (new_g10 - new_g10))
         + ((new_g11 - new_g11) + (new_g12 - new_g12))
         + ((new_g20 - new_g20) + (new_g21 - new_g21))
-        + ((new_g22 - new_g22) + (new_mu0 - new_mu0))
-        + ((new_mu1 - new_mu1) + (new_mu2 - new_mu2)) == 0.0)) {
+        + ((new_g22 - new_g22) + (w128 - w128)) + ((w130 - w130) + (w132 - w132))
+        == 0.0)) {
         return DIPOLE_VRKMK2_GAUSS2_NOT_FINITE;
     }
     memory->made_1 = memory->made_1 % 3 > 0 ? memory->made_1 + 1 : 0;
@@ -830,9 +825,9 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     state[6] = new_g20;
     state[7] = new_g21;
     state[8] = new_g22;
-    state[9] = new_mu0;
-    state[10] = new_mu1;
-    state[11] = new_mu2;
+    state[9] = w128;
+    state[10] = w130;
+    state[11] = w132;
     return DIPOLE_VRKMK2_GAUSS2_OK;
 }
 
@@ -890,15 +885,86 @@ static int continued(double state[static 12], double h, struct memory *memory,
     return failure;
 }
 
+/* The momentum that steps are made with, of a state. */
+static inline void inward(const double state[static 12], double momentum[static 3])
+{
+    const double g00 = state[0];
+    const double g01 = state[1];
+    const double g02 = state[2];
+    const double g10 = state[3];
+    const double g11 = state[4];
+    const double g12 = state[5];
+    const double g20 = state[6];
+    const double g21 = state[7];
+    const double g22 = state[8];
+    const double mu0 = state[9];
+    const double mu1 = state[10];
+    const double mu2 = state[11];
+    momentum[0] = g00 * mu0 + g10 * mu1 + g20 * mu2;
+    momentum[1] = g01 * mu0 + g11 * mu1 + g21 * mu2;
+    momentum[2] = g02 * mu0 + g12 * mu1 + g22 * mu2;
+}
+
+/* The momentum in space, of a state with the other. */
+static inline void outward(const double state[static 12], double momentum[static 3])
+{
+    const double g00 = state[0];
+    const double g01 = state[1];
+    const double g02 = state[2];
+    const double g10 = state[3];
+    const double g11 = state[4];
+    const double g12 = state[5];
+    const double g20 = state[6];
+    const double g21 = state[7];
+    const double g22 = state[8];
+    const double mu0 = state[9];
+    const double mu1 = state[10];
+    const double mu2 = state[11];
+    momentum[0] = g00 * mu0 + g01 * mu1 + g02 * mu2;
+    momentum[1] = g11 * mu1 + g10 * mu0 + g12 * mu2;
+    momentum[2] = g20 * mu0 + g21 * mu1 + g22 * mu2;
+}
+
+/* Begin: make moving the state with that momentum, and before what this is in space. */
+static void enter(const double state[static 12], double moving[static 12],
+    double before[static 3])
+{
+    memcpy(moving, state, 9 * sizeof *state);
+    inward(state, moving + 9);
+    outward(moving, before);
+}
+
+/*
+ * End: change the state to what moving is. What its momentum has gained in space is added to that of the state:
+ * where rounding has made q not quite orthogonal, it turns that alone.
+ */
+static int leave(const double moving[static 12], const double before[static 3],
+    double state[static 12])
+{
+    double momentum[3];
+    outward(moving, momentum);
+    for (int i = 0; i < 3; i++) {
+        momentum[i] = state[9 + i] + (momentum[i] - before[i]);
+        if (!isfinite(momentum[i])) {
+            return DIPOLE_VRKMK2_GAUSS2_NOT_FINITE;
+        }
+    }
+    memcpy(state, moving, 9 * sizeof *state);
+    memcpy(state + 9, momentum, sizeof momentum);
+    return DIPOLE_VRKMK2_GAUSS2_OK;
+}
+
 int dipole_vrkmk2_gauss2_step(double state[static 12], double h,
     dipole_vrkmk2_gauss2_statistics *statistics)
 {
+    double moving[12], before[3];
+    enter(state, moving, before);
     struct memory memory = {0};
-    int status = advance(state, h, &memory, statistics);
+    int status = advance(moving, h, &memory, statistics);
     if (status == DIPOLE_VRKMK2_GAUSS2_NOT_CONVERGED || status == DIPOLE_VRKMK2_GAUSS2_NOT_FINITE) {
-        status = continued(state, h, &memory, statistics);
+        status = continued(moving, h, &memory, statistics);
     }
-    return status;
+    return status == DIPOLE_VRKMK2_GAUSS2_OK ? leave(moving, before, state) : status;
 }
 
 int dipole_vrkmk2_gauss2_run(double state[static 12], double h, size_t steps,
@@ -912,10 +978,12 @@ int dipole_vrkmk2_gauss2_run(double state[static 12], double h, size_t steps,
     if (row != NULL) {
         memcpy(row, state, 12 * sizeof *state);
     }
+    double moving[12], before[3];
+    enter(state, moving, before);
     while (step < steps) {
-        status = advance(state, h, &memory, statistics);
+        status = advance(moving, h, &memory, statistics);
         if (status == DIPOLE_VRKMK2_GAUSS2_NOT_CONVERGED || status == DIPOLE_VRKMK2_GAUSS2_NOT_FINITE) {
-            status = continued(state, h, &memory, statistics);
+            status = continued(moving, h, &memory, statistics);
         }
         if (status != DIPOLE_VRKMK2_GAUSS2_OK) {
             break;
@@ -924,7 +992,15 @@ int dipole_vrkmk2_gauss2_run(double state[static 12], double h, size_t steps,
         if (row != NULL && step % stride == 0) {
             row += 12;
             memcpy(row, state, 12 * sizeof *state);
+            status = leave(moving, before, row);
+            if (status != DIPOLE_VRKMK2_GAUSS2_OK) {
+                break;
+            }
         }
+    }
+    if (step > 0 && leave(moving, before, state) != DIPOLE_VRKMK2_GAUSS2_OK) { /* finite in the body alone */
+        status = DIPOLE_VRKMK2_GAUSS2_NOT_FINITE;
+        step = 0;
     }
     if (completed != NULL) {
         *completed = step;

@@ -387,7 +387,10 @@ static const double differences[17][18] = {
     {1, -16, 120, -560, 1820, -4368, 8008, -11440, 12870, -11440, 8008, -4368, 1820, -560, 120, -16, 1},
 };
 
-/* A backward difference, times sign, of an order without its first terms, which were of later solutions. */
+/*
+ * A backward difference, times sign, of an order without its first terms, which were of later solutions. The
+ * latest is added last: the rest of the sum does not wait for it.
+ */
 static inline void difference(const struct memory *memory, size_t order, size_t first, double sign,
     double sum[static 6])
 {
@@ -397,15 +400,15 @@ static inline void difference(const struct memory *memory, size_t order, size_t 
     double sum_3 = 0.0;
     double sum_4 = 0.0;
     double sum_5 = 0.0;
-    for (size_t j = first; j <= order; j += 2) {
-        const double f = sign * differences[order][j], g = sign * differences[order][j + 1];
-        const double *x = memory->values[memory->place + j - first], *y = x + 6;
-        sum_0 += f * x[0] + g * y[0];
-        sum_1 += f * x[1] + g * y[1];
-        sum_2 += f * x[2] + g * y[2];
-        sum_3 += f * x[3] + g * y[3];
-        sum_4 += f * x[4] + g * y[4];
-        sum_5 += f * x[5] + g * y[5];
+    const double (*const values)[6] = memory->values + memory->place;
+    for (size_t k = (order - first) / 2 + 1; k-- > 0;) {
+        const double *f = differences[order] + first + 2 * k, *x = values[2 * k], *y = values[2 * k + 1];
+        sum_0 += sign * (f[0] * x[0] + f[1] * y[0]);
+        sum_1 += sign * (f[0] * x[1] + f[1] * y[1]);
+        sum_2 += sign * (f[0] * x[2] + f[1] * y[2]);
+        sum_3 += sign * (f[0] * x[3] + f[1] * y[3]);
+        sum_4 += sign * (f[0] * x[4] + f[1] * y[4]);
+        sum_5 += sign * (f[0] * x[5] + f[1] * y[5]);
     }
     sum[0] = sum_0;
     sum[1] = sum_1;

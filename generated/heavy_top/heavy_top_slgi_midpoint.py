@@ -119,12 +119,15 @@ class _Memory:
             self.degree = k - 1
 
     def difference(self, order, first):
-        """Return a backward difference without its first terms, which were of later solutions."""
+        """Return a backward difference without its first terms, which were of later solutions.
+
+        The latest is added last.
+        """
         rows = range(first, order + 1)
         factors = [float((-1) ** j * comb(order, j)) for j in rows]
         terms = [[f * x for x in row] for f, row in zip(factors, self.past)]
         pairs = [[x + y for x, y in zip(*pair)] for pair in zip(terms[::2], terms[1::2])]
-        total, *rest = pairs + (terms[-1:] if len(terms) % 2 else [])
+        total, *rest = (terms[-1:] if len(terms) % 2 else []) + pairs[::-1]
         for pair in rest:
             total = [x + y for x, y in zip(total, pair)]
         return total

@@ -8,6 +8,7 @@ from math import comb
 from codegen.ir.kernel import CHORD, ELAPSED, LEAD, LONGEST, NEWTON, Kernel, PutOff, Start
 from codegen.ir.number import Number
 from codegen.printers.arrange import Arrangement, Beginning, Invocation, Iteration, arrange
+from codegen.printers.c.carried import turning
 from codegen.printers.c.jacobian import varying
 from codegen.printers.c.pieces import function
 from codegen.printers.c.statements import RESERVED, Statements, literal
@@ -56,6 +57,10 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         pieces.append(lines)
         most = max(most, own_numbers)
     variables["pieces"] = pieces
+    variables["carried"] = None
+    if kernel.carried is not None:
+        variables["carried"] = turning(kernel.carried, interface, RESERVED | own_names(interface))
+        held += 4 * interface.size
     held += most + called(arrangement)
     variables["vary"] = None
     if kernel.vary is not None:

@@ -35,7 +35,7 @@ _WORDS = """
     slope2 slope3
     weighted between error rtol atol limit accepted rejected end now size left last taken then trial norm wish
     factor trend shrunk refused made before next total ratio vector vary jacobian column
-    substep fraction offset number point result i j sum
+    substep fraction offset number point result i j sum moving momentum inward outward enter leave
     solved part tries guess failure
 """
 RESERVED = frozenset(_WORDS.split()) | {f"stumpff_{''.join(map(str, orders))}" for orders in SETS}

@@ -12,9 +12,10 @@ from codegen.printers.layout import inverts, layout, register, times
 from codegen.printers.names import Names
 from codegen.printers.operations import costs
 from codegen.printers.precision import DOUBLE
+from codegen.printers.python.carried import turning
 from codegen.printers.python.pieces import function
 from codegen.printers.python.statements import RESERVED, Statements
-from codegen.printers.python.text import WIDTH, filled, listed, quoted
+from codegen.printers.python.text import listed, quoted, unpacking
 from codegen.printers.recipe import Recipe, header
 from codegen.snippets.graph import needed
 from codegen.templates import environment
@@ -41,6 +42,10 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         ending, more, constants = put_off(kernel.put_off, arrangement, names, interface)
         statements.constants |= constants
         functions |= more
+    carried: dict[str, object] | None = None
+    if kernel.carried is not None:
+        carried, constants = turning(kernel.carried, interface)
+        statements.constants |= constants
     derivative: dict[str, object] | None = None
     if kernel.vary is not None:
         derivative, more, constants = jacobian(kernel.vary, interface)
@@ -127,6 +132,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             tries=Start.TRIES,
             shortest=Start.SHORTEST,
             put_off=ending,
+            carried=carried,
             pieces=pieces,
             again=", ".join(["state", *time, "h", "made", *parameters]),
             body=[*body, *ends],
@@ -250,16 +256,6 @@ def samples(kernel: Kernel, read: frozenset[str], names: Names, statements: Stat
         lines += listed("", targets, 1)
         lines[-1] += f" = _sampled(inputs, {time})"
     return lines
-
-
-def unpacking(symbols: list[str]) -> list[str]:
-    """Return the lines that give the numbers of a state their names."""
-    lines = listed("", symbols, 1)
-    return (
-        [*lines[:-1], f"{lines[-1]} = state"]
-        if len(f"{lines[-1]} = state") <= WIDTH
-        else filled("(", symbols, ") = state", 1)
-    )
 
 
 def keywords(arguments: list[str]) -> list[str]:

@@ -21,7 +21,7 @@ _WORDS = """
     settled error failure labels count made new memory invert fabs slope2 slope3
     float32 errstate inputs _sampled copysign comb
     end now size left last taken then rtol atol limit refused before shrunk norm wish factor
-    LIMIT vector jacobian columns column _vary _substep fraction offset enumerate k right
+    LIMIT moving vector jacobian columns column _vary _substep fraction offset enumerate k right
     OK NOT_CONVERGED NOT_FINITE BAD_STEP StepFailed Statistics
 """
 RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split())

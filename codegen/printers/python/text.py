@@ -69,3 +69,13 @@ def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
     if len(line) <= WIDTH:
         return [line]
     return filled(f"{start}(", terms, ")", depth)
+
+
+def unpacking(symbols: list[str]) -> list[str]:
+    """Return the lines that give the numbers of a state their names."""
+    lines = listed("", symbols, 1)
+    return (
+        [*lines[:-1], f"{lines[-1]} = state"]
+        if len(f"{lines[-1]} = state") <= WIDTH
+        else filled("(", symbols, ") = state", 1)
+    )
