@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -167,26 +167,32 @@ class SO3(LieGroup):
         terms: Sequence[tuple[Any, Sequence[Factor], Scalars]],
         dual: bool,
         x: Scalars,
+        total: Callable[[tuple[int, ...]], Scalars] | None = None,
     ) -> Scalars:
         """Return the sum of f W(ad_x) v over terms (f, W, v) in two brackets: A + x cross (B + x cross C).
 
         Terms with the same coefficient of ad_x, or of ad_x^2, are added before they are multiplied by it.
+        ``total`` gives the sum of f v over some of the terms, by number, where the caller has a shorter one.
         """
-        z, nothing = dot(x, x), (d.rational(0),) * 3
-        plain = nothing
-        sums: tuple[dict[Any, Scalars], dict[Any, Scalars]] = ({}, {})
-        for f, word, v in terms:
+
+        def added(numbers: tuple[int, ...]) -> Scalars:
+            if total is not None:
+                return total(numbers)
+            owns = [tuple(f * a for a in v) for f, _, v in (terms[k] for k in numbers)]
+            return tuple(sum(parts[1:], start=parts[0]) for parts in zip(*owns, strict=True))
+
+        z = dot(x, x)
+        groups: tuple[dict[Any, tuple[int, ...]], dict[Any, tuple[int, ...]]] = ({}, {})
+        for k, (_, word, _) in enumerate(terms):
             b, c = word_coefficients(d, word, z)
-            own = tuple(f * a for a in v)
-            plain = tuple(p + a for p, a in zip(plain, own, strict=True))
-            for known, factor in zip(sums, (-b if dual else b, c), strict=True):
-                old = known.get(factor, nothing)
-                known[factor] = tuple(p + a for p, a in zip(old, own, strict=True))
-        inner = nothing
-        for b, total in sums[0].items():
-            inner = tuple(p + b * a for p, a in zip(inner, total, strict=True))
-        for c, total in sums[1].items():
-            inner = tuple(p + c * a for p, a in zip(inner, cross(x, total), strict=True))
+            for group, factor in zip(groups, (-b if dual else b, c), strict=True):
+                group[factor] = (*group.get(factor, ()), k)
+        inner = (d.rational(0),) * 3
+        for b, numbers in groups[0].items():
+            inner = tuple(p + b * a for p, a in zip(inner, added(numbers), strict=True))
+        for c, numbers in groups[1].items():
+            inner = tuple(p + c * a for p, a in zip(inner, cross(x, added(numbers)), strict=True))
+        plain = added(tuple(range(len(terms))))
         return tuple(p + q for p, q in zip(plain, cross(x, inner), strict=True))
 
     def velocity(self, d: Domain, x: Scalars, g: Scalars) -> Scalars:

@@ -1,7 +1,9 @@
 """Numbers gathered: 1 + 3/2 (3/2 - 2 x) becomes 13/4 - 3 x, and 3/2 a - 3/2 b becomes 3/2 (a - b).
 
 Exact. Each expression is a combination, with rational coefficients, of others that are none; numbers are
-taken out of products and powers. What is flat may share less: the result is taken where it is shorter.
+taken out of products and powers, and put into numerators: 3/2 (1/sqrt x)^3 becomes (3/2)/(x sqrt x), whose
+value is there two or three products earlier. What is flat may share less: the result is taken where it is
+shorter.
 """
 
 from __future__ import annotations
@@ -9,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
-from codegen.ir.expr import Expr, walk
+from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 Sum = dict[int, tuple[Number, Expr]]
@@ -30,7 +32,7 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     """
     if not roots:
         return ()
-    work = _Gathering()
+    work = _Gathering(_powers(roots))
     for node in map(_bare, kept):
         if node.args:
             work.sums[node.id], work.spelled[node.id] = {node.id: (Number.rational(1), node)}, node
@@ -47,22 +49,68 @@ def _bare(node: Expr) -> Expr:
 
 
 def _operations(roots: Sequence[Expr], still: set[int]) -> int:
-    nodes = walk(roots, stop=lambda n: n.id in still)
-    return sum(node.op not in ("const", "sym", "neg") for node in nodes if node.id not in still)
+    nodes = [node for node in walk(roots, stop=lambda n: n.id in still) if node.id not in still]
+    products = sum(int(node.payload) - 1 for node in nodes if node.op == "pow")
+    return products + sum(node.op not in ("const", "sym", "neg", "pow") for node in nodes)
+
+
+def _powers(roots: Sequence[Expr]) -> dict[int, tuple[int, int]]:
+    """Return inverse roots of which odd powers from the third on are read, and their powers.
+
+    Each with the number of the inverse root and the exponent; numbers in front are left out.
+    """
+    found: dict[int, tuple[int, int]] = {}
+    used: list[tuple[Expr, Expr | None]] = [(root, None) for root in roots]
+    for node in walk(roots):
+        used += [(a, node) for a in node.args]
+        inside = [found[a.id] for a in node.args if a.id in found]
+        if _is_inverse(node) and node.args[1].op == "call" and node.args[1].payload == "sqrt":
+            found[node.id] = (node.id, 1)
+        elif _is_power(node, inside):
+            exponent = sum(n for _, n in inside)
+            found[node.id] = (inside[0][0], exponent * (node.payload or 1))
+    read = {found[x.id] for x, by in used if x.id in found and (by is None or by.id not in found)}
+    bases = {base for base, n in read if n == 1 or n % 2 == 0}
+    return {key: pair for key, pair in found.items() if pair[0] not in bases}
+
+
+def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
+    """Whether a node is a product of a number and powers ``inside`` of one inverse root."""
+    whole = len(inside) == len(node.args) or node.args[0].op == "const"
+    return node.op in ("neg", "pow", "mul") and whole and len({base for base, _ in inside}) == 1
+
+
+def _is_inverse(node: Expr) -> bool:
+    return node.op == "div" and node.args[0] is node.space.one
 
 
 @dataclass
 class _Gathering:
+    powers: dict[int, tuple[int, int]]
     sums: dict[int, Sum] = field(default_factory=dict)
     spelled: dict[int, Expr] = field(default_factory=dict)
+    numerators: dict[int, Number] = field(default_factory=dict)
 
     def whole(self, root: Expr) -> Expr:
         """Return one expression anew."""
         for node in walk([root], stop=lambda n: n.id in self.sums):
             if node.id not in self.sums:
                 self.sums[node.id] = self._sum(node)
-                self.spelled[node.id] = _spelled(self.sums[node.id], node)
-        return self.spelled[root.id]
+        return self._spell(root)
+
+    def _spell(self, node: Expr) -> Expr:
+        """Return a node as it is read by one that is no combination; the first reader sets numerators."""
+        if node.id not in self.spelled:
+            total = [self._inverse(c, atom) for c, atom in self.sums[node.id].values()]
+            self.spelled[node.id] = _spelled(total, node.space)
+        return self.spelled[node.id]
+
+    def _inverse(self, c: Number, atom: Expr) -> tuple[Number, Expr]:
+        """Return c 1/y as d (e/y), where e is the size of c for the first that is read."""
+        if not _is_inverse(atom):
+            return c, atom
+        numerator = self.numerators.setdefault(atom.id, _size(c))
+        return c / numerator, atom.space.const(numerator) / atom.args[1]
 
     def _sum(self, node: Expr) -> Sum:
         space, one = node.space, Number.rational(1)
@@ -78,6 +126,8 @@ class _Gathering:
             ).items():
                 total[key] = (total[key][0] + c if key in total else c, atom)
             return {key: pair for key, pair in total.items() if not pair[0].is_zero}
+        if node.op in ("mul", "pow") and node.id in self.powers and node.args[0].op != "const":
+            return self._power(node)
         if node.op == "mul":
             for a, b in (node.args, node.args[::-1]):
                 if a.op == "const" and a.payload.is_rational:
@@ -91,16 +141,29 @@ class _Gathering:
             for _ in range(node.payload):
                 power = power * c
             return {atom.id: (power, atom)}
-        atom = space._make(node.op, tuple(self.spelled[a.id] for a in node.args), node.payload)
+        atom = space._make(node.op, tuple(map(self._spell, node.args)), node.payload)
         return {atom.id: (one, atom)}
+
+    def _power(self, node: Expr) -> Sum:
+        """Return a power of an inverse root as the inverse of a root times what is under it."""
+        base, exponent = self.powers[node.id]
+        ((_, inverse),) = self.sums[base].values()
+        c = Number.rational(1)
+        for arg in node.args * (node.payload or 1):
+            ((factor, _),) = self.sums[arg.id].values()
+            c = c * factor
+        root = inverse.args[1]
+        under = root.space.pow(root.args[0], exponent // 2)
+        atom = root.space.one / (under * root if exponent % 2 else under)
+        return {atom.id: (c, atom)}
 
     def _content(self, node: Expr) -> tuple[Number, Expr]:
         """Return c and x with the node equal to c x, where it is a multiple of one expression."""
         total = self.sums[node.id]
         if len(total) != 1:  # sums are often read more than once
-            return Number.rational(1), self.spelled[node.id]
+            return Number.rational(1), self._spell(node)
         ((c, atom),) = total.values()
-        return c, atom
+        return self._inverse(c, atom)
 
 
 def _scaled(total: Sum, factor: Number) -> Sum:
@@ -111,13 +174,12 @@ def _size(c: Number) -> Number:
     return -c if c.fraction() < 0 else c
 
 
-def _spelled(total: Sum, node: Expr) -> Expr:
+def _spelled(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
     """Return a combination as an expression: terms with coefficients c or -c are added first."""
-    space = node.space
     groups: dict[object, list[tuple[bool, Expr]]] = {}
     sizes: dict[object, Number] = {}
     key: object
-    for c, atom in total.values():
+    for c, atom in total:
         key = "constant" if atom is space.one else _size(c).key
         sizes.setdefault(key, _size(c))
         groups.setdefault(key, []).append((c.fraction() < 0, atom))

@@ -3,18 +3,20 @@
 Exact. It is A + ad_x (B + ad_x C) with A = sum f_k v_k, B = sum f_k b_k v_k and C = sum f_k c_k v_k, however
 many terms there are; one by one each takes two brackets. The momentum of (3.19) is such a sum: functions of
 one ad applied to the momentum before and to the force. A group that knows them in closed form has
-``series_sum``.
+``series_sum``. Where the v_k are sums themselves, A, B and C are sums of what those are sums of: they do not
+wait for them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 from codegen.ir.domain import Domain
 from codegen.ir.interpret import coefficient
-from codegen.ir.program import Assign, Coefficient, Factor, Program, Var
+from codegen.ir.number import Number
+from codegen.ir.program import ONE, Assign, Coefficient, Factor, Program, Var
 from codegen.passes.functions import ratio
 from codegen.passes.rewrite import uses
 from codegen.setting import Setting
@@ -84,8 +86,44 @@ class SeriesSums:
             scale = ratio(self.definitions, made.args[0], x)
             assert scale is not None
             word: tuple[Factor, ...] = tuple(replace(f, scale=f.scale * scale) for f in made.operation.word)
-            terms.append((coefficient(domain, c), word, env[made.args[1]]))
+            terms.append((signed(domain, c), word, env[made.args[1]]))
+
+        def total(numbers: tuple[int, ...]) -> tuple[Any, ...]:
+            flat = self._flat([(group[k][0], group[k][1].args[1]) for k in numbers])
+            return combined(domain, [(c, env[v]) for c, v in flat])
+
         nested: tuple[Any, ...] = self.scene.group.series_sum(
-            domain, terms, operation.name == "seriest", env[x]
+            domain, terms, operation.name == "seriest", env[x], total
         )
         return nested
+
+    def _flat(self, terms: list[tuple[Coefficient, Var]]) -> list[tuple[Coefficient, Var]]:
+        """Return a sum in terms of what its terms are sums of, where that is no longer."""
+        total: dict[tuple[Var, int], Number] = {}
+        for c, v in terms:
+            made = self.definitions.get(v)
+            inner = [(ONE, v)]
+            if made is not None and made.operation.name == "lin":
+                inner = list(zip(made.operation.coefficients, made.args, strict=True))
+            for d, u in inner:
+                key, more = (u, c.power + d.power), c.value * d.value
+                total[key] = total[key] + more if key in total else more
+        flat = [(Coefficient(x, power), u) for (u, power), x in total.items() if not x.is_zero]
+        return flat if 0 < len(flat) <= len(terms) else terms
+
+
+def signed(domain: Domain, c: Coefficient) -> Any:
+    """Return a coefficient with its sign in front, so that products with it and its negative are shared."""
+    if c.value.is_rational and c.value.fraction() < 0:
+        return -coefficient(domain, Coefficient(-c.value, c.power))
+    return coefficient(domain, c)
+
+
+def combined(domain: Domain, terms: Sequence[tuple[Coefficient, tuple[Any, ...]]]) -> tuple[Any, ...]:
+    """Return a sum of multiples, those that need no product first."""
+    total: tuple[Any, ...] | None = None
+    for c, v in sorted(terms, key=lambda term: not term[0].is_one):
+        own = v if c.is_one else tuple(signed(domain, c) * a for a in v)
+        total = own if total is None else tuple(a + b for a, b in zip(total, own, strict=True))
+    assert total is not None
+    return total

@@ -52,3 +52,15 @@ def test_the_equations_of_vcg_take_few_products():
     (loop,) = compile_method("dipole", "vcg:midpoint").kernel.loops
     work = sum(n.op in ("mul", "pow") for n in walk([let.value for let in loop.body]))
     assert work < 85
+
+
+def test_equations_do_not_wait_for_sums_that_follow_them():
+    """The momentum at the end of the step is a sum of the same two values as that of the stage."""
+    (loop,) = compile_method("dipole", "vcg:midpoint").kernel.loops
+    values = {let.name: let.value for let in loop.body}
+    needed = {n.payload for n in walk(loop.images) if n.op == "sym"}
+    for name in reversed(values):
+        if name in needed:
+            needed |= {n.payload for n in walk([values[name]]) if n.op == "sym"}
+    assert {name for name in values if name.startswith("s_mu")}.isdisjoint(needed)
+    assert "mu0" in needed
