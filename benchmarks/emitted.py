@@ -318,9 +318,8 @@ HEAD = """
 `emitted.py` times emitted C beside the C of `handwritten/`: the same method, scene, step, compiler and flags,
 CPU time of fresh processes run in pairs. The hand-written steps are portable C, as fast as we could make
 them: chains shortened by hand, functions of an angle by polynomials of least error, solutions of sixteen
-steps continued, Jacobians to first order. They do without the checks of emitted code (finite state and step,
-at the end of each step), and change variables as a person would: they keep body momenta from step to step,
-where emitted code takes and returns the scene's own state.
+steps continued, Jacobians to first order, body momenta kept from step to step. They do without the checks of
+emitted code: finite state and step, at the end of each step.
 
 - *ns a step*, *by hand*: medians of CPU time a step of the emitted and of the hand-written code.
 - *ratio*: the median over the pairs of emitted/hand-written, *interval* the 95 % interval of that median;
