@@ -351,10 +351,11 @@ def default_prefix(scene: Setting, method: Method) -> str:
     family = method.family + ("" if method.cutoff is None else str(method.cutoff))
     tableau = method.tableau.name
     parts = [scene.name, *([] if tableau.startswith(method.family) else [family]), tableau]
-    return prefix_of(re.sub(r"\W", "_", "_".join(parts), flags=re.ASCII))
+    name = re.sub(r"\W", "_", "_".join(parts), flags=re.ASCII)
+    return prefix_of(name, "the scene's file gave it: rename that, or choose another with --prefix NAME")
 
 
-def prefix_of(name: str) -> str:
+def prefix_of(name: str, hint: str = "") -> str:
     """Return a prefix that ends in one underscore; an InputError for what C or Python cannot take.
 
     The prefix names the files too, so it may not be a keyword, under which Python imports nothing, nor a
@@ -362,7 +363,10 @@ def prefix_of(name: str) -> str:
     """
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
         raise InputError(
-            f"the prefix {name!r}", where="--prefix", expected="a letter, then letters, digits and _"
+            f"the prefix {name!r}",
+            where="--prefix",
+            expected="a letter, then letters, digits and _",
+            hint=hint,
         )
     module = name.rstrip("_")
     if keyword.iskeyword(module) or module in HEADERS:

@@ -14,6 +14,7 @@ from codegen.groups.actions import LeftMultiplication
 from codegen.ir.differentiate import gradient
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, walk
+from codegen.ir.number import is_normal
 from codegen.ir.program import Kind
 from codegen.reading import Reader
 from codegen.setting import TIME, Setting, StateField, check_setting, orbit_of
@@ -35,6 +36,12 @@ def param(name: str, default: Any) -> Any:
         value = None
     if value is None or not value.is_Rational:
         raise SceneError(f"the default {default}", where=f"parameter {name}", expected="a rational number")
+    if not is_normal(Fraction(int(value.p), int(value.q))):
+        raise SceneError(
+            f"the default {sympy.N(value, 3)}",
+            where=f"parameter {name}",
+            expected="0, or between 1e-307 and 1e308 in size",
+        )
     return Parameter(name, int(value.p), int(value.q))
 
 

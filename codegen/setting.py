@@ -105,7 +105,7 @@ class Setting:
         ``alpha`` keeps alpha an input, ``alpha=1/2`` folds it at 1/2; the scene is then checked anew.
         """
         values = dict(self.parameters)
-        runtime, fixed = set(self.runtime), dict(self.fixed)
+        runtime, fixed, folded = set(self.runtime), dict(self.fixed), set[str]()
         for spelled in names:
             name, given, text = spelled.partition("=")
             if name not in self.parameters:
@@ -114,14 +114,17 @@ class Setting:
             if not given:
                 runtime.add(name)
                 continue
+            if name in folded:
+                raise SceneError(f"two values of the parameter {name}", where=self.name, expected="one")
             try:
-                values[name] = Number.rational(*Fraction(text).as_integer_ratio())
-            except (ValueError, ZeroDivisionError):
+                values[name] = Number.read(text)
+            except ValueError as problem:
                 raise SceneError(
-                    f"the value {text!r} of the parameter {name}",
+                    f"the value {text[:40]!r} of the parameter {name}",
                     where=self.name,
-                    expected="a rational number, as 1/2 or 0.25",
+                    expected=str(problem),
                 ) from None
+            folded.add(name)
             fixed[name] = values[name].text()
         changed = replace(
             self, parameters=values, runtime=tuple(sorted(runtime)), fixed=tuple(sorted(fixed.items()))

@@ -101,7 +101,10 @@ class Program(click.Group):
                 expected=f"one of {', '.join(names)}",
                 hint=f"type: orderconds {close[0] if close else '--help'}",
             )
-        return super().resolve_command(ctx, args)
+        found = super().resolve_command(ctx, args)
+        if found[1] is not None:
+            _refuse_repetition(found[1], click.Context(found[1], parent=ctx, info_name=name), args[1:])
+        return found
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """List all commands with one line each; one that cannot be loaded says so."""
@@ -159,6 +162,20 @@ def _offered() -> Iterable[EntryPoint]:
     from importlib import metadata
 
     return metadata.entry_points(group=COMMAND_GROUP)
+
+
+def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[str]) -> None:
+    """Raise a UsageError for an option of one value that is given twice, of which click takes the last."""
+    try:
+        _, _, met = command.make_parser(ctx).parse_args(list(args))
+    except click.UsageError:
+        return  # click meets it again, and says so
+    given: set[click.Parameter] = set()
+    for option in met:
+        if isinstance(option, click.Option) and not (option.multiple or option.is_flag or option.count):
+            if option in given:
+                raise click.UsageError(f"{option.opts[0]} is given twice; it takes one value", ctx)
+            given.add(option)
 
 
 def _usage_message(error: click.UsageError) -> str:

@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 @click.command("converge", cls=Variadic)
 @click.argument("scene", required=False)
 @click.option("--method", "-m", "methods", multiple=True, required=True, help="TABLEAU or FAMILY:TABLEAU.")
-@click.option("--target", default="c", show_default=True, help="c, python or interpreter.")
+@click.option("--target", help="c (the default), python or interpreter.")
 @click.option("--steps", multiple=True, help="Prescribe the rungs, as 20,40,80,160.")
-@click.option("--digits", default=16, type=click.IntRange(16, 60), help="Precision of the interpreter.")
+@click.option("--digits", type=click.IntRange(16, 60), help="Precision of the interpreter.")
 @click.option(
     "--protocol",
     type=click.Choice(["strict"]),
@@ -30,9 +30,9 @@ if TYPE_CHECKING:
 def command(
     scene: str | None,
     methods: tuple[str, ...],
-    target: str,
+    target: str | None,
     steps: tuple[str, ...],
-    digits: int,
+    digits: int | None,
     protocol: str | None,
     stated: int | None,
     as_json: bool,
@@ -43,10 +43,14 @@ def command(
     """
     if (scene is None) != (protocol is not None):
         raise click.UsageError("name one SCENE, or give --protocol strict, which brings its own")
+    if scene is None and (steps or target is not None or digits is not None):
+        raise click.UsageError(
+            "--protocol strict has its own steps, in 50 digits; leave --target, --steps, --digits out"
+        )
     found = (
         _by_protocol(methods, stated, as_json)
         if scene is None
-        else _on_scene(scene, methods, target, steps, digits, stated, as_json)
+        else _on_scene(scene, methods, target or "c", steps, digits or 16, stated, as_json)
     )
     if as_json:
         print_json([result.as_json() for result in found])

@@ -8,6 +8,8 @@ prove equality: their difference is 0 and their quotient 1, and a factor 1 widen
 
 from __future__ import annotations
 
+import re
+import sys
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -15,6 +17,18 @@ from typing import Any
 
 from orderconds.ring import QQ
 from orderconds.ring.protocol import Element, Ring
+
+_TYPED = re.compile(r"[+-]?(\d{1,99}/\d{1,99}|(\d{1,99}\.?\d{0,99}|\.\d{1,99})([eE][+-]?\d{1,3})?)", re.ASCII)
+_SMALLEST, _LARGEST = Fraction(sys.float_info.min), Fraction(sys.float_info.max)
+
+
+def is_normal(value: Fraction) -> bool:
+    """Whether a double holds this number to its full precision: neither too large for it nor denormal.
+
+    >>> [is_normal(Fraction(10) ** n) for n in (-308, -307, 308, 309)]
+    [False, True, True, False]
+    """
+    return not value or _SMALLEST <= abs(value) <= _LARGEST
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +57,24 @@ class Number:
         True
         """
         return cls(QQ, QQ.rational(p, q))
+
+    @classmethod
+    def read(cls, text: str) -> Number:
+        """Return the rational number that a person typed: ``1/2``, ``0.25``, ``-3e-2``.
+
+        A ValueError that says what was expected, for anything else and for what no double holds; an exponent
+        is looked at before it is taken at its word.
+
+        >>> Number.read("-3e-2") == Number.rational(-3, 100)
+        True
+        """
+        try:
+            value = Fraction(text) if _TYPED.fullmatch(text) else None
+        except ZeroDivisionError:
+            value = None
+        if value is None or not is_normal(value):
+            raise ValueError("a rational number, as 1/2 or 0.25, 0 or between 1e-307 and 1e308 in size")
+        return cls.rational(*value.as_integer_ratio())
 
     @cached_property
     def is_zero(self) -> bool:

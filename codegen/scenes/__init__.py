@@ -8,6 +8,7 @@ import sys
 import traceback
 from contextlib import redirect_stdout
 from dataclasses import replace
+from difflib import get_close_matches
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -57,8 +58,11 @@ def _load(name: str) -> Setting:
         return replace(scene, name=name)
     path = Path(name)
     if path.suffix != ".py":
-        hint = "or the path of a Python file that defines `scene`"
-        raise UnknownName(f"unknown scene {name!r}", expected=f"one of {', '.join(GALLERY)}", hint=hint)
+        raise UnknownName(
+            f"unknown scene {name!r}",
+            expected=f"one of {', '.join(GALLERY)}, or the path of a Python file that defines `scene`",
+            hint=f"did you mean {close[0]}?" if (close := get_close_matches(name, GALLERY, n=1)) else "",
+        )
     if not path.is_file():
         raise SceneError("no such file", where=name, expected="a Python file that defines `scene`")
     try:

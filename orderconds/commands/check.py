@@ -169,6 +169,8 @@ def _files(arguments: Sequence[str]) -> Iterator[str]:
     from orderconds.tableau.file import meant_as_tableau
 
     for argument in arguments:
+        if not argument.strip():
+            raise TableauError(f"{argument!r} names nothing", expected="a file, a folder or a tableau's name")
         if not os.path.isdir(argument):
             yield argument
             continue

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import click
 
+from orderconds.commands import screen
 from orderconds.commands.place import FILE, put
 from orderconds.exchange import FORMATS, export, format_of, left_out, name_of, read_data
 from orderconds.tableau import find
@@ -22,7 +23,10 @@ NAMES = click.Choice(list(FORMATS))
 @click.option("--to", type=NAMES, help="The format to write; by the suffix of --output, else toml.")
 @click.option("--name", help="A name for a tableau whose file gives none.")
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write here instead of stdout.")
-def command(source: str, of: str | None, to: str | None, name: str | None, output: str | None) -> int:
+@click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
+def command(
+    source: str, of: str | None, to: str | None, name: str | None, output: str | None, as_json: bool
+) -> int:
     """Convert a tableau: a file, or one of the library by name. Nothing that is read is run as code, and
     what is written reads back as the same method.
     """
@@ -35,12 +39,20 @@ def command(source: str, of: str | None, to: str | None, name: str | None, outpu
     if name is not None:
         data["name"] = name
     from_data(data, str(path))  # the grammar, shapes and numbers are sound
-    for key in left_out(data, to):
-        click.echo(f"note: its {key} is left out, which json and toml keep", err=True)
+    lost = list(left_out(data, to))
+    if not as_json:
+        for key in lost:
+            click.echo(f"note: its {key} is left out, which json and toml keep", err=True)
+    elif to == "numpy" and output is None:
+        raise click.UsageError("an archive is no text for --json to hold; give -o FILE")
     converted = content if of == to == "toml" and name is None else export(data, to)
-    if output is None:
+    if output is not None:
+        put(output, converted)
+    if as_json:
+        text = None if to == "numpy" else converted.decode()
+        record = {"name": data["name"], "from": of, "to": to, "left_out": lost, "path": output}
+        screen.print_json({**record, "tableau": text})
+    elif output is None:
         sys.stdout.buffer.write(converted)
         sys.stdout.buffer.flush()
-        return 0
-    put(output, converted)
     return 0

@@ -19,7 +19,7 @@ FORMATS = ("text", "latex", "sympy", "json")
 @click.option("--order", "-p", type=click.IntRange(1, 20), required=True, help="Highest order.")
 @click.option("--stages", "-s", type=click.IntRange(1, 12), help="Write the sums out for this many stages.")
 @click.option("--explicit", is_flag=True, help="With --stages: a_ij = 0 for j >= i.")
-@click.option("--format", "form", type=click.Choice(FORMATS), default="text", show_default=True)
+@click.option("--format", "form", type=click.Choice(FORMATS), help="text where left out.")
 @click.option(
     "--all",
     "every",
@@ -33,7 +33,7 @@ def command(
     order: int,
     stages: int | None,
     explicit: bool,
-    form: str,
+    form: str | None,
     every: bool,
     explain: bool,
     as_json: bool,
@@ -43,6 +43,8 @@ def command(
 
     if explicit and stages is None:
         raise click.UsageError("--explicit says how the tableau of --stages S is filled; give --stages too")
+    if as_json and form not in (None, "json"):
+        raise click.UsageError(f"--json and --format {form} ask for two outputs; leave one out")
     with screen.working(f"deriving {family} to order {order}"):
         derivation = derive(family, order, every=every)
         if stages is not None:

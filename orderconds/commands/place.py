@@ -28,7 +28,7 @@ class Place(click.ParamType[str]):
         return value
 
 
-FOLDER = Place("folder", "for the present one type .")
+FOLDER = Place("folder", "type '.' for the present one")
 FILE = Place("file", "leave the option out for stdout")
 
 

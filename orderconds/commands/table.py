@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,13 +23,16 @@ COLUMNS = ("tableau", "format", "orders claimed", "stages", "exponentials", "err
 @click.command(name="table", short_help="The library as a Markdown table; keep it current in a file.")
 @click.option("--write", metavar="FILE", help="Put the table between the marks in FILE.")
 @click.option("--check", "against", metavar="FILE", help="Fail unless FILE has the table as it is.")
-def command(write: str | None, against: str | None) -> int:
+@click.option("--json", "as_json", is_flag=True, help="The rows on stdout as JSON, nothing else.")
+def command(write: str | None, against: str | None, as_json: bool) -> int:
     """Print a line for each tableau of the library: its orders, and in the family of the highest order its
     exponentials, the norm of the leading error and the certificate, computed.
 
     Exits with 1 where --check finds another table.
     """
-    table = "\n".join([BEGIN, *markdown(), END])
+    rows = list(computed())
+    table = "\n".join([BEGIN, *markdown(rows), END])
+    status = 0
     for path in filter(None, (write, against)):
         text = _text(path)
         start, end = text.find(BEGIN), text.find(END)
@@ -40,25 +43,38 @@ def command(write: str | None, against: str | None) -> int:
             put(path, new.encode())
         elif new != text:
             click.echo(f"{path}: another table; type: orderconds table --write {path}", err=True)
-            return 1
-    if write is None and against is None:
+            status = 1
+    if as_json:
+        keys = [column.replace(" ", "_") for column in COLUMNS]
+        screen.print_json([dict(zip(keys, cells, strict=True)) for cells in rows])
+    elif write is None and against is None:
         click.echo("\n".join(table.splitlines()[1:-1]))
-    return 0
+    return status
 
 
-def markdown() -> Iterator[str]:
-    """Yield the lines of the table.
+def computed() -> Iterator[tuple[str, ...]]:
+    """Yield the cells of every tableau of the library.
 
-    >>> next(markdown())
-    '| tableau | format | orders claimed | stages | exponentials | error norm | certificate |'
+    >>> next(computed())[:2]
+    ('alexander2', 'rk')
     """
     from orderconds.tableau import available
 
-    yield f"| {' | '.join(COLUMNS)} |"
-    yield "|" + "---|" * len(COLUMNS)
     for name in available():
         with screen.working(f"checking {name}"):
-            yield f"| {' | '.join(row(name))} |"
+            yield row(name)
+
+
+def markdown(rows: Sequence[Sequence[str]]) -> Iterator[str]:
+    """Yield the lines of the table.
+
+    >>> next(markdown([]))
+    '| tableau | format | orders claimed | stages | exponentials | error norm | certificate |'
+    """
+    yield f"| {' | '.join(COLUMNS)} |"
+    yield "|" + "---|" * len(COLUMNS)
+    for cells in rows:
+        yield f"| {' | '.join(cells)} |"
 
 
 def row(name: str) -> tuple[str, ...]:

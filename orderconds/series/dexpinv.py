@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from functools import lru_cache
+from functools import cache, lru_cache
 from itertools import pairwise
 from math import comb, factorial
 
@@ -134,7 +134,7 @@ def dexpinv_terms(longest: int) -> tuple[tuple[Fraction, int, int], ...]:
     )
 
 
-@lru_cache(maxsize=64)
+@cache  # each number is found from all before it, so that none of them may be forgotten
 def bernoulli(k: int) -> Fraction:
     """Return the Bernoulli number B_k, with B_1 = -1/2.
 
@@ -143,6 +143,8 @@ def bernoulli(k: int) -> Fraction:
     """
     if k == 0:
         return Fraction(1)
+    if k > 1 and k % 2:
+        return Fraction(0)
     return -sum((comb(k + 1, n) * bernoulli(n) for n in range(k)), Fraction(0)) / (k + 1)
 
 

@@ -195,8 +195,14 @@ class _Evaluation:
         if name not in self.numbers:
             defined = ", ".join(self.numbers) or "none"
             raise self.error(f"the name {name!r}", f"a number, or a name defined under numbers ({defined})")
-        if name in self.open or len(self.open) >= MAX_DEPTH:
+        if name in self.open:
             raise self.error(f"numbers defined in a circle: {' -> '.join([*self.open, name])}", "no circle")
+        if len(self.open) >= MAX_DEPTH:
+            first, second = self.open[:2]
+            raise self.error(
+                f"numbers defined one by another {MAX_DEPTH} deep: {first} -> {second} -> ... -> {name}",
+                "a shorter chain",
+            )
         definition = self.numbers[name]
         self.open.append(name)
         try:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from codecs import BOM_UTF8
 from collections.abc import Mapping
 from fractions import Fraction
 from pathlib import Path
@@ -93,7 +94,7 @@ def bytes_of(path: str | Path) -> bytes:
         raise TableauError(
             "a file too large for a tableau", where=str(path), expected=f"at most {MAX_BYTES} bytes"
         )
-    return read
+    return read.removeprefix(BOM_UTF8)  # some editors and spreadsheets put one before the text
 
 
 def meant_as_tableau(path: str | Path) -> bool:

@@ -189,6 +189,14 @@ def test_families_that_serve_a_scene():
     assert not {"vcg", "rk"} & set(families_for(load_scene("free_rigid_body")))
 
 
+def test_a_file_whose_name_makes_no_prefix_is_told_what_else_to_type(tmp_path):
+    path = tmp_path / "2d.py"
+    path.write_text("from codegen.scenes.free_rigid_body import scene\n")
+    with pytest.raises(InputError, match=r"the prefix '2d_cg3'; expected a letter, .* --prefix NAME"):
+        emit(str(path), "cg:cg3")
+    assert emit(str(path), "cg:cg3", prefix="flat").files
+
+
 def test_prefixes_name_scene_and_method():
     made = compiled("free_rigid_body", "rkmk(2):rk4")
     assert default_prefix(made.scene, made.method) == "free_rigid_body_rkmk2_rk4_"

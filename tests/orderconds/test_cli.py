@@ -93,6 +93,46 @@ def test_every_built_in_command_is_a_click_command_named_in_the_table() -> None:
         assert command.name == name
 
 
+def commands() -> dict[str, click.Command]:
+    """Return every command of this project, those of ``codegen`` as pyproject.toml offers them."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    places = {name: f"{module}:command" for name, (module, _) in BUILT_IN.items()}
+    places |= project["entry-points"]["orderconds.commands"]
+    return {n: getattr(import_module(p.partition(":")[0]), p.partition(":")[2]) for n, p in places.items()}
+
+
+@pytest.mark.parametrize("name", commands())
+def test_every_command_takes_json(name: str) -> None:
+    options = {word for option in commands()[name].params for word in option.opts}
+    assert "--json" in options
+
+
+@pytest.mark.parametrize(
+    ("args", "said"),
+    [
+        (["construct", "gauss", "-s", "2", "--stages", "3"], "construct: --stages is given twice"),
+        (["check", "rk4", "-f", "rk", "--order=3", "-p4"], "check: --order is given twice"),
+    ],
+)
+def test_an_option_of_one_value_is_not_given_twice(args: list[str], said: str) -> None:
+    result = run(*args)
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert result.stderr.startswith(f"orderconds: {said}; it takes one value")
+
+
+def test_flags_and_options_of_several_values_may_be_repeated() -> None:
+    assert run("construct", "gauss", "-s", "1", "--json", "--json").exit_code == 0
+    words = ["--fix", "a21=1/2", "--fix", "b2=1"]
+    assert run("solve", "rk", "-s", "2", "-p", "2", "--explicit", *words).exit_code == 0
+
+
+def test_an_empty_place_to_write_to_is_told_what_to_type_for_the_present_folder() -> None:
+    from orderconds.commands.place import FOLDER
+
+    with pytest.raises(click.BadParameter, match=r"type '\.' for the present one"):
+        FOLDER.convert("", None, None)
+
+
 @pytest.mark.usefixtures("offered")
 class TestCommandsOfOtherPackages:
     def test_they_are_listed_after_the_built_in_ones(self) -> None:

@@ -74,3 +74,26 @@ def test_numbers_of_two_fields_do_not_meet():
     tableau = Tableau.loads(text)
     with pytest.raises(TypeError, match="two fields"):
         field()[0] + Number(tableau.ring, tableau.method.b[0])
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("1/2", Fraction(1, 2)),
+        ("+.5", Fraction(1, 2)),
+        ("3.", Fraction(3)),
+        ("-3e-2", Fraction(-3, 100)),
+        ("1E308", Fraction(10**308)),
+        ("0e-999", Fraction(0)),
+    ],
+)
+def test_typed_numbers_are_read_exactly(text, value):
+    assert Number.read(text).fraction() == value
+
+
+@pytest.mark.parametrize(
+    "text", ["", ".", "1/0", "1 2", "1_0", "\u0661", "1e400", "1e-320", "1e99999999", "inf"]
+)
+def test_what_is_no_number_or_none_that_a_double_holds_is_refused(text):
+    with pytest.raises(ValueError, match="a rational number"):
+        Number.read(text)

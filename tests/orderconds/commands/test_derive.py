@@ -135,6 +135,8 @@ def test_written_out_conditions_have_the_values_of_the_engine(family: str, expli
         (["cf", "--order", "2", "--stages", "2"], "--stages"),
         (["rk(1)", "--order", "2"], "rk"),
         (["rk", "--order", "2", "--explicit"], "--stages"),
+        (["rk", "--order", "2", "--json", "--format", "latex"], "--json and --format latex"),
+        (["rk", "--order", "2", "-p", "3"], "--order is given twice"),
     ],
 )
 def test_bad_usage_exits_2_with_one_message(args: list[str], said: str) -> None:

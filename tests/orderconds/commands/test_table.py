@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -53,3 +54,22 @@ def test_a_file_without_marks_is_bad_usage(tmp_path: Path) -> None:
     result = run("--write", str(tmp_path / "x.md"))
     assert result.exit_code == 2
     assert "no place for the table" in result.output
+
+
+@pytest.mark.usefixtures("three")
+def test_json_has_a_record_a_tableau_also_beside_a_file(tmp_path: Path) -> None:
+    rows = json.loads(run("--json").stdout)
+    assert [row["tableau"] for row in rows] == ["cf4", "rk4"]
+    assert rows[0] == {
+        "tableau": "cf4",
+        "format": "cf",
+        "orders_claimed": "cf 4, rk 4, vcf 4",
+        "stages": "4",
+        "exponentials": "5",
+        "error_norm": "5.68e-02",
+        "certificate": "exact",
+    }
+    file = tmp_path / "README.md"
+    file.write_text(f"{table.BEGIN}\n{table.END}\n", encoding="utf-8")
+    result = run("--check", str(file), "--json")
+    assert (result.exit_code, json.loads(result.stdout)) == (1, rows)

@@ -1,6 +1,6 @@
 from fractions import Fraction
 from itertools import product
-from math import factorial
+from math import factorial, prod
 
 import pytest
 
@@ -316,3 +316,11 @@ def test_the_flow_of_the_modified_equation_is_the_step_on_a_concrete_problem(com
         plane.y0 = tuple(a + b for a, b in zip(start, moved, strict=True))
     final = [[c.compose(time.one) if c.degrees() else c for c in x.coefficients] for x in plane.y0]
     assert final == [list(x.coefficients) for x in step]
+
+
+def test_bernoulli_numbers_have_the_denominators_of_von_staudt_and_clausen():
+    """The product of the primes p with p - 1 | n; each of 200 numbers is found from those before it, once."""
+    primes = [p for p in range(2, 202) if all(p % q for q in range(2, p))]
+    for n in range(2, 201):
+        divisors = prod(p for p in primes if n % (p - 1) == 0)
+        assert bernoulli(n).denominator == (1 if n % 2 else divisors)

@@ -193,6 +193,11 @@ MALFORMED = {
     "tower of powers": (HEAD + 'A = [[]]\nb = ["9^9^9^9"]\n', "b[1]: a tower of powers", "one exponent"),
     "unknown number": (HEAD + 'A = [[]]\nb = ["g"]\nnumbers = { h = "1" }\n', "the name 'g'", "numbers (h)"),
     "numbers in a circle": (EULER + 'numbers = { g = "h", h = "1/g" }\n', "g -> h -> g", "no circle"),
+    "numbers in a long chain": (
+        EULER + "[numbers]\n" + "".join(f'g{i} = "g{i + 1}"\n' for i in range(60)) + 'g60 = "1"\n',
+        "numbers defined one by another 40 deep: g0 -> g1 -> ... -> g40",
+        "a shorter chain",
+    ),
     "number called sqrt": (EULER + 'numbers = { sqrt = "1" }\n', "the name 'sqrt'", "taken"),
     "number with a dash": (EULER + 'numbers = { a-b = "1" }\n', "the name 'a-b'", "letter"),
     "unused number that is bad": (
@@ -285,6 +290,12 @@ def test_files_that_cannot_be_read_are_named(tmp_path: Path) -> None:
         with pytest.raises(TableauError) as caught:
             Tableau.load(path)
         assert str(path) in str(caught.value)
+
+
+def test_a_byte_order_mark_before_the_text_is_no_part_of_it(tmp_path: Path) -> None:
+    marked = tmp_path / "marked.toml"
+    marked.write_bytes(b"\xef\xbb\xbf" + EULER.encode())
+    assert Tableau.load(marked).method == Tableau.loads(EULER).method
 
 
 def test_a_file_that_tells_no_size_is_not_read_to_its_end() -> None:
