@@ -425,11 +425,13 @@ def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
     An independent set, or every tree where a set costs more.
     """
     trees = _in_turn(family, n)
-    first = tuple(islice(trees, EXHAUSTIVE + 1))
-    if len(first) <= EXHAUSTIVE:
-        yield first, True
-        return
-    trees, size = chain(first, trees), EXHAUSTIVE // 10
+    if not hasattr(family, "decisive_count") or family.decisive_count(n) <= EXHAUSTIVE:
+        first = tuple(islice(trees, EXHAUSTIVE + 1))
+        if len(first) <= EXHAUSTIVE:
+            yield first, True
+            return
+        trees = chain(first, trees)
+    size = EXHAUSTIVE // 10
     while batch := tuple(islice(trees, size)):
         yield batch, False
         size *= 2

@@ -45,7 +45,7 @@ class OrderCondition:
         """The left-hand side, with readable index names."""
         return named(self.source if isinstance(self.source, Formula) else self.source())
 
-    @property
+    @cached_property
     def expression(self) -> str:
         """The left-hand side in ASCII."""
         return self.formula.text()

@@ -50,8 +50,8 @@ class Family(Protocol):
 
     Optional: ``search_limit``, the order up to which ``check`` searches where nothing is claimed;
     ``decisive_conditions(order)``, what it evaluates when an independent set costs more than all trees, and
-    ``decisive_in_turn(order)``, the trees of the same one after the other, where there are very many, and
-    ``condition(tree)``;
+    ``decisive_in_turn(order)``, the trees of the same one after the other, where there are very many,
+    ``decisive_count(order)``, their number, and ``condition(tree)``;
     ``require(method, ring)``, which raises InputError for a method that is no member of the family;
     ``trees``, the kind of trees its conditions belong to, by which they are drawn and named
     (``orderconds.explain.kinds``).

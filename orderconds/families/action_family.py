@@ -13,8 +13,10 @@ from orderconds.conditions import OrderCondition
 from orderconds.families.action_formula import ActionFormula, multiplier
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series import action_exact
+from orderconds.series.action_counts import class_count
+from orderconds.series.action_enumeration import velocities
 from orderconds.series.action_switching import classes_in_turn, representatives
-from orderconds.series.action_trees import Velocity, hamiltonian, velocities
+from orderconds.series.action_trees import Velocity, hamiltonian
 
 if TYPE_CHECKING:
     import numpy as np
@@ -89,6 +91,10 @@ class ActionFamily(ABC):
     def decisive_in_turn(self, order: int) -> Iterator[Velocity]:
         """Yield the trees of the decisive conditions."""
         return (of_class[0] for of_class in classes_in_turn(order))
+
+    def decisive_count(self, order: int) -> int:
+        """Return how many they are, at no cost."""
+        return class_count(order)
 
     def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
         """Return the left-hand sides, as printed, for a method with coefficients in ``ring``."""

@@ -14,7 +14,19 @@ from fractions import Fraction
 from itertools import pairwise
 from math import factorial, prod
 
-from orderconds.formula import Formula, Power, Total, coefficient, fresh, index_sum, one, product, total, zero
+from orderconds.formula import (
+    Formula,
+    Power,
+    Total,
+    coefficient,
+    fresh,
+    index_sum,
+    one,
+    product,
+    refreshed,
+    total,
+    zero,
+)
 from orderconds.formula.nodes import Relation
 from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, Word
 from orderconds.series.dexpinv import dexpinv_terms
@@ -211,12 +223,13 @@ class MuntheKaasFormula(ActionFormula):
 
     def __init__(self, cutoff: int | None) -> None:
         self._cutoff = cutoff
+        self._known: dict[tuple[bool, int, Marked], tuple[list[str], Formula]] = {}
 
     def word(self, row: str, word: Word) -> Formula:
         """Return a word's coefficient in exp(X_i), times k! if it repeats one letter."""
         if len(set(word)) > 1:
             return self._exponential(row, word)
-        return product(*(self._argument(row, (letter,)) for letter in word))
+        return product(*(self._power(row, 1, (letter,)) for letter in word))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
         """Return the coefficient of u x v in exp(X_i), or in exp(Y)."""
@@ -228,13 +241,25 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _power(self, row: str | None, n: int, word: Marked) -> Formula:
+        """Return the coefficient of a word in X_i^n, or in Y^n: written once for all stages."""
         if n == 0 or len(word) < n:
             return one() if n == len(word) else zero()
+        stages = [letter for letter in word if isinstance(letter, str)] + ([] if row is None else [row])
+        key = (row is None, n, tuple("" if isinstance(letter, str) else letter for letter in word))
+        if key not in self._known:
+            new = {stage: fresh("i") for stage in stages}
+            renamed = tuple(new.get(letter, "") if isinstance(letter, str) else letter for letter in word)
+            written = self._written(None if row is None else new[row], n, renamed)
+            self._known[key] = list(new.values()), written
+        names, formula = self._known[key]
+        return refreshed(formula, dict(zip(names, stages, strict=True)))
+
+    def _written(self, row: str | None, n: int, word: Marked) -> Formula:
         if n == 1:
             return self._argument(row, word)
         return total(
             *(
-                (1, product(self._argument(row, word[:cut]), self._power(row, n - 1, word[cut:])))
+                (1, product(self._power(row, 1, word[:cut]), self._power(row, n - 1, word[cut:])))
                 for cut in range(1, len(word) - n + 2)
             )
         )
@@ -259,11 +284,13 @@ class MuntheKaasFormula(ActionFormula):
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
         letters = len(before) + len(behind)
         for q, m, n in dexpinv_terms(letters if self._cutoff is None else min(letters, self._cutoff)):
-            inner = product(self._power(stage, m, before), self._power(stage, n, behind))
-            if isinstance(inner, Total):
-                yield from ((q * scale, term) for scale, term in inner.terms)
-            else:
-                yield q, inner
+            # A power of X has a word's coefficient only if the word is empty where the power is 1.
+            if m <= len(before) and n <= len(behind) and bool(m) is bool(before) and bool(n) is bool(behind):
+                inner = product(self._power(stage, m, before), self._power(stage, n, behind))
+                if isinstance(inner, Total):
+                    yield from ((q * scale, term) for scale, term in inner.terms)
+                else:
+                    yield q, inner
 
 
 def _runge_kutta(row: str | None, stage: str) -> Formula:

@@ -14,7 +14,7 @@ from math import factorial, prod
 from typing import TYPE_CHECKING
 
 from orderconds.families.word_family import StageNames, WordFamily
-from orderconds.formula import Formula, coefficient, fresh, index_sum, product, total
+from orderconds.formula import Formula, coefficient, fresh, index_sum, product, refreshed, total
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.exponentials import ProductOfExponentials
 from orderconds.tableau.methods import Composition
@@ -126,13 +126,18 @@ def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> For
     'sum_i gamma_i + 2 sum_{i<j} gamma_i gamma_j'
     """
     terms = []
+    stage = fresh(kind)
+    known: dict[Word, tuple[Formula, int]] = {}
     for lengths in compositions(len(word)):
         indices = [fresh(kind) for _ in lengths]
-        factors, weight = [], Fraction(factorial(len(word)))
+        factors, divisor = [], 1
         for i, letters in zip(indices, _cut(word, lengths), strict=True):
-            factor, repeats = block(letters, i)
-            factors.append(factor)
-            weight /= repeats
+            if letters not in known:
+                known[letters] = block(letters, stage)
+            factor, repeats = known[letters]
+            factors.append(refreshed(factor, {stage: i}))
+            divisor *= repeats
+        weight = Fraction(factorial(len(word)), divisor)
         relations = [(i, "<", j) for i, j in pairwise(indices)]
         terms.append((weight, index_sum(indices, relations, product(*factors))))
     return total(*terms)

@@ -15,7 +15,18 @@ from typing import TYPE_CHECKING, Any
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
 from orderconds.families.ordered_forests import OrderedForestFamily, lyndon_forests, scale
-from orderconds.formula import Formula, Total, coefficient, fresh, index_sum, one, product, total, zero
+from orderconds.formula import (
+    Formula,
+    Total,
+    coefficient,
+    fresh,
+    index_sum,
+    one,
+    product,
+    refreshed,
+    total,
+    zero,
+)
 from orderconds.ring.protocol import Ring
 from orderconds.series.dexpinv import DexpinvSeries, dexpinv_terms
 from orderconds.trees.counts import rooted_tree_count
@@ -77,24 +88,42 @@ class MuntheKaasFamily(OrderedForestFamily):
 
     def formula(self, forest: Forest) -> Formula:
         """Return the index sum of the scaled value on a forest."""
-        return total((scale(forest), self._exponential(None, trees_of(forest))))
+        return total((scale(forest), _Words(self.cutoff).exponential(None, trees_of(forest))))
 
-    def _exponential(self, i: str | None, word: tuple[Forest, ...]) -> Formula:
-        """Return the coefficient of a word in exp(u_i); i None means the step."""
+
+class _Words:
+    """Writes coefficients of words; i None means the step. Each word is written once for all stages."""
+
+    def __init__(self, cutoff: int | None) -> None:
+        self._cutoff = cutoff
+        self._known: dict[tuple[int, tuple[Forest, ...]], tuple[str, Formula]] = {}
+
+    def exponential(self, i: str | None, word: tuple[Forest, ...]) -> Formula:
+        """Return the coefficient of a word in exp(u_i)."""
         if len(set(word)) == 1:
-            first = self._argument(i, word[:1])
+            first = self._power(i, 1, word[:1])
             return total((Fraction(1, factorial(len(word))), product(*([first] * len(word)))))
         powers = [(Fraction(1, factorial(n)), self._power(i, n, word)) for n in range(1, len(word) + 1)]
         return total(*powers) if word else one()
 
     def _power(self, i: str | None, n: int, word: tuple[Forest, ...]) -> Formula:
-        if n == 0 or not word:
+        """Return the coefficient of a word in u_i^n."""
+        if n == 0 or len(word) < n:
             return zero() if n or word else one()
+        if i is None:
+            return self._written(None, n, word)
+        if (n, word) not in self._known:
+            stage = fresh()
+            self._known[n, word] = stage, self._written(stage, n, word)
+        stage, formula = self._known[n, word]
+        return refreshed(formula, {stage: i})
+
+    def _written(self, i: str | None, n: int, word: tuple[Forest, ...]) -> Formula:
         if n == 1:
             return self._argument(i, word)
         cuts = range(1, len(word) - n + 2)
         return total(
-            *((1, product(self._argument(i, word[:cut]), self._power(i, n - 1, word[cut:]))) for cut in cuts)
+            *((1, product(self._power(i, 1, word[:cut]), self._power(i, n - 1, word[cut:]))) for cut in cuts)
         )
 
     def _argument(self, i: str | None, word: tuple[Forest, ...]) -> Formula:
@@ -108,14 +137,17 @@ class MuntheKaasFamily(OrderedForestFamily):
         return total(*((q, index_sum((j,), (), product(weight, term))) for q, term in terms))
 
     def _dexpinv(self, j: str, word: tuple[Forest, ...]) -> Formula:
-        longest = len(word) - 1 if self.cutoff is None else min(len(word) - 1, self.cutoff)
+        longest = len(word) - 1 if self._cutoff is None else min(len(word) - 1, self._cutoff)
         terms = []
         for place, tree in enumerate(word):
             for q, m, n in dexpinv_terms(longest):
-                # As in the series: u^(k-m) x u^m reads the word of u^m first.
-                before, behind = self._power(j, m, word[:place]), self._power(j, n, word[place + 1 :])
-                value = self._exponential(j, trees_of(branches(tree)))
-                terms.append((q, product(before, value, behind)))
+                behind = len(word) - 1 - place
+                # A power of u has a word's coefficient only if the word is empty where the power is 1.
+                if m <= place and n <= behind and bool(m) is bool(place) and bool(n) is bool(behind):
+                    # As in the series: u^(k-m) x u^m reads the word of u^m first.
+                    first, last = self._power(j, m, word[:place]), self._power(j, n, word[place + 1 :])
+                    value = self.exponential(j, trees_of(branches(tree)))
+                    terms.append((q, product(first, value, last)))
         return total(*terms)
 
 

@@ -28,6 +28,7 @@ from orderconds.formula.nodes import (
     named,
     one,
     product,
+    refreshed,
     total,
     zero,
 )
@@ -48,6 +49,7 @@ __all__ = [
     "named",
     "one",
     "product",
+    "refreshed",
     "total",
     "zero",
 ]

@@ -7,7 +7,7 @@ Bound indices must have names of their own while a formula is being built (:func
 from __future__ import annotations
 
 import itertools
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -143,9 +143,9 @@ def product(*factors: Formula) -> Formula:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
     # Only sums can be equal up to names, and one alone has nothing to be equal to.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
-    collected: dict[Formula | None, tuple[Formula, int]] = {}
+    collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:
-        key = inner if isinstance(inner, Coefficient) else None if alone else named(inner)
+        key = inner if isinstance(inner, Coefficient) else None if alone else _shape(inner, {})
         first, seen = collected.get(key, (inner, 0))
         collected[key] = (first, seen + exponent)
     powers = tuple(b if e == 1 else Power(b, e) for b, e in collected.values() if e)
@@ -160,12 +160,18 @@ def total(*terms: tuple[Fraction | int, Formula]) -> Formula:
     >>> total((1, c), (Fraction(-3, 2), c), (1, one())).text()
     '-1/2 c_i + 1'
     """
-    collected: dict[Formula, tuple[Formula, Fraction]] = {}
+    flat: list[tuple[Formula, Fraction]] = []
     for scale, term in terms:
-        for inner, part in term.terms if isinstance(term, Total) else ((Fraction(1), term),):
-            key = named(part)
-            first, seen = collected.get(key, (part, Fraction(0)))
-            collected[key] = (first, seen + scale * inner)
+        if isinstance(term, Total):
+            flat += [(part, inner if scale == 1 else scale * inner) for inner, part in term.terms]
+        else:
+            flat.append((term, Fraction(scale)))
+    collected: dict[Hashable, tuple[Formula, Fraction]] = {}
+    for part, scale in flat:
+        key = None if len(flat) == 1 else _shape(part, {})
+        if (seen := collected.get(key)) is not None:
+            part, scale = seen[0], seen[1] + scale
+        collected[key] = (part, scale)
     kept = tuple((scale, term) for term, scale in collected.values() if scale)
     return kept[0][1] if len(kept) == 1 and kept[0][0] == 1 else Total(kept)
 
@@ -202,6 +208,31 @@ def fresh(kind: str = "i") -> str:
     True
     """
     return f"{kind}#{next(_numbers)}"
+
+
+def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
+    """Return the formula with new names for its bound indices; free ones are renamed by ``names``.
+
+    So one formula serves several times in a product, whose sums are drawn together.
+
+    >>> half = index_sum(("j",), (), coefficient("a", "i", "j"))
+    >>> named(product(*(refreshed(half, {"i": row}) for row in ("k", "l")))).text()
+    '(sum_i a_ki) (sum_i a_li)'
+    """
+    match formula:
+        case Coefficient(name, indices):
+            return Coefficient(name, tuple(names.get(index, index) for index in indices))
+        case Product(factors):
+            return Product(tuple(refreshed(factor, names) for factor in factors))
+        case Power(base, exponent):
+            return Power(refreshed(base, names), exponent)
+        case Total(terms):
+            return Total(tuple((scale, refreshed(term, names)) for scale, term in terms))
+        case IndexSum(indices, relations, body):
+            inner = {**names, **{index: fresh(index[0]) for index in indices}}
+            new = tuple((inner.get(i, i), sign, inner.get(j, j)) for i, sign, j in relations)
+            return IndexSum(tuple(inner[index] for index in indices), new, refreshed(body, inner))
+    raise TypeError(f"not a formula: {formula!r}")
 
 
 def named(formula: Formula, names: Mapping[str, str] | None = None) -> Formula:
@@ -288,6 +319,31 @@ def _powers(factors: Iterable[Formula]) -> list[tuple[Formula, int]]:
         for part in factor.factors if isinstance(factor, Product) else (factor,):
             found.append((part.base, part.exponent) if isinstance(part, Power) else (part, 1))
     return found
+
+
+def _shape(formula: Formula, depths: Mapping[str, int]) -> Hashable:
+    """Return what two formulas share exactly if they differ by the names of bound indices only.
+
+    Bound indices are numbered from the outside to the inside; tuples of numbers and strings are compared
+    much faster than formulas.
+    """
+    match formula:
+        case Coefficient(name, indices):
+            return (name, *[depths.get(index, index) for index in indices])
+        case Product(factors):
+            return ("*", *[_shape(factor, depths) for factor in factors])
+        case Power(base, exponent):
+            return ("^", exponent, _shape(base, depths))
+        case Total(terms):
+            return ("+", *[(q.numerator, q.denominator, _shape(term, depths)) for q, term in terms])
+        case IndexSum(indices, relations, body):
+            inner = dict(depths)
+            for index in indices:
+                inner[index] = len(inner)
+            kinds = tuple(index[0].isupper() for index in indices)
+            bounds = tuple((inner.get(i, i), sign, inner.get(j, j)) for i, sign, j in relations)
+            return ("sum", kinds, bounds, _shape(body, inner))
+    raise TypeError(f"not a formula: {formula!r}")
 
 
 def _next_name(index: str, used: Container[str]) -> str:

@@ -90,12 +90,13 @@ def _terms(terms: Sequence[tuple[Fraction, Formula]], alphabet: Alphabet) -> str
     written = ""
     for scale, term in terms:
         sign = (" - " if scale < 0 else " + ") if written else ("-" if scale < 0 else "")
-        size = fraction_latex(abs(scale)) if alphabet.latex_fractions else str(abs(scale))
-        if term == Product(()):
+        magnitude = abs(scale)
+        size = fraction_latex(magnitude) if alphabet.latex_fractions else str(magnitude)
+        if isinstance(term, Product) and not term.factors:
             spelled = size
         else:
             body = _bracketed(term, alphabet) if isinstance(term, Total) else spell(term, alphabet)
-            spelled = body if abs(scale) == 1 else f"{size} {body}"
+            spelled = body if size == "1" else f"{size} {body}"
         written += sign + spelled
     return written or "0"
 

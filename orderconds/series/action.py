@@ -21,7 +21,8 @@ from collections.abc import Iterable, Sequence
 from math import factorial
 
 from orderconds.ring.protocol import Element, Ring
-from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, Word, words
+from orderconds.series.action_enumeration import words
+from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, Word
 
 Stages = list[Element]
 """One ring element a stage."""
@@ -61,6 +62,10 @@ class ActionSeries(ABC):
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
         """Return the coefficient of u x v there, x standing once for a variation of that stage's velocity."""
 
+    def stage_coefficients(self, word: Word) -> Stages:
+        """Return :meth:`coefficient` for every stage."""
+        return [self.coefficient(i, word) for i in range(self.stages)]
+
     def tau(self, tree: Velocity) -> Stages:
         """Return tau_t at every stage."""
         found = self._tau.get(tree)
@@ -72,7 +77,7 @@ class ActionSeries(ABC):
         factors = self.psi_product(tree.momenta)
         if not tree.word:
             return factors
-        phi = [self.coefficient(i, tree.word) for i in range(self.stages)]
+        phi = self.stage_coefficients(tree.word)
         return [a * b for a, b in zip(phi, factors, strict=True)] if tree.momenta else phi
 
     def psi(self, tree: Momentum) -> Stages:
@@ -105,10 +110,12 @@ class ActionSeries(ABC):
         """Return :meth:`insertion` for every stage j (outer) and varied stage i (inner)."""
         found = self._insertions.get((before, after))
         if found is None:
-            every = range(self.stages)
-            found = [[self.insertion(j, i, before, after) for i in every] for j in every]
-            self._insertions[before, after] = found
+            found = self._insertions[before, after] = self._stage_insertions(before, after)
         return found
+
+    def _stage_insertions(self, before: Word, after: Word) -> list[Stages]:
+        every = range(self.stages)
+        return [[self.insertion(j, i, before, after) for i in every] for j in every]
 
     def _transport(self, word: Word) -> Stages:
         backwards = word[::-1]
@@ -153,7 +160,7 @@ class CommutatorFreeSeries(ActionSeries):
     equations carry each exponential's own coefficient.
 
     >>> from orderconds.ring import QQ
-    >>> from orderconds.series.action_trees import velocities
+    >>> from orderconds.series.action_enumeration import velocities
     >>> midpoint = CommutatorFreeSeries(QQ, crouch_grossman_rows(QQ, [[QQ.rational(1, 2)]], [QQ.one]))
     >>> [str(midpoint.condition(tree)) for tree in velocities(2)]  # o(o), o(|f(*)), o(|L(o))
     ['1/2', '1/2', '1/2']

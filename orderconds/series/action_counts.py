@@ -27,6 +27,22 @@ def velocity_count(vertices: int) -> int:
     return _generating_functions(vertices)[0][vertices]
 
 
+def class_count(vertices: int) -> int:
+    """Return the number of classes of g-valued trees that root switching connects.
+
+    They are trees without a root, and the edges along which the root moves have a direction, so that a tree
+    has one vertex more than such edges: classes are rooted trees less trees with a marked force.
+
+    >>> [class_count(n) for n in range(1, 7)]
+    [1, 2, 10, 58, 398, 2946]
+    """
+    t, p = _generating_functions(vertices)
+    w = [1]
+    for n in range(1, vertices + 1):
+        w.append(sum(t[k] * w[n - k] for k in range(1, n + 1)))
+    return t[vertices] - sum((p[k] - w[k]) * t[vertices - k] for k in range(1, vertices))
+
+
 def _generating_functions(order: int) -> tuple[list[int], list[int]]:
     """Iterate the equations of T and P until their first coefficients stand."""
     size = order + 1

@@ -22,14 +22,15 @@ from orderconds.ring.univariate import (
     integral_to_one,
     value_at_one,
 )
-from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, Word, words
+from orderconds.series.action_enumeration import words
+from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, Word
 
 
 @cache
 def tau(tree: Velocity) -> UnivariatePolynomial:
     """Return the exact coefficient of a g-valued tree at time s.
 
-    >>> from orderconds.series.action_trees import velocities
+    >>> from orderconds.series.action_enumeration import velocities
     >>> [str(tau(t)) for t in velocities(2)]  # o(o), o(|f(*)), o(|L(o))
     ['x', '(-1)*x + 1', '(-1)*x + 1']
     """
@@ -88,7 +89,7 @@ def psi_product(momenta: Momenta) -> UnivariatePolynomial:
 def condition(tree: Velocity) -> Fraction:
     """Return the exact value of a tree's coefficient, the right-hand side of its order condition.
 
-    >>> from orderconds.series.action_trees import velocities
+    >>> from orderconds.series.action_enumeration import velocities
     >>> [str(condition(t)) for t in velocities(2)]
     ['1/2', '1/2', '1/2']
     """

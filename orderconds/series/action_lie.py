@@ -7,13 +7,13 @@ stage's velocity is one more letter: it stands for that stage alone and occurs o
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from math import comb, factorial
 
 from orderconds.ring.protocol import Element, Ring
-from orderconds.series.action import ActionSeries, Exponential
+from orderconds.series.action import ActionSeries, Exponential, Stages
 from orderconds.series.action_trees import Velocity, Word
 from orderconds.series.b_series import sparse
 from orderconds.series.dexpinv import dexpinv_terms
@@ -21,15 +21,20 @@ from orderconds.series.dexpinv import dexpinv_terms
 Terms = tuple[tuple[Fraction, int, int], ...]
 """Coefficients of X^n xi X^m, with m and n."""
 
-Letters = tuple[Velocity | int, ...]
-"""A word in which an int, at most one, is the variation of the velocity of that stage."""
+Letters = tuple[Velocity | None, ...]
+"""A word in which None, at most once, is the variation of the velocity of some stage."""
+
+Varied = dict[int, Element]
+"""The coefficient of a word with a variation, by the stage whose velocity is varied; zeros may be missing."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
     """The action series of the tableau (A, b) read as VRKMK with dexpinv cut after the power ``cutoff``.
 
+    A word is evaluated at all stages together, and for the variations of all stages together.
+
     >>> from orderconds.ring import QQ
-    >>> from orderconds.series.action_trees import velocities
+    >>> from orderconds.series.action_enumeration import velocities
     >>> midpoint = MuntheKaasActionSeries(QQ, [[QQ.rational(1, 2)]], [QQ.one], cutoff=0)
     >>> [str(midpoint.condition(tree)) for tree in velocities(2)]  # o(o), o(|f(*)), o(|L(o))
     ['1/2', '1/2', '1/2']
@@ -40,93 +45,194 @@ class MuntheKaasActionSeries(ActionSeries):
     ) -> None:
         super().__init__(ring, b)
         self._cutoff = cutoff
-        self._rows: list[Exponential] = [sparse(ring, row) for row in (*A, b)]
-        self._powers: dict[tuple[int, int, Letters], Element] = {}
-        self._summands: dict[tuple[int, Letters], Element] = {}
-        self._exponentials: dict[tuple[int, Letters], Element] = {}
-        self._in_ring: dict[int, list[tuple[Element, int, int]]] = {}
+        # The arguments of the stages, and that of the update.
+        self._rows: tuple[list[Exponential], ...] = ([sparse(ring, row) for row in A], [sparse(ring, b)])
+        self._powers: dict[tuple[int, int, Word], Stages] = {}
+        self._varied_powers: dict[tuple[int, int, Letters], list[Varied]] = {}
+        self._summands: dict[Word, Stages] = {}
+        self._varied_summands: dict[Letters, list[Varied]] = {}
+        self._exponentials: dict[tuple[int, Word], Stages] = {}
+        self._varied_exponentials: dict[tuple[int, Letters], list[Varied]] = {}
+        self._in_sight: dict[tuple[int, int], list[tuple[Element, int, int]]] = {}
         self._inverse_factorials: list[Element] = []
 
     def coefficient(self, row: int, word: Word) -> Element:
         """Return the coefficient of a word in exp(X_i), or exp(Y)."""
-        return self._exponential(row, word)
+        update, place = (1, 0) if row == self.stages else (0, row)
+        return self._exponential(update, word)[place] if word else self.ring.one
+
+    def stage_coefficients(self, word: Word) -> Stages:
+        """Return the coefficient of a word in every exp(X_i)."""
+        return self._exponential(0, word) if word else [self.ring.one] * self.stages
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
         """Return the coefficient of u x v there, x the variation of that stage's velocity."""
-        return self._exponential(row, (*before, stage, *after))
+        update, place = (1, 0) if row == self.stages else (0, row)
+        return self._varied_exponential(update, (*before, None, *after))[place].get(stage, self.ring.zero)
 
-    def _exponential(self, row: int, word: Letters) -> Element:
-        if not word:
-            return self.ring.one
-        key = (row, word)
-        if key not in self._exponentials:
-            self._exponentials[key] = self._sum(
-                self._power(row, n, word) * self._inverse_factorial(n) if n > 1 else self._power(row, 1, word)
-                for n in range(1, len(word) + 1)
-            )
-        return self._exponentials[key]
+    def _stage_insertions(self, before: Word, after: Word) -> list[Stages]:
+        zero, every = self.ring.zero, range(self.stages)
+        found = self._varied_exponential(0, (*before, None, *after))
+        return [[row.get(i, zero) for i in every] for row in found]
 
-    def _power(self, row: int, n: int, word: Letters) -> Element:
-        """Return the coefficient of a word in X_i^n."""
-        if n == 0 or len(word) < n:
-            return self.ring.one if n == len(word) else self.ring.zero
-        key = (row, n, word)
-        if key not in self._powers:
+    def _exponential(self, update: int, word: Word) -> Stages:
+        found = self._exponentials.get((update, word))
+        if found is None:
+            found = self._power(update, 1, word)
+            for n in range(2, len(word) + 1):
+                q = self._inverse_factorial(n)
+                found = [x + y * q for x, y in zip(found, self._power(update, n, word), strict=True)]
+            self._exponentials[update, word] = found
+        return found
+
+    def _varied_exponential(self, update: int, word: Letters) -> list[Varied]:
+        found = self._varied_exponentials.get((update, word))
+        if found is None:
+            found = [dict(row) for row in self._varied_power(update, 1, word)]
+            for n in range(2, len(word) + 1):
+                q = self._inverse_factorial(n)
+                for total, power in zip(found, self._varied_power(update, n, word), strict=True):
+                    _add(total, [(i, x * q) for i, x in power.items()])
+            self._varied_exponentials[update, word] = found
+        return found
+
+    def _power(self, update: int, n: int, word: Word) -> Stages:
+        """Return the coefficient of a word, of n letters at least, in every X_i^n, or in Y^n."""
+        found = self._powers.get((update, n, word))
+        if found is None:
             if n == 1:
-                terms = [weight * self._summand(j, word) for j, weight in self._rows[row]]
+                summands, zero = self._summand(word), self.ring.zero
+                found = [sum((a * summands[j] for j, a in row), zero) for row in self._rows[update]]
             else:
-                cuts = range(1, len(word) - n + 2)
-                terms = [
-                    self._power(row, 1, word[:cut]) * self._power(row, n - 1, word[cut:]) for cut in cuts
-                ]
-            self._powers[key] = self._sum(terms)
-        return self._powers[key]
+                found = [self.ring.zero] * len(self._rows[update])
+                for cut in range(1, len(word) - n + 2):
+                    heads, tails = self._power(update, 1, word[:cut]), self._power(update, n - 1, word[cut:])
+                    found = [total + x * y for total, x, y in zip(found, heads, tails, strict=True)]
+            self._powers[update, n, word] = found
+        return found
 
-    def _summand(self, j: int, word: Letters) -> Element:
-        """Return the coefficient of a word in dexpinv_{(r),X_j} xi_j."""
-        key = (j, word)
-        if key not in self._summands:
-            terms, total, last = self._coefficients(len(word) - 1), self.ring.zero, len(word) - 1
+    def _varied_power(self, update: int, n: int, word: Letters) -> list[Varied]:
+        """Return the same for a word with a variation."""
+        found = self._varied_powers.get((update, n, word))
+        if found is None:
+            found = [{} for _ in self._rows[update]]
+            if n == 1:
+                summands = self._varied_summand(word)
+                for total, row in zip(found, self._rows[update], strict=True):
+                    for j, a in row:
+                        _add(total, [(i, a * x) for i, x in summands[j].items()])
+            for cut in range(1, len(word) - n + 2) if n > 1 else ():
+                head, tail = word[:cut], word[cut:]
+                if None in head:
+                    varied = self._varied_power(update, 1, head)
+                    plain = self._power(update, n - 1, tail)  # type: ignore[arg-type]  # None occurs once
+                    for total, power, y in zip(found, varied, plain, strict=True):
+                        _add(total, [(i, x * y) for i, x in power.items()])
+                else:
+                    plain = self._power(update, 1, head)  # type: ignore[arg-type]
+                    varied = self._varied_power(update, n - 1, tail)
+                    for total, y, power in zip(found, plain, varied, strict=True):
+                        _add(total, [(i, y * x) for i, x in power.items()])
+            self._varied_powers[update, n, word] = found
+        return found
+
+    def _summand(self, word: Word) -> Stages:
+        """Return the coefficient of a word in every dexpinv_{(r),X_j} xi_j."""
+        found = self._summands.get(word)
+        if found is None:
+            found = [self.ring.zero] * self.stages
             for place, letter in enumerate(word):
-                varied = isinstance(letter, int)
-                if varied and letter != j:
+                inner = self._around(word[:place], word[place + 1 :])
+                if inner is not None:
+                    found = [
+                        total + x * y for total, x, y in zip(found, inner, self.tau(letter), strict=True)
+                    ]
+            self._summands[word] = found
+        return found
+
+    def _varied_summand(self, word: Letters) -> list[Varied]:
+        """Return the same for a word with a variation."""
+        found = self._varied_summands.get(word)
+        if found is None:
+            found = [{} for _ in range(self.stages)]
+            for place, letter in enumerate(word):
+                before, behind = word[:place], word[place + 1 :]
+                if letter is None:
+                    inner = self._around(before, behind)  # type: ignore[arg-type]  # the only variation
+                    for j, x in enumerate(inner or ()):
+                        _add(found[j], [(j, x)])
                     continue
-                before, behind, after = word[:place], word[place + 1 :], last - place
-                inner = self.ring.zero
-                for q, m, n in terms:
-                    # In a word the first letter acts first: X^(k-m) xi X^m reads the word of X^m first. A
-                    # power of X has a word's coefficient only if the word is empty where the power is 1.
-                    if m <= place and n <= after and bool(m) is bool(place) and bool(n) is bool(after):
-                        term = q * self._power(j, m, before) if m else q
-                        inner = inner + (term * self._power(j, n, behind) if n else term)
-                total = total + (inner if varied else inner * self.tau(letter)[j])  # type: ignore[arg-type]
-            self._summands[key] = total
-        return self._summands[key]
+                rows = self._varied_around(before, behind)
+                for total, row, value in zip(found, rows, self.tau(letter), strict=True):
+                    _add(total, [(i, x * value) for i, x in row.items()])
+            self._varied_summands[word] = found
+        return found
+
+    def _around(self, before: Word, behind: Word) -> Stages | None:
+        """Return what dexpinv_{(r),X_j} adds to a letter between two words, None where that is zero."""
+        found = None
+        for q, m, n in self._present(len(before), len(behind)):
+            if m and n:
+                around = zip(self._power(0, m, before), self._power(0, n, behind), strict=True)
+                term = [q * x * y for x, y in around]
+            elif m or n:
+                powers = self._power(0, m, before) if m else self._power(0, n, behind)
+                term = [q * x for x in powers]
+            else:
+                term = [q] * self.stages
+            found = term if found is None else [x + y for x, y in zip(found, term, strict=True)]
+        return found
+
+    def _varied_around(self, before: Letters, behind: Letters) -> list[Varied]:
+        """Return the same where one of the words has a variation."""
+        found: list[Varied] = [{} for _ in range(self.stages)]
+        for q, m, n in self._present(len(before), len(behind)):
+            if None in before:
+                first = self._varied_power(0, m, before)
+                last = self._power(0, n, behind) if n else None  # type: ignore[arg-type]
+                for j, (total, power) in enumerate(zip(found, first, strict=True)):
+                    _add(total, [(i, q * x * last[j] if last else q * x) for i, x in power.items()])
+            else:
+                scales = [q * x for x in self._power(0, m, before)] if m else [q] * self.stages  # type: ignore[arg-type]
+                for total, y, power in zip(found, scales, self._varied_power(0, n, behind), strict=True):
+                    _add(total, [(i, y * x) for i, x in power.items()])
+        return found
+
+    def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
+        """Return the terms of dexpinv that see a letter between words of these lengths.
+
+        In a word the first letter acts first: X^n xi X^m reads the word of X^m first. A power of X has a
+        word's coefficient only if the word is empty where the power is 1.
+        """
+        known = self._in_sight.get((before, behind))
+        if known is None:
+            known = self._in_sight[before, behind] = [
+                (self.ring.rational(q.numerator, q.denominator), m, n)
+                for q, m, n in self._terms(before + behind)
+                if m <= before and n <= behind and bool(m) is bool(before) and bool(n) is bool(behind)
+            ]
+        return known
 
     def _inverse_factorial(self, n: int) -> Element:
         while len(self._inverse_factorials) <= n:
             self._inverse_factorials.append(self.ring.rational(1, factorial(len(self._inverse_factorials))))
         return self._inverse_factorials[n]
 
-    def _coefficients(self, most: int) -> list[tuple[Element, int, int]]:
-        """Return :meth:`_terms` with coefficients in the ring."""
-        if most not in self._in_ring:
-            terms = self._terms(most)
-            self._in_ring[most] = [
-                (self.ring.rational(q.numerator, q.denominator), m, n) for q, m, n in terms
-            ]
-        return self._in_ring[most]
-
     def _terms(self, most: int) -> Terms:
         """Return (coefficient, m, n) for the terms X^n xi X^m with m + n <= ``most``."""
         return dexpinv_terms(most if self._cutoff is None else min(most, self._cutoff))
+
+
+def _add(total: Varied, terms: Iterable[tuple[int, Element]]) -> None:
+    for i, x in terms:
+        total[i] = total[i] + x if i in total else x
 
 
 class PadeActionSeries(MuntheKaasActionSeries):
     """The action series with the inverse of dexp cut off: dexp_(r),X_j v_j = xi_j, X_i = h sum_j a_ij v_j.
 
     >>> from orderconds.ring import QQ
-    >>> from orderconds.series.action_trees import velocities
+    >>> from orderconds.series.action_enumeration import velocities
     >>> midpoint = PadeActionSeries(QQ, [[QQ.rational(1, 2)]], [QQ.one], cutoff=1)
     >>> [str(midpoint.condition(tree)) for tree in velocities(2)]
     ['1/2', '1/2', '1/2']

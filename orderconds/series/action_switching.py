@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import cache
 
-from orderconds.series.action_trees import Force, Velocity, force, velocities, velocity
+from orderconds.series.action_enumeration import velocities_in_turn
+from orderconds.series.action_trees import Force, Velocity, force, velocity
 
 
 def switched(tree: Velocity) -> Iterator[Velocity]:
@@ -39,13 +40,32 @@ def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
 
 
 def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
-    """Yield the classes one after the other, that of the simplest tree first.
+    """Yield the classes one after the other, that of the simplest tree first; each is made once.
 
     >>> next(classes_in_turn(7))[0]
     o(o o o o o o)
     """
+    made, more = _listing(vertices)
+    place = 0
+    while True:
+        if place == len(made):
+            of_class = next(more, None)
+            if of_class is None:
+                return
+            made.append(of_class)
+        yield made[place]
+        place += 1
+
+
+@cache
+def _listing(vertices: int) -> tuple[list[tuple[Velocity, ...]], Iterator[tuple[Velocity, ...]]]:
+    """Return the classes made so far, and what makes the others."""
+    return [], _classes(vertices)
+
+
+def _classes(vertices: int) -> Iterator[tuple[Velocity, ...]]:
     seen: set[Velocity] = set()
-    for tree in velocities(vertices):
+    for tree in velocities_in_turn(vertices):
         if tree not in seen:
             members = [tree]
             seen.add(tree)

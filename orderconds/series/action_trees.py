@@ -10,29 +10,48 @@ Every vertex is a copy of H, except that a :class:`Transport` costs nothing. Two
 
 A velocity names at the same time the elementary Hamiltonian that has its root vertex without the outgoing
 leg: ``o(w | M)`` is the coefficient of ``H_{q..mu..}[w; M]`` in the generating function. Nodes are
-interned, so that identity is equality, and every list has one canonical order: simplest to read first.
+interned, so that identity is equality. :mod:`orderconds.series.action_enumeration` lists them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import cache
 from math import factorial, prod
 
 
 class _Node:
-    """What the three kinds share: number of copies of H, a reading cost, symmetry, canonical text."""
+    """What the three kinds share: number of copies of H, a reading cost, symmetry, canonical text.
 
-    __slots__ = ("cost", "key", "text", "vertices")
+    The text is made when somebody asks: most trees are only counted and compared.
+    """
+
+    __slots__ = ("_key", "_text", "cost", "vertices")
 
     vertices: int
     cost: int
-    text: str
-    key: tuple[int, int, int, str]
+    _text: str | None
+    _key: tuple[int, int, int, str] | None
 
-    def _describe(self, vertices: int, cost: int, text: str) -> None:
-        self.vertices, self.cost, self.text = vertices, cost, text
-        self.key = (vertices, cost, len(text), text)
+    def _describe(self, vertices: int, cost: int) -> None:
+        self.vertices, self.cost, self._text, self._key = vertices, cost, None, None
+
+    @property
+    def text(self) -> str:
+        """The canonical text, by which trees are told apart."""
+        if self._text is None:
+            self._text = self._spelled()
+        return self._text
+
+    @property
+    def key(self) -> tuple[int, int, int, str]:
+        """What trees are sorted by: simplest to read first."""
+        if self._key is None:
+            text = self.text
+            self._key = (self.vertices, self.cost, len(text), text)
+        return self._key
+
+    def _spelled(self) -> str:
+        raise TypeError("a kind of tree says how it is spelled")
 
     def __str__(self) -> str:
         return self.text
@@ -48,17 +67,26 @@ class Velocity(_Node):
     (o(o|f(*) f(*)), 4, 2)
     """
 
-    __slots__ = ("momenta", "word")
+    __slots__ = ("momenta", "nesting", "word")
+
+    nesting: int
 
     def __init__(self, word: Word, momenta: Momenta) -> None:
         self.word, self.momenta = word, momenta
-        children: list[_Node] = [*word, *momenta]
-        inner = _inside(" ".join(t.text for t in word), momenta)
-        self._describe(
-            1 + sum(c.vertices for c in children),
-            _nesting(word) + sum(p.cost for p in momenta) + _mixing(word),
-            f"o({inner})" if inner else "o",
-        )
+        vertices, cost = 1, mixing(word)
+        for letter in word:
+            vertices += letter.vertices
+            cost += letter.nesting
+        for p in momenta:
+            vertices += p.vertices
+            cost += p.cost
+        self._describe(vertices, cost)
+        # A bushy tree reads better than a tall one: what stands inside letters counts double.
+        self.nesting = 2 + 2 * cost if vertices > 1 else 0
+
+    def _spelled(self) -> str:
+        inner = _inside(" ".join([t.text for t in self.word]), self.momenta)
+        return f"o({inner})" if inner else "o"
 
     @property
     def symmetry(self) -> int:
@@ -78,13 +106,12 @@ class Force(_Node):
 
     def __init__(self, before: Word, after: Word, momenta: Momenta) -> None:
         self.before, self.after, self.momenta = before, after, momenta
-        children: list[_Node] = [*before, *after, *momenta]
-        letters = " ".join([*(t.text for t in before), "*", *(t.text for t in after)])
-        self._describe(
-            1 + sum(c.vertices for c in children),
-            3 + _nesting(before + after) + sum(p.cost for p in momenta) + 6 * (len(before) + len(after)),
-            f"f({_inside(letters, momenta)})",
-        )
+        vertices = 1 + sum([child.vertices for child in (*before, *after, *momenta)])
+        self._describe(vertices, force_cost(before, after) + sum([p.cost for p in momenta]))
+
+    def _spelled(self) -> str:
+        letters = " ".join([*[t.text for t in self.before], "*", *[t.text for t in self.after]])
+        return f"f({_inside(letters, self.momenta)})"
 
     @property
     def symmetry(self) -> int:
@@ -104,11 +131,10 @@ class Transport(_Node):
 
     def __init__(self, word: Word) -> None:
         self.word = word
-        self._describe(
-            sum(t.vertices for t in word),
-            4 + _nesting(word) + 6 * (len(word) - 1),
-            f"L({' '.join(t.text for t in word)})",
-        )
+        self._describe(sum([letter.vertices for letter in word]), transport_cost(word))
+
+    def _spelled(self) -> str:
+        return f"L({' '.join([t.text for t in self.word])})"
 
     @property
     def symmetry(self) -> int:
@@ -125,14 +151,20 @@ def _inside(letters: str, momenta: Momenta) -> str:
     return letters + ("|" + " ".join(p.text for p in momenta) if momenta else "")
 
 
-def _nesting(word: Word) -> int:
-    """A bushy tree reads better than a tall one: what stands inside letters counts double."""
-    return sum(2 + 2 * t.cost for t in word if t.vertices > 1)
-
-
-def _mixing(word: Word) -> int:
+def mixing(word: Word) -> int:
     """Words of one repeated letter are powers of a sum; any other needs sums over ordered indices."""
-    return 0 if len(set(word)) <= 1 else 5 * (len(word) - 1)
+    return 0 if len(word) < 2 or len(set(word)) == 1 else 5 * (len(word) - 1)
+
+
+def force_cost(before: Word, after: Word) -> int:
+    """Return the cost of H(u * v), to which its momenta add theirs."""
+    letters = before + after
+    return 3 + sum([letter.nesting for letter in letters]) + 6 * len(letters)
+
+
+def transport_cost(word: Word) -> int:
+    """Return the cost of L(w)."""
+    return 4 + sum([letter.nesting for letter in word]) + 6 * (len(word) - 1)
 
 
 def _symmetry(word: Word, momenta: Momenta) -> int:
@@ -141,12 +173,14 @@ def _symmetry(word: Word, momenta: Momenta) -> int:
 
 
 @cache
-def _velocity(word: Word, momenta: Momenta) -> Velocity:
+def canonical_velocity(word: Word, momenta: Momenta) -> Velocity:
+    """Return (w, M) for an M in canonical order."""
     return Velocity(word, momenta)
 
 
 @cache
-def _force(before: Word, after: Word, momenta: Momenta) -> Force:
+def canonical_force(before: Word, after: Word, momenta: Momenta) -> Force:
+    """Return H(u * v | M) for an M in canonical order."""
     return Force(before, after, momenta)
 
 
@@ -168,7 +202,7 @@ def multiset(momenta: Momenta) -> Momenta:
     >>> multiset((transport((velocity(),)), force()))
     (f(*), L(o))
     """
-    return tuple(sorted(momenta, key=lambda p: p.key))
+    return momenta if len(momenta) < 2 else tuple(sorted(momenta, key=lambda p: p.key))
 
 
 def velocity(word: Word = (), momenta: Momenta = ()) -> Velocity:
@@ -177,7 +211,7 @@ def velocity(word: Word = (), momenta: Momenta = ()) -> Velocity:
     >>> velocity((velocity(),), (force(), transport((velocity(),))))
     o(o|f(*) L(o))
     """
-    return _velocity(word, multiset(momenta))
+    return canonical_velocity(word, multiset(momenta))
 
 
 def force(before: Word = (), after: Word = (), momenta: Momenta = ()) -> Force:
@@ -186,84 +220,7 @@ def force(before: Word = (), after: Word = (), momenta: Momenta = ()) -> Force:
     >>> force((velocity(),), (), (force(),))
     f(o *|f(*))
     """
-    return _force(before, after, multiset(momenta))
-
-
-@cache
-def velocities(vertices: int) -> tuple[Velocity, ...]:
-    """Return every g-valued tree with that many copies of H, simplest first.
-
-    >>> [len(velocities(n)) for n in range(1, 5)]
-    [1, 3, 17, 111]
-    >>> velocities(2)
-    (o(o), o(|f(*)), o(|L(o)))
-    """
-    found = [
-        _velocity(word, momenta)  # a multiset is made in canonical order
-        for k in range(vertices)
-        for word in words(k)
-        for momenta in multisets(vertices - 1 - k)
-    ]
-    return tuple(sorted(found, key=lambda t: t.key))
-
-
-@cache
-def words(vertices: int) -> tuple[Word, ...]:
-    """Return every word of g-valued trees with that many copies of H in all.
-
-    >>> words(2)
-    ((o, o), (o(o),), (o(|f(*)),), (o(|L(o)),))
-    """
-    if vertices == 0:
-        return ((),)
-    return tuple(
-        (*start, last)
-        for k in range(1, vertices + 1)
-        for start in words(vertices - k)
-        for last in velocities(k)
-    )
-
-
-@cache
-def momenta(vertices: int) -> Momenta:
-    """Return every g*-valued tree with that many copies of H, simplest first.
-
-    >>> [len(momenta(n)) for n in range(1, 5)]
-    [2, 8, 48, 328]
-    """
-    found: list[Momentum] = [
-        _force(before, after, others)
-        for j in range(vertices)
-        for before in words(j)
-        for k in range(vertices - j)
-        for after in words(k)
-        for others in multisets(vertices - 1 - j - k)
-    ]
-    found += [transport(word) for word in words(vertices) if word]
-    return tuple(sorted(found, key=lambda p: p.key))
-
-
-@cache
-def multisets(vertices: int) -> tuple[Momenta, ...]:
-    """Return every multiset of g*-valued trees with that many copies of H, ordered as :func:`multiset` does.
-
-    >>> multisets(1)
-    ((f(*),), (L(o),))
-    """
-    return tuple(_multisets(vertices, vertices, None))
-
-
-def _multisets(vertices: int, largest: int, bound: int | None) -> Iterator[Momenta]:
-    """Yield multisets in decreasing order of (vertices, place in the list); bound is the last place used."""
-    if vertices == 0:
-        yield ()
-        return
-    for size in range(1, min(vertices, largest) + 1):
-        places = momenta(size)
-        stop = len(places) if bound is None or size < largest else bound + 1
-        for place in range(stop):
-            for rest in _multisets(vertices - size, size, place):
-                yield (*rest, places[place])
+    return canonical_force(before, after, multiset(momenta))
 
 
 def hamiltonian(tree: Velocity) -> str:

@@ -158,8 +158,8 @@ def principal_residuals(family: Family, method: Any, ring: Any, order: int) -> l
     """
     if getattr(family, "trees", "") != "action":
         return list(families.residuals(family, method, ring, family.conditions(order)))
+    from orderconds.series.action_enumeration import velocities
     from orderconds.series.action_exact import condition
-    from orderconds.series.action_trees import velocities
 
     series: Any = family.series(method, ring)  # type: ignore[attr-defined]  # action families have it
     return [series.condition(t) - in_ring(ring, condition(t)) for t in velocities(order)]

@@ -12,8 +12,9 @@ from orderconds.ring import QQ, Residues
 from orderconds.ring.laurent import LaurentPolynomials
 from orderconds.ring.rank import pivot_columns
 from orderconds.series.action import CommutatorFreeSeries, crouch_grossman_rows
+from orderconds.series.action_enumeration import velocities
 from orderconds.series.action_rank import independent_trees
-from orderconds.series.action_trees import transport, velocities, velocity
+from orderconds.series.action_trees import transport, velocity
 from orderconds.tableau import Tableau
 from orderconds.tableau.library import find
 from orderconds.tableau.methods import RungeKutta

@@ -8,7 +8,7 @@ from flint import fmpq
 from orderconds.errors import InputError
 from orderconds.families import get, residuals
 from orderconds.ring import QQ
-from orderconds.series.action_trees import velocities
+from orderconds.series.action_enumeration import velocities
 from orderconds.tableau import Tableau
 from orderconds.tableau.library import find
 from orderconds.tableau.methods import RungeKutta

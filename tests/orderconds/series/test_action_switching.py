@@ -5,8 +5,8 @@ from flint import fmpq
 from orderconds.ring import QQ
 from orderconds.series import action_exact
 from orderconds.series.action import CommutatorFreeSeries, crouch_grossman_rows
+from orderconds.series.action_enumeration import velocities
 from orderconds.series.action_switching import representatives, switched
-from orderconds.series.action_trees import velocities
 
 
 def test_switching_the_root_changes_neither_method_nor_flow():

@@ -1,17 +1,8 @@
 """The trees of the action series: counts against generating functions, canonical text, symmetry."""
 
 from orderconds.series.action_counts import tree_counts
-from orderconds.series.action_trees import (
-    force,
-    hamiltonian,
-    momenta,
-    multiset,
-    multisets,
-    transport,
-    velocities,
-    velocity,
-    words,
-)
+from orderconds.series.action_enumeration import momenta, multisets, velocities, words
+from orderconds.series.action_trees import force, hamiltonian, multiset, transport, velocity
 
 LEAF = velocity()
 

@@ -1,0 +1,163 @@
+"""Every action tree with so many vertices once, simplest to read first, without making the costlier ones.
+
+The cost of a tree is a sum of non-negative parts of its subtrees, so that all trees up to a limit consist
+of subtrees up to that limit; where the parts are tried in order of cost, the first one beyond the limit ends
+the search. A long list is made in bands of rising limits, and only as far as somebody reads it: of the 6331
+trees with six vertices, those that decide most methods are among the simplest few hundred.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import cache
+
+from orderconds.series.action_trees import (
+    Momenta,
+    Momentum,
+    Velocity,
+    Word,
+    canonical_force,
+    canonical_velocity,
+    force_cost,
+    mixing,
+    transport,
+    transport_cost,
+)
+
+LIMITS = (8, 16, 32, 64, math.inf)
+"""The costs at which bands of trees end."""
+
+
+def velocities_in_turn(vertices: int) -> Iterator[Velocity]:
+    """Yield every g-valued tree with that many copies of H, simplest first.
+
+    >>> next(velocities_in_turn(20)).vertices
+    20
+    """
+    reached = -1.0
+    for limit in LIMITS:
+        band = [tree for tree in _velocities(vertices, limit) if tree.cost > reached]
+        yield from sorted(band, key=lambda tree: tree.key)
+        reached = limit
+
+
+@cache
+def velocities(vertices: int) -> tuple[Velocity, ...]:
+    """Return every g-valued tree with that many copies of H, simplest first.
+
+    >>> [len(velocities(n)) for n in range(1, 5)]
+    [1, 3, 17, 111]
+    >>> velocities(2)
+    (o(o), o(|f(*)), o(|L(o)))
+    """
+    return tuple(sorted(_velocities(vertices, math.inf), key=lambda tree: tree.key))
+
+
+def words(vertices: int) -> tuple[Word, ...]:
+    """Return every word of g-valued trees with that many copies of H in all, cheap letters first.
+
+    >>> words(2)
+    ((o, o), (o(o),), (o(|f(*)),), (o(|L(o)),))
+    """
+    return tuple(word for _, word in _words(vertices, math.inf))
+
+
+def momenta(vertices: int) -> Momenta:
+    """Return every g*-valued tree with that many copies of H, simplest first.
+
+    >>> [len(momenta(n)) for n in range(1, 5)]
+    [2, 8, 48, 328]
+    """
+    return _momenta(vertices, math.inf)
+
+
+def multisets(vertices: int) -> tuple[Momenta, ...]:
+    """Return every multiset of g*-valued trees with that many copies of H, each in canonical order.
+
+    >>> multisets(1)
+    ((f(*),), (L(o),))
+    """
+    return tuple(chosen for _, chosen in _multisets(vertices, math.inf))
+
+
+@cache
+def _velocities(vertices: int, limit: float) -> tuple[Velocity, ...]:
+    """Return the g-valued trees that cost no more than ``limit``, in no particular order."""
+    found = []
+    for k in range(vertices):
+        for cost, word in _words(k, limit):
+            rest = limit - cost - mixing(word)
+            for more, chosen in _multisets(vertices - 1 - k, limit) if rest >= 0 else ():
+                if more > rest:
+                    break
+                found.append(canonical_velocity(word, chosen))
+    return tuple(found)
+
+
+@cache
+def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
+    """Return the words whose nesting is no more than ``limit``, with it and by it."""
+    if vertices == 0:
+        return ((0, ()),)
+    found = []
+    for k in range(1, vertices + 1):
+        letters = _letters(k, limit)
+        for cost, start in _words(vertices - k, limit):
+            for more, letter in letters:
+                if cost + more > limit:
+                    break
+                found.append((cost + more, (*start, letter)))
+    return tuple(sorted(found, key=lambda item: item[0]))
+
+
+@cache
+def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
+    """Return the one-letter words, by their nesting."""
+    inner = limit if vertices == 1 else (limit - 2) / 2
+    if inner < 0:
+        return ()
+    letters = sorted(_velocities(vertices, inner), key=lambda tree: tree.key)
+    return tuple((letter.nesting, letter) for letter in letters)
+
+
+@cache
+def _momenta(vertices: int, limit: float) -> Momenta:
+    """Return the g*-valued trees that cost no more than ``limit``, simplest first."""
+    found: list[Momentum] = []
+    for j in range(vertices):
+        for nested, before in _words(j, limit):
+            if nested + 3 > limit:
+                break
+            for k in range(vertices - j):
+                for _, after in _words(k, limit):
+                    rest = limit - force_cost(before, after)
+                    for cost, others in _multisets(vertices - 1 - j - k, limit) if rest >= 0 else ():
+                        if cost > rest:
+                            break
+                        found.append(canonical_force(before, after, others))
+    found += [transport(word) for _, word in _words(vertices, limit) if transport_cost(word) <= limit]
+    return tuple(sorted(found, key=lambda tree: tree.key))
+
+
+@cache
+def _multisets(vertices: int, limit: float) -> tuple[tuple[int, Momenta], ...]:
+    """Return the multisets that cost no more than ``limit``, with their costs and by them."""
+    return tuple(sorted(_chosen(vertices, vertices, None, limit, limit), key=lambda item: item[0]))
+
+
+def _chosen(
+    vertices: int, largest: int, bound: int | None, limit: float, rest: float
+) -> Iterator[tuple[int, Momenta]]:
+    """Yield multisets in decreasing order of (vertices, place in the list); bound is the last place used."""
+    if vertices == 0:
+        yield 0, ()
+        return
+    for size in range(1, min(vertices, largest) + 1):
+        places = _momenta(size, limit)
+        stop = len(places) if bound is None or size < largest else bound + 1
+        for place, last in enumerate(places[:stop]):
+            if last.cost > rest:
+                break
+            for cost, others in _chosen(vertices - size, size, place, limit, rest - last.cost):
+                yield cost + last.cost, (*others, last)
