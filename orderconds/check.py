@@ -23,6 +23,8 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from msgspec import Struct
+
 from orderconds import families
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
@@ -99,8 +101,7 @@ class FamilyOrder:
         return record if self.limit is None else {**record, "limit": self.limit}
 
 
-@dataclass(frozen=True)
-class EmbeddedOrder:
+class EmbeddedOrder(Struct, frozen=True):
     """The order that the embedded row was said to have in the family ``own``, and its orders by family.
 
     ``own`` is ``rk`` for weights, ``cf`` for an update of exponentials; ``failing`` are the conditions of the

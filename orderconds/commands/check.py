@@ -9,11 +9,11 @@ import json
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, redirect_stdout
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+from msgspec import Struct
 
 from orderconds.commands import screen
 from orderconds.commands.processes import in_processes
@@ -107,8 +107,7 @@ def _without_collection(paths: Sequence[str]) -> Iterator[None]:
             gc.enable()
 
 
-@dataclass(frozen=True)
-class _Job:
+class _Job(Struct, frozen=True):
     """What to check, and how."""
 
     path: str
@@ -121,8 +120,7 @@ class _Job:
     one_of_many: bool
 
 
-@dataclass(frozen=True)
-class _Outcome:
+class _Outcome(Struct, frozen=True):
     """A verdict with what to print of it; None with the message where a file could not be read."""
 
     verdict: str | None

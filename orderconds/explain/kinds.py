@@ -255,10 +255,10 @@ def _alternating() -> Kind:
 
 def _action() -> Kind:
     from orderconds.explain import diagram
-    from orderconds.series import action_counts, action_trees
+    from orderconds.series import action_counts, action_enumeration, action_trees
 
     return Kind(
-        action_trees.velocities,
+        action_enumeration.velocities,
         action_counts.velocity_count,
         str,
         diagram.action,

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Container, Hashable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
+
+from msgspec import Struct
 
 from orderconds.ring.protocol import Element, Ring
 
@@ -23,7 +24,7 @@ EXPONENTIAL_NAMES = ("I", "J", "K", "L", "M", "N", "P", "Q", "R", "U", "V", "W")
 _numbers = itertools.count(1)
 
 
-class Formula:
+class Formula(Struct, frozen=True):
     """A node of the syntax tree: Coefficient, Product, Power, Total or IndexSum."""
 
     def text(self) -> str:
@@ -54,38 +55,33 @@ class Formula:
         return value(self, ring, RungeKuttaTables(ring, A, b))
 
 
-@dataclass(frozen=True)
-class Coefficient(Formula):
+class Coefficient(Formula, frozen=True):
     """A coefficient of the method, as ``a_ij``: name ``a``, indices ``("i", "j")``."""
 
     name: str
     indices: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class Product(Formula):
+class Product(Formula, frozen=True):
     """A product of factors; the empty product is the number one."""
 
     factors: tuple[Formula, ...]
 
 
-@dataclass(frozen=True)
-class Power(Formula):
+class Power(Formula, frozen=True):
     """A power ``base^exponent``; a negative exponent divides."""
 
     base: Formula
     exponent: int
 
 
-@dataclass(frozen=True)
-class Total(Formula):
+class Total(Formula, frozen=True):
     """A sum of rational multiples of formulas; the empty sum is zero."""
 
     terms: tuple[tuple[Fraction, Formula], ...]
 
 
-@dataclass(frozen=True)
-class IndexSum(Formula):
+class IndexSum(Formula, frozen=True):
     """A sum of ``body`` over all values of ``indices`` that satisfy ``relations``."""
 
     indices: tuple[str, ...]

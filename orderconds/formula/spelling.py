@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
+
+from msgspec import Struct
 
 from orderconds.formula.nodes import Coefficient, Formula, IndexSum, Power, Product, Relation, Total
 
@@ -12,8 +13,7 @@ HATS = {"ahat": r"\hat{a}", "bhat": r"\hat{b}", "chat": r"\hat{c}", "alpha": r"\
 HATS |= {name: f"\\{name}" for name in ("gamma", "omega", "phi")}
 
 
-@dataclass(frozen=True)
-class Alphabet:
+class Alphabet(Struct, frozen=True):
     """The signs of one way of writing."""
 
     names: Mapping[str, str]

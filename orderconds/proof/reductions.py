@@ -17,9 +17,10 @@ last one is used, for a proved solution, and never raises a certificate.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
+
+from msgspec import Struct
 
 from orderconds import families
 from orderconds.families import Family
@@ -36,8 +37,7 @@ UNCUT = {"rkmk": "rk", "vrkmk": "sprk"}
 """Families with a cut of dexpinv, and the one whose order they have without it."""
 
 
-@dataclass(frozen=True)
-class Reductions:
+class Reductions(Struct, frozen=True):
     """What follows for one method in one family.
 
     ``even`` says that it is symmetric; ``free_trees`` is its symplectic pair as a tableau of ``sprk``;

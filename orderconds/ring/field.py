@@ -8,12 +8,12 @@ arithmetic in a larger one by itself.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 from typing import Any
 
 from flint import arb, arb_poly, fmpq, fmpq_mat, fmpq_poly
+from msgspec import Struct
 
 from orderconds.ring.decimals import Enclosure, decimal, nearest_float, rational_decimal, rational_float
 from orderconds.ring.power import power
@@ -24,8 +24,7 @@ LARGE = 8
 """From this degree on division is a linear system."""
 
 
-@dataclass(frozen=True)
-class Generator:
+class Generator(Struct, frozen=True):
     """A root adjoined to a field: its spelling, the index n of a radical (0 for a named root), its enclosure.
 
     A radical is spelled by its radicand, ``radicand^(1/index)``; a named root by its name. ``degree`` is

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import cache
 from typing import Any
+
+from msgspec import Struct
 
 from orderconds.errors import TableauError
 from orderconds.ring.protocol import Element, Ring
@@ -27,8 +28,7 @@ MAX_DEPTH = 12
 _TOKEN = re.compile(r"\s*(?:([0-9]{1,3})|([A-Za-z_]\w*)|([\[\],*]))", re.ASCII)
 
 
-@dataclass(frozen=True)
-class Bracket:
+class Bracket(Struct, frozen=True):
     """The commutator of two terms.
 
     >>> spell(Bracket(1, "a"))
@@ -39,8 +39,7 @@ class Bracket:
     right: Term
 
 
-@dataclass(frozen=True)
-class Product:
+class Product(Struct, frozen=True):
     """The product of two terms or more, the last acting first.
 
     >>> spell(Product((0, "a", 0)))

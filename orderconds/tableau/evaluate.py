@@ -8,9 +8,10 @@ everything balls. Equal spellings in one file denote one number and share one el
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Protocol
+
+from msgspec import Struct
 
 from orderconds.errors import TableauError
 from orderconds.ring.protocol import Element, Ring
@@ -20,8 +21,7 @@ MAX_SIZE = 40_000
 """No intermediate value may need integers of more bits than this."""
 
 
-@dataclass(frozen=True)
-class NamedRoot:
+class NamedRoot(Struct, frozen=True):
     """A real root given by a polynomial over Q (ascending coefficients) and a decimal that isolates it."""
 
     minpoly: tuple[Fraction, ...]

@@ -17,8 +17,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from fractions import Fraction
+
+from msgspec import Struct
 
 from orderconds.errors import TableauError
 
@@ -34,23 +35,20 @@ _TOKEN = re.compile(
 )
 
 
-@dataclass(frozen=True)
-class Constant:
+class Constant(Struct, frozen=True):
     """A rational number; with ``unit`` positive, a ball of that radius around it."""
 
     value: Fraction
     unit: Fraction = Fraction(0)
 
 
-@dataclass(frozen=True)
-class Name:
+class Name(Struct, frozen=True):
     """A name defined under ``numbers``."""
 
     name: str
 
 
-@dataclass(frozen=True)
-class Chain:
+class Chain(Struct, frozen=True):
     """``operands`` joined from left to right by ``operators``, one fewer; all of ``+ -`` or all of ``* /``.
 
     Flat, so that the depth of an expression is that of its parentheses.
@@ -60,8 +58,7 @@ class Chain:
     operands: tuple[Expression, ...]
 
 
-@dataclass(frozen=True)
-class Power:
+class Power(Struct, frozen=True):
     """``base^exponent`` with a rational exponent; sqrt(x) is x^(1/2)."""
 
     base: Expression

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from msgspec import Struct
+
 from orderconds.errors import TableauError
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.methods import (
@@ -22,8 +24,7 @@ from orderconds.tableau.products import AdjointComposition, Method
 from orderconds.tableau.unknowns import Proof, Spelled
 
 
-@dataclass(frozen=True)
-class OrderClaim:
+class OrderClaim(Struct, frozen=True):
     """The claim that ``family`` (with ``cutoff``, where it takes one) has exactly this order."""
 
     family: str
@@ -51,8 +52,7 @@ class Claims:
         return None
 
 
-@dataclass(frozen=True)
-class File:
+class File(Struct, frozen=True):
     """What a file spells: its keys and values, and the method, embedded row and claims that were read."""
 
     data: Mapping[str, Any]
@@ -118,12 +118,12 @@ class Tableau:
         """
         method, embedded = self.method, self.embedded
         if isinstance(embedded, Embedded) and isinstance(method, RungeKutta):
-            return replace(self, method=replace(method, b=embedded.b), embedded=None, proof=None, file=None)
-        if isinstance(embedded, EmbeddedUpdate) and isinstance(method, CommutatorFree):
-            return replace(
-                self, method=replace(method, update=embedded.update), embedded=None, proof=None, file=None
-            )
-        return None
+            lower: Method = RungeKutta(method.A, embedded.b)
+        elif isinstance(embedded, EmbeddedUpdate) and isinstance(method, CommutatorFree):
+            lower = CommutatorFree(method.stages, embedded.update)
+        else:
+            return None
+        return replace(self, method=lower, embedded=None, proof=None, file=None)
 
     def read_as(self, formats: tuple[str, ...]) -> Method | None:
         """Return the method in the first of these formats that it can be read in, or None.

@@ -10,11 +10,11 @@ coefficients; of balls nothing is decided, nor where a field's numbers would tak
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
 from flint import fmpq
+from msgspec import Struct
 
 from orderconds.ring import QQ, Balls
 from orderconds.ring.protocol import Element, Ring
@@ -31,8 +31,7 @@ EFFORT = 10**11
 """How many pairs of bits may be multiplied over other fields, a second or so: Euclid's remainders swell."""
 
 
-@dataclass(frozen=True)
-class StabilityFunction:
+class StabilityFunction(Struct, frozen=True):
     """R = numerator/denominator in lowest terms, over an exact field with signs."""
 
     numerator: tuple[Element, ...]

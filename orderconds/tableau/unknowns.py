@@ -22,6 +22,8 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, Protocol
 
+from msgspec import Struct
+
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.evaluate import Definition, evaluate_in, rounded_and_exact
 from orderconds.tableau.grammar import Constant, Expression, Name
@@ -39,8 +41,7 @@ class RootedRing(Ring, Protocol):
         """Return the real root."""
 
 
-@dataclass(frozen=True)
-class Unknown:
+class Unknown(Struct, frozen=True):
     """A rounded decimal: its name, and the one positive constant that is spelled in the file."""
 
     name: str
@@ -78,8 +79,7 @@ class Proof:
         return known
 
 
-@dataclass(frozen=True)
-class Spelled:
+class Spelled(Struct, frozen=True):
     """The parsed coefficients of a file, to be evaluated in another ring or with other decimals."""
 
     expressions: Mapping[str, Expression]
