@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
-from functools import cached_property, partial
+from functools import cache, cached_property, partial
 from math import factorial
 from typing import Any
 
@@ -123,7 +123,7 @@ def _by_balls(
     family: Family, method: Any, ring: NumberField, conditions: Sequence[OrderCondition]
 ) -> tuple[set[str], tuple[Failure, ...]]:
     balls = Balls(BITS)
-    enclosed = method.map(lambda x: balls.enclose(ring.ball(x, BITS)))
+    enclosed = method.map(cache(lambda x: balls.enclose(ring.ball(x, BITS))))
     around = families.residuals(family, enclosed, balls, conditions)
     doubtful = [c for c, x in zip(conditions, around, strict=True) if balls.is_zero(x) is not False]
     exact = iter(families.residuals(family, method, ring, doubtful))

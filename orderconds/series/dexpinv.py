@@ -22,7 +22,8 @@ from orderconds.trees.levels import Forest, Tree, branches
 class DexpinvSeries:
     """The series of RKMK with the tableau (A, b) over ``ring``; ``cutoff`` None keeps all of dexpinv.
 
-    Only words shorter than the one asked for enter its value, so implicit tableaux need no iteration.
+    Only words shorter than the one asked for enter its value, so implicit tableaux need no iteration. A word
+    is evaluated at all stages together.
 
     >>> from orderconds.ring import QQ
     >>> midpoint = DexpinvSeries(QQ, [[QQ.rational(1, 2)]], [QQ.one])
@@ -34,84 +35,103 @@ class DexpinvSeries:
         self, ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], cutoff: int | None = None
     ) -> None:
         self._ring, self._cutoff = ring, cutoff
-        self._rows = [sparse(ring, row) for row in A] + [sparse(ring, b)]
-        self._step = len(b)
-        self._powers: dict[tuple[int, int, Forest], Element] = {}
-        self._summands: dict[tuple[int, Forest], Element] = {}
-        self._exponentials: dict[tuple[int, Forest], Element] = {}
-        self._in_ring: dict[int, list[tuple[Element, int, int]]] = {}
+        # The arguments of the stages, and that of the step.
+        self._rows = ([sparse(ring, row) for row in A], [sparse(ring, b)])
+        self._stages = len(b)
+        self._powers: dict[tuple[int, int, Forest], list[Element]] = {}
+        self._summands: dict[Forest, list[Element]] = {}
+        self._exponentials: dict[tuple[int, Forest], list[Element]] = {}
+        self._in_sight: dict[tuple[int, int], list[tuple[Element, int, int]]] = {}
         self._inverse_factorials: list[Element] = []
 
     def __call__(self, forest: Forest) -> Element:
         """Return the value of the step on a forest."""
-        return self._exponential(self._step, forest)
+        return self._exponential(1, forest)[0]
 
     def stage(self, i: int, forest: Forest) -> Element:
         """Return the value on a forest of exp(u_i), which leads to stage i (counted from 0)."""
-        return self._exponential(i, forest)
+        return self._exponential(0, forest)[i]
 
     def argument(self, i: int, word: Forest) -> Element:
         """Return the coefficient of a word in u_i (0-based; i = s means the argument of the step)."""
-        return self._power(i, 1, word)
-
-    def _exponential(self, i: int, word: Forest) -> Element:
-        """Return the coefficient of ``word`` in exp(u_i)."""
         if not word:
-            return self._ring.one
-        if (i, word) not in self._exponentials:
-            result = self._ring.zero
-            for n in range(1, word.count(0) + 1):
-                power = self._power(i, n, word)
-                result = result + (power if n == 1 else power * self._inverse_factorial(n))
-            self._exponentials[i, word] = result
-        return self._exponentials[i, word]
+            return self._ring.zero
+        return self._power(1, 1, word)[0] if i == self._stages else self._power(0, 1, word)[i]
 
-    def _power(self, i: int, n: int, word: Forest) -> Element:
-        """Return the coefficient of ``word`` in u_i^n."""
-        if n == 0 or not word:
-            return self._ring.one if n == 0 and not word else self._ring.zero
-        if (i, n, word) not in self._powers:
-            result = self._ring.zero
+    def _exponential(self, step: int, word: Forest) -> list[Element]:
+        """Return the coefficient of ``word`` in every exp(u_i), or in that of the step."""
+        if not word:
+            return [self._ring.one] * len(self._rows[step])
+        found = self._exponentials.get((step, word))
+        if found is None:
+            found = self._power(step, 1, word)
+            for n in range(2, word.count(0) + 1):
+                q = self._inverse_factorial(n)
+                found = [x + y * q for x, y in zip(found, self._power(step, n, word), strict=True)]
+            self._exponentials[step, word] = found
+        return found
+
+    def _power(self, step: int, n: int, word: Forest) -> list[Element]:
+        """Return the coefficient of ``word``, of n letters at least, in every u_i^n, or in the step's."""
+        found = self._powers.get((step, n, word))
+        if found is None:
+            zero = self._ring.zero
             if n == 1:
-                for j, weight in self._rows[i]:
-                    result = result + weight * self._dexpinv(j, word)
+                summands = self._dexpinv(word)
+                found = [sum([weight * summands[j] for j, weight in row], zero) for row in self._rows[step]]
             else:
-                for cut in _cuts(word):
-                    head = self._power(i, 1, word[:cut])
-                    if self._ring.is_zero(head) is not True:
-                        result = result + head * self._power(i, n - 1, word[cut:])
-            self._powers[i, n, word] = result
-        return self._powers[i, n, word]
+                found = [zero] * len(self._rows[step])
+                cuts = _cuts(word)
+                for cut in cuts[: len(cuts) + 2 - n]:
+                    heads, tails = self._power(step, 1, word[:cut]), self._power(step, n - 1, word[cut:])
+                    found = [total + x * y for total, x, y in zip(found, heads, tails, strict=True)]
+            self._powers[step, n, word] = found
+        return found
 
-    def _dexpinv(self, j: int, word: Forest) -> Element:
-        """Return the coefficient of ``word`` in dexpinv_{(r),u_j} k_j."""
-        if (j, word) not in self._summands:
-            ring, result = self._ring, self._ring.zero
-            letters = word.count(0)
-            terms = self._terms(letters - 1 if self._cutoff is None else min(letters - 1, self._cutoff))
-            for place, (first, tree, rest) in enumerate(_pointed(word)):
-                before, behind = word[:first], word[rest:]
-                inner = ring.zero
-                for coefficient, m, n in terms:
-                    # ad_u^k x = sum comb(k, m) (-1)^m u^(k-m) x u^m, and u^m, rightmost, acts first. A word
-                    # is in u^m only if it has m letters at least, and the empty one in u^0 alone.
-                    if bool(m) is bool(place) and m <= place:
-                        behind_it = letters - 1 - place
-                        if bool(n) is bool(behind_it) and n <= behind_it:
-                            term = coefficient * self._power(j, m, before) if m else coefficient
-                            inner = inner + (term * self._power(j, n, behind) if n else term)
-                if ring.is_zero(inner) is not True:
-                    result = result + inner * self._exponential(j, branches(tree))
-            self._summands[j, word] = result
-        return self._summands[j, word]
+    def _dexpinv(self, word: Forest) -> list[Element]:
+        """Return the coefficient of ``word`` in every dexpinv_{(r),u_j} k_j."""
+        found = self._summands.get(word)
+        if found is None:
+            found = [self._ring.zero] * self._stages
+            pointed = _pointed(word)
+            for place, (first, tree, rest) in enumerate(pointed):
+                inner = self._around(place, word[:first], len(pointed) - 1 - place, word[rest:])
+                if inner is not None:
+                    values = self._exponential(0, branches(tree))
+                    found = [total + x * y for total, x, y in zip(found, inner, values, strict=True)]
+            self._summands[word] = found
+        return found
 
-    def _terms(self, longest: int) -> list[tuple[Element, int, int]]:
-        """Return :func:`dexpinv_terms` with coefficients in the ring."""
-        if longest not in self._in_ring:
-            self._in_ring[longest] = [
-                (self._ring.rational(q.numerator, q.denominator), m, n) for q, m, n in dexpinv_terms(longest)
+    def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
+        """Return what dexpinv makes of a letter k_j between two words of so many letters, None for zero."""
+        found = None
+        for q, m, n in self._present(before, behind):
+            if m and n:
+                around = zip(self._power(0, m, start), self._power(0, n, end), strict=True)
+                term = [q * x * y for x, y in around]
+            elif m or n:
+                term = [q * x for x in (self._power(0, m, start) if m else self._power(0, n, end))]
+            else:
+                term = [q] * self._stages
+            found = term if found is None else [x + y for x, y in zip(found, term, strict=True)]
+        return found
+
+    def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
+        """Return the terms u^n k u^m of dexpinv that see a letter between words of so many letters.
+
+        ad_u^k x = sum comb(k, m) (-1)^m u^(k-m) x u^m, and u^m, rightmost, acts first. A word is in u^m only
+        if it has m letters at least, and the empty one in u^0 alone.
+        """
+        found = self._in_sight.get((before, behind))
+        if found is None:
+            longest = before + behind
+            terms = dexpinv_terms(longest if self._cutoff is None else min(longest, self._cutoff))
+            found = self._in_sight[before, behind] = [
+                (self._ring.rational(q.numerator, q.denominator), m, n)
+                for q, m, n in terms
+                if m <= before and n <= behind and bool(m) is bool(before) and bool(n) is bool(behind)
             ]
-        return self._in_ring[longest]
+        return found
 
     def _inverse_factorial(self, n: int) -> Element:
         while len(self._inverse_factorials) <= n:

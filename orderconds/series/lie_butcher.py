@@ -11,7 +11,7 @@ IV.8).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
 from math import factorial
@@ -32,60 +32,14 @@ class ForestSeries(Protocol):
         """Return the value on a forest."""
 
 
-class WordCoefficients:
-    """Coefficients of words of trees in one product of exponentials, the first one acting first.
-
-    ``letter(J, tree)`` is the coefficient of a tree in the exponent of number J. For each word the partial
-    sums over the first exponentials are kept, so that one word more costs one sweep over the exponentials.
-
-    >>> from orderconds.ring import QQ
-    >>> twice = WordCoefficients(QQ, 2, lambda number, tree: QQ.one)
-    >>> str(twice(bytes((0, 0))))  # 1/2 + 1 + 1/2
-    '2'
-    """
-
-    def __init__(self, ring: Ring, exponentials: int, letter: Callable[[int, Tree], Element]) -> None:
-        self._ring, self._letter = ring, letter
-        self._prefixes: dict[Forest, tuple[Element, ...]] = {b"": (ring.one,) * (exponentials + 1)}
-        self._exponentials = exponentials
-        self._inverse_factorials: list[Element] = []
-
-    def __call__(self, word: Forest) -> Element:
-        """Return the coefficient of a word."""
-        return self._partial(word)[-1]
-
-    def _partial(self, word: Forest) -> tuple[Element, ...]:
-        """Return the coefficients of ``word`` in the products of the first 0, 1, ... exponentials."""
-        if word not in self._prefixes:
-            found = [self._ring.zero]
-            starts = [place for place, level in enumerate(word) if level == 0]
-            heads = [self._partial(word[:start]) for start in reversed(starts)]
-            letters = trees_of(word)[::-1]
-            is_zero, whole = self._ring.is_zero, len(letters)
-            while len(self._inverse_factorials) <= whole:
-                n = len(self._inverse_factorials)
-                self._inverse_factorials.append(self._ring.rational(1, factorial(n)))
-            for number in range(self._exponentials):
-                coefficient, run = found[-1], self._ring.one
-                # The last r letters of the word come from this exponential, the others from before it.
-                for r, (head, tree) in enumerate(zip(heads, letters, strict=True), start=1):
-                    letter = self._letter(number, tree)
-                    run = letter if r == 1 else run * letter
-                    if is_zero(run) is True:
-                        break
-                    share = run if r == whole else head[number] * run
-                    coefficient = coefficient + (share if r == 1 else share * self._inverse_factorials[r])
-                found.append(coefficient)
-            self._prefixes[word] = tuple(found)
-        return self._prefixes[word]
-
-
 class ExponentialsSeries:
     """The series of a commutator-free method: products of exponentials of combinations of stage values.
 
     ``stages[i]`` are the exponentials that lead from y0 to stage i, ``update`` those of the step, each a
     sparse row of coefficients over the stages; the first acts first. Stages may depend on each other in any
-    way (implicit).
+    way (implicit). Products that begin with the same rows, by identity of their coefficients, share them: all
+    products make one tree of places, and a word has one coefficient at each place, that in the exponentials
+    on the way there.
 
     >>> from orderconds.ring import QQ
     >>> one = ((0, QQ.one),)
@@ -98,35 +52,104 @@ class ExponentialsSeries:
         self, ring: Ring, stages: Sequence[Sequence[SparseRow]], update: Sequence[SparseRow]
     ) -> None:
         self._ring = ring
-        self._values: dict[Tree, tuple[Element, ...]] = {}
-        self._stages = [self._words(rows) for rows in stages]
-        self._update = self._words(update)
+        self._rows: list[SparseRow] = []
+        self._places: list[tuple[int, int, int]] = []
+        """Each place but the first: its number, that of the place before, and the row between them."""
+        known: dict[tuple[int, int], int] = {}
+        numbers: dict[tuple[tuple[int, int], ...], int] = {}
+
+        def end(rows: Sequence[SparseRow]) -> int:
+            place = 0
+            for row in rows:
+                key = tuple((j, id(x)) for j, x in row)
+                if key not in numbers:
+                    numbers[key] = len(self._rows)
+                    self._rows.append(row)
+                step = (place, numbers[key])
+                if step not in known:
+                    known[step] = len(self._places) + 1
+                    self._places.append((known[step], *step))
+                place = known[step]
+            return place
+
+        self._ends = [end(rows) for rows in stages]
+        self._end = end(update)
+        self._way = self._way_to(self._end)
+        self._words: dict[Forest, list[Element]] = {b"": [ring.one] * (len(self._places) + 1)}
+        self._updates: dict[Forest, Element] = {}
+        self._values: dict[Tree, list[Element]] = {}
+        self._letters: dict[Tree, list[Element | None]] = {}
+        self._inverse_factorials: list[Element] = [ring.one]
 
     def __call__(self, forest: Forest) -> Element:
         """Return the value of the step on a forest."""
-        return self._update(forest)
+        if forest in self._words:
+            return self._words[forest][self._end]
+        if forest not in self._updates:
+            self._updates[forest] = self._along(forest, self._way)[self._end]
+        return self._updates[forest]
 
     def stage(self, i: int, forest: Forest) -> Element:
         """Return the value on a forest of the product that leads to stage i (counted from 0)."""
-        return self._stages[i](forest)
+        return self._word(forest)[self._ends[i]]
 
-    def stage_values(self, tree: Tree) -> tuple[Element, ...]:
+    def stage_values(self, tree: Tree) -> list[Element]:
         """Return the coefficient of a tree in k_1, ..., k_s."""
-        if tree not in self._values:
-            word = branches(tree)
-            self._values[tree] = tuple(words(word) for words in self._stages)
-        return self._values[tree]
+        found = self._values.get(tree)
+        if found is None:
+            word = self._word(branches(tree))
+            found = self._values[tree] = [word[end] for end in self._ends]
+        return found
 
-    def _words(self, rows: Sequence[SparseRow]) -> WordCoefficients:
-        known: dict[tuple[int, Tree], Element] = {}
+    def _way_to(self, end: int) -> list[tuple[int, int, int]]:
+        way = []
+        while end:
+            way.append(self._places[end - 1])
+            end = way[-1][1]
+        return way[::-1]
 
-        def letter(number: int, tree: Tree) -> Element:
-            if (number, tree) not in known:
-                values = self.stage_values(tree)
-                known[number, tree] = sum((x * values[j] for j, x in rows[number]), self._ring.zero)
-            return known[number, tree]
+    def _word(self, word: Forest) -> list[Element]:
+        """Return the coefficients of a word at all places."""
+        found = self._words.get(word)
+        if found is None:
+            found = self._words[word] = self._along(word, self._places)
+        return found
 
-        return WordCoefficients(self._ring, len(rows), letter)
+    def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
+        """Return the coefficients of a word that is not empty, right at ``places``."""
+        starts = [place for place, level in enumerate(word) if level == 0]
+        whole = len(starts)
+        # The last r letters of the word come from the last exponential, the others from before it.
+        heads = [self._word(word[:start]) for start in starts[:0:-1]]
+        letters = [self._letter(tree) for tree in trees_of(word)[::-1]]
+        factorials = [self._inverse_factorial(r) for r in range(whole + 1)]
+        found = [self._ring.zero] * (len(self._places) + 1)
+        for place, before, row in places:
+            coefficient, run = found[before], None
+            for r, letter in enumerate(letters, start=1):
+                number = letter[row]
+                if number is None:
+                    break
+                run = number if r == 1 else run * number
+                share = run if r == whole else heads[r - 1][before] * run
+                coefficient = coefficient + (share if r == 1 else share * factorials[r])
+            found[place] = coefficient
+        return found
+
+    def _letter(self, tree: Tree) -> list[Element | None]:
+        """Return the coefficient of a tree in the exponent of each row, None for zero."""
+        found = self._letters.get(tree)
+        if found is None:
+            values, zero = self.stage_values(tree), self._ring.zero
+            sums = [sum([x * values[j] for j, x in row], zero) for row in self._rows]
+            found = [None if self._ring.is_zero(x) is True else x for x in sums]
+            self._letters[tree] = found
+        return found
+
+    def _inverse_factorial(self, n: int) -> Element:
+        while len(self._inverse_factorials) <= n:
+            self._inverse_factorials.append(self._ring.rational(1, factorial(len(self._inverse_factorials))))
+        return self._inverse_factorials[n]
 
 
 @lru_cache(maxsize=1 << 16)
