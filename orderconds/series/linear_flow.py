@@ -44,22 +44,20 @@ def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = 
         return lambda word: ring.zero
     if len(exponents) == 1:
         return exponents[0]
-    forward, backward = TRANSFORMS[transform]
+    forward, backward = (_in_ring(ring, series) for series in TRANSFORMS[transform])
     step = _one_plus(ring, exponents[0], forward)
     for exponent in exponents[1:]:
         step = _product(ring, step, _one_plus(ring, exponent, forward))
-    return cache(lambda word: power_series(step, word, _in_ring(ring, backward, len(word)), ring.zero))
+    return cache(lambda word: power_series(step, word, backward(len(word)), ring.zero))
 
 
-def _one_plus(ring: Ring, f: Values, series: Scales) -> Values:
-    return cache(
-        lambda word: power_series(f, word, _in_ring(ring, series, len(word)), ring.zero) if word else ring.one
-    )
+def _one_plus(ring: Ring, f: Values, scales: Callable[[int], Sequence[Element]]) -> Values:
+    return cache(lambda word: power_series(f, word, scales(len(word)), ring.zero) if word else ring.one)
 
 
 def _product(ring: Ring, f: Values, g: Values) -> Values:
     return cache(lambda word: convolution(f, g, word, ring.zero))
 
 
-def _in_ring(ring: Ring, series: Scales, n: int) -> tuple[Element, ...]:
-    return tuple(ring.rational(q.numerator, q.denominator) for q in series(n))
+def _in_ring(ring: Ring, series: Scales) -> Callable[[int], Sequence[Element]]:
+    return cache(lambda n: tuple(ring.rational(q.numerator, q.denominator) for q in series(n)))

@@ -71,6 +71,7 @@ def symmetry(tree: DirectedTree) -> int:
     return prod(factorial(times) * symmetry(child) ** times for (_, child), times in repeated.items())
 
 
+@lru_cache(maxsize=1 << 16)
 def text(tree: DirectedTree) -> str:
     r"""Write a tree in brackets, ``^`` before each subtree that hangs from an ahat-edge.
 
@@ -110,11 +111,7 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
     """
     # A free tree has either one centroid, where no branch has half of the vertices, or two, joined by an edge
     # that leads from one half to the other.
-    central = [
-        tree
-        for tree in directed_rooted_trees(vertices)
-        if all(2 * len(child) < vertices for _, child in branches(tree))
-    ]
+    central = [joined(below) for below in _multisets_in_turn(vertices - 1, (vertices - 1) // 2)]
     if vertices % 2 == 0:
         halves = directed_rooted_trees(vertices // 2)
         central += [joined([*branches(first), (0, second)]) for first, second in product(halves, halves)]
@@ -130,7 +127,7 @@ def representative(tree: DirectedTree) -> DirectedTree:
     >>> text(representative(bytes((0, 3, 5))))
     '[[.]]'
     """
-    return min(rootings(tree), key=lambda rooting: (_simplicity(rooting), rooting))
+    return min(_rooted_at(tree, place) for place in _simplest_roots(tree))
 
 
 def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
@@ -156,6 +153,52 @@ def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, Dire
     for place, (kind, child) in enumerate(below):
         rest = joined([*below[:place], *below[place + 1 :]])
         yield rest, child, joined([*branches(child), (1 - kind, rest)])
+
+
+def _simplest_roots(tree: DirectedTree) -> list[int]:
+    """Return the vertices, by their places in preorder, where the tree is rooted most simply."""
+    edges, last, hats, below = len(tree) - 1, [0] * len(tree), [0] * len(tree), [0] * len(tree)
+    parents, above = [0] * len(tree), [0] * len(tree)
+    hats[0] = sum(level & 1 for level in tree[1:])
+    for place in range(1, len(tree)):
+        level, kind = tree[place] >> 1, tree[place] & 1
+        parents[place] = last[level - 1]
+        last[level] = place
+        hats[place] = hats[parents[place]] + 1 - 2 * kind  # the root moves across this edge
+    rare = [min(n, edges - n) for n in hats]
+    least = min(rare)
+    places = [place for place, n in enumerate(rare) if n == least]
+    if len(places) == 1:
+        return places
+    for place in range(edges, 0, -1):
+        below[parents[place]] = max(below[parents[place]], below[place] + 1)
+    heights = below[:]
+    for place in range(1, len(tree)):
+        up = parents[place]
+        beside = [below[n] + 1 for n in range(1, len(tree)) if parents[n] == up and n != place]
+        # What lies above a vertex: beyond its parent, or in the branches beside it.
+        beyond = max([*beside, 0 if up == 0 else above[up]])
+        above[place] = beyond + 1
+        heights[place] = max(below[place], above[place])
+    simplest = min([(heights[place], hats[place]) for place in places])
+    return [place for place in places if (heights[place], hats[place]) == simplest]
+
+
+def _rooted_at(tree: DirectedTree, place: int) -> DirectedTree:
+    """Return the tree rooted at the vertex that stands there in preorder, in canonical order."""
+    behind: list[Branch] = []
+    while place:
+        start = 1
+        for branch in branches(tree):
+            if start <= place < start + len(branch[1]):
+                break
+            start += len(branch[1])
+        kind, child = branch
+        below = [*branches(tree), *behind]
+        below.remove(branch)
+        behind = [(1 - kind, joined(below))]
+        tree, place = child, place - start
+    return joined([*branches(tree), *behind])
 
 
 def _rootings_beyond(tree: DirectedTree, behind: Branch) -> Iterator[DirectedTree]:

@@ -66,15 +66,7 @@ def density(forest: Forest) -> int:
     >>> density(b"\0\1\2\1")
     8
     """
-    result = 1
-    # A subtree ends where the level next falls to that of its root or below; read from the right.
-    behind: list[int] = []
-    for place in range(len(forest) - 1, -1, -1):
-        while behind and forest[behind[-1]] > forest[place]:
-            behind.pop()
-        result *= (behind[-1] if behind else len(forest)) - place
-        behind.append(place)
-    return result
+    return prod([_density(tree) for tree in trees_of(forest)])
 
 
 def symmetry(tree: Tree) -> int:
@@ -138,6 +130,12 @@ def parse(written: str) -> Forest:
     return bytes(levels)
 
 
+@lru_cache(maxsize=1 << 16)
+def _density(tree: Tree) -> int:
+    return len(tree) * prod([_density(child) for child in children(tree)])
+
+
+@lru_cache(maxsize=1 << 16)
 def _bracket(tree: Tree) -> str:
     below = children(tree)
     return f"[{''.join(_bracket(child) for child in below)}]" if below else "."

@@ -40,15 +40,24 @@ def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Eleme
     """
     n = len(word)
     # powers[end] is the value of f^m at the first ``end`` letters.
-    first = powers = [zero, *(f(word[:end]) for end in range(1, n + 1))]
+    powers = [zero, *(f(word[:end]) for end in range(1, n + 1))]
     result = powers[n] * scales[0]
-    tails = {(start, end): f(word[start:end]) for start in range(1, n) for end in range(start + 1, n + 1)}
+    # Most values of most series are the zero of the ring.
+    tails = [
+        [(start, x) for start in range(1, end) if (x := f(word[start:end])) is not zero]
+        for end in range(n + 1)
+    ]
     for m in range(2, n + 1):
-        powers = [
-            sum((powers[cut] * tails[cut, end] for cut in range(m - 1, end)), zero) for end in range(n + 1)
-        ]
-        result = result + powers[n] * scales[m - 1]
-    return result if n > 1 else first[1] * scales[0]
+        shorter, powers = powers, [zero] * (n + 1)
+        for end in range(m, n + 1):
+            total = zero
+            for start, x in tails[end]:
+                if start >= m - 1 and (y := shorter[start]) is not zero:
+                    total = total + y * x
+            powers[end] = total
+        if powers[n] is not zero:
+            result = result + powers[n] * scales[m - 1]
+    return result
 
 
 def exponential_scales(n: int) -> tuple[Fraction, ...]:
