@@ -15,6 +15,7 @@ from orderconds.formula import (
     named,
     one,
     product,
+    refreshed,
     total,
     zero,
 )
@@ -123,3 +124,26 @@ def test_derived_coefficients_are_those_of_the_symplectic_partner():
     assert index_sum(("x",), (), product(b("x"), coefficient("chat", "x"))).evaluate(
         QQ, A, weights
     ) == left.evaluate(QQ, A, weights)
+
+
+def test_terms_are_collected_when_bound_names_alone_differ():
+    def pair(i, j, first, second):
+        return index_sum((i, j), ((i, "<", j),), product(coefficient("b", first), coefficient("c", second)))
+
+    one_way, same, other = pair("i", "j", "i", "j"), pair("k", "l", "k", "l"), pair("i", "j", "j", "i")
+    assert total((1, one_way), (2, same)) == total((3, one_way))
+    assert len(total((1, one_way), (1, other)).terms) == 2
+    exponentials = index_sum(("J",), (), coefficient("b", "J"))
+    assert len(total((1, exponentials), (1, index_sum(("j",), (), coefficient("b", "j")))).terms) == 2
+    assert len(total((1, coefficient("b", "i")), (1, coefficient("b", "j"))).terms) == 2
+
+
+def test_a_refreshed_formula_has_names_of_its_own():
+    i = fresh()
+    inner = index_sum((i,), (), product(coefficient("a", "row", i), coefficient("c", i)))
+    once, twice = refreshed(inner, {"row": "k"}), refreshed(inner, {"row": "k"})
+    assert named(once) == named(twice)
+    assert once.indices != twice.indices
+    assert free_indices(once) == ("k",)
+    joined = index_sum(("k",), (), product(once, coefficient("b", "k"), refreshed(inner, {"row": "k"})))
+    assert named(joined).text() == "sum_i (sum_j a_ij c_j)^2 b_i"

@@ -5,6 +5,7 @@ from flint import fmpq
 from orderconds.ring import QQ
 from orderconds.series import action_exact
 from orderconds.series.action import CommutatorFreeSeries, crouch_grossman_rows
+from orderconds.series.action_counts import class_count
 from orderconds.series.action_enumeration import velocities
 from orderconds.series.action_switching import representatives, switched
 
@@ -27,5 +28,6 @@ def test_switching_is_symmetric():
 
 def test_representatives_are_simplest_of_their_classes_and_few():
     assert [len(representatives(n)) for n in range(1, 7)] == [1, 2, 10, 58, 398, 2946]
+    assert [class_count(n) for n in range(1, 7)] == [len(representatives(n)) for n in range(1, 7)]
     for n in range(1, 5):
         assert all(tree.key <= other.key for tree in representatives(n) for other in switched(tree))

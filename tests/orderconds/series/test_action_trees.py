@@ -1,7 +1,13 @@
 """The trees of the action series: counts against generating functions, canonical text, symmetry."""
 
 from orderconds.series.action_counts import tree_counts
-from orderconds.series.action_enumeration import momenta, multisets, velocities, words
+from orderconds.series.action_enumeration import (
+    momenta,
+    multisets,
+    velocities,
+    velocities_in_turn,
+    words,
+)
 from orderconds.series.action_trees import force, hamiltonian, multiset, transport, velocity
 
 LEAF = velocity()
@@ -51,3 +57,16 @@ def test_elementary_hamiltonian_names_derivatives_in_the_order_of_action():
 
 def test_multisets_are_made_in_canonical_order():
     assert all(chosen == multiset(chosen) for n in range(6) for chosen in multisets(n))
+
+
+def test_trees_in_turn_are_all_trees_in_the_same_order():
+    for n in range(1, 6):
+        assert tuple(velocities_in_turn(n)) == velocities(n)
+        assert list(velocities(n)) == sorted(velocities(n), key=lambda tree: tree.key)
+
+
+def test_the_cost_of_a_tree_bounds_that_of_its_parts():
+    # What an enumeration up to a limit rests on.
+    for tree in velocities(5):
+        assert all(p.cost <= tree.cost for p in tree.momenta)
+        assert all(t.nesting == (2 + 2 * t.cost if t.vertices > 1 else 0) <= tree.cost for t in tree.word)

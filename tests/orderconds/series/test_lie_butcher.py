@@ -9,7 +9,7 @@ from orderconds.ring import QQ, PowerSeries
 from orderconds.ring.polynomials import Polynomials
 from orderconds.series.characters import ORDERED, Character
 from orderconds.series.dexpinv import DexpinvSeries, bernoulli
-from orderconds.series.lie_butcher import exact_value, forest_residuals, forest_values
+from orderconds.series.lie_butcher import ExponentialsSeries, exact_value, forest_residuals, forest_values
 from orderconds.series.modified import modified_field
 from orderconds.tableau import RungeKutta
 from orderconds.trees.levels import parse, text, trees_of
@@ -101,6 +101,20 @@ def test_commutator_free_methods_with_one_stage_an_exponential_are_crouch_grossm
     one, other = families.get("cg").series(method, QQ), families.get("cf").series(read, QQ)
     for n in range(1, 6):
         assert forest_values(one, n) == forest_values(other, n)
+
+
+def test_products_that_begin_alike_have_the_same_values_as_if_they_did_not(random_tableau):
+    A, b = random_tableau(3).A, random_tableau(3).b
+    # Composed midpoints: each stage begins as the update does.
+    shared = [[((j, b[j]),) for j in range(i)] + [((i, A[i][i]),)] for i in range(3)]
+    apart = [[((j, x + QQ.zero),) for ((j, x),) in rows] for rows in shared]
+    update = [((j, b[j]),) for j in range(3)]
+    one, other = ExponentialsSeries(QQ, shared, update), ExponentialsSeries(QQ, apart, update)
+    assert len(one._places) < len(other._places)
+    for n in range(1, 5):
+        assert forest_values(one, n) == forest_values(other, n)
+        for forest in ordered_forests(n):
+            assert [one.stage(i, forest) for i in range(3)] == [other.stage(i, forest) for i in range(3)]
 
 
 def test_arguments_of_munthe_kaas_steps_are_lie_series(random_tableau):

@@ -106,6 +106,16 @@ def test_each_rooted_directed_tree_belongs_to_one_listed_free_tree(vertices):
         assert tree in classes[representative(tree)]
 
 
+@pytest.mark.parametrize("vertices", range(1, 7))
+def test_a_representative_is_the_simplest_of_all_rootings(vertices):
+    def simplicity(tree):
+        hats = sum(level % 2 for level in tree[1:])
+        return min(hats, vertices - 1 - hats), max(tree) // 2, hats, tree
+
+    for tree in directed_rooted_trees(vertices):
+        assert representative(tree) == min(rootings(tree), key=simplicity)
+
+
 def test_branches_in_any_order_join_to_the_same_tree():
     below = [(0, b"\0\2"), (1, b"\0"), (1, b"\0\3\2")]
     assert len({joined(list(order)) for order in permutations(below)}) == 1
