@@ -109,6 +109,8 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
     >>> [text(tree) for tree in directed_free_trees(3)]
     ['[..]', '[^.^.]', '[[.]]']
     """
+    if vertices < 1:
+        return ()
     # A free tree has either one centroid, where no branch has half of the vertices, or two, joined by an edge
     # that leads from one half to the other.
     central = [joined(below) for below in _multisets_in_turn(vertices - 1, (vertices - 1) // 2)]
