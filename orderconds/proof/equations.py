@@ -31,14 +31,16 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 from orderconds import families
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError, TableauError
+from orderconds.families import Family
 from orderconds.proof.krawczyk import NotProved
 from orderconds.proof.simplifying import simplifying, simplifying_order
-from orderconds.ring.jets import Jet, Jets
+from orderconds.ring.jets import Jet
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau import Composition, Magnus, Tableau
 from orderconds.tableau.evaluate import evaluate, rounded_and_exact
@@ -84,13 +86,21 @@ class Equations:
                 where=f"{self.tableau.path or self.tableau.name}: proof",
                 expected=f"a family that reads format {self.tableau.family}",
             )
+        return list(families.residuals(family, read, ring, self._conditions(family)))
+
+    def _conditions(self, family: Family) -> tuple[OrderCondition, ...]:
         if self.kept is not None:
-            return list(families.residuals(family, read, ring, self.kept))
-        step = 2 if self.proof.reduction == "symmetric" else 1
-        conditions = [c for n in range(1, self.proof.order + 1, step) for c in family.conditions(n)]
-        if self.letters is not None:
-            conditions = [c for c in conditions if max(c.key) <= self.letters]
-        return list(families.residuals(family, read, ring, conditions))
+            return self.kept
+        return _up_to(
+            family.label(), self.proof.order, 2 if self.proof.reduction == "symmetric" else 1, self.letters
+        )
+
+
+@lru_cache(maxsize=8)
+def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[OrderCondition, ...]:
+    family = families.get(label)
+    conditions = [c for n in range(1, order + 1, step) for c in family.conditions(n)]
+    return tuple(c for c in conditions if letters is None or max(c.key) <= letters)
 
 
 def equations(tableau: Tableau) -> Equations:
@@ -195,21 +205,21 @@ def _reached(proof: Proof, order: int) -> int:
     return proof.order
 
 
-def independent(system: Equations, box: Sequence[Jet], ring: Jets) -> list[int]:
+def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
     """Return the places of the equations that are not satisfied identically, whatever the unknowns are.
 
     Those that a box cannot tell from constants are evaluated as polynomials in the unknowns; one that is
-    the zero polynomial is left out. ``box`` are jets of the unknowns.
+    the zero polynomial is left out. ``values`` are those over the box, as jets.
 
     >>> from flint import arb
+    >>> from orderconds.ring.jets import Jets
     >>> from orderconds.tableau import find
     >>> system = equations(Tableau.load(find("cg4a")))
     >>> ring = Jets(len(system.proof.unknowns))
     >>> decimals = [arb(str(float(u.constant.value))) for u in system.proof.unknowns]
-    >>> len(independent(system, [ring.variable(i, x) for i, x in enumerate(decimals)], ring))
+    >>> len(independent(system, system([ring.variable(i, x) for i, x in enumerate(decimals)], ring)))
     13
     """
-    values = system(box, ring)
     flat = [i for i, f in enumerate(values) if f.value.contains(0) and all(g.contains(0) for g in f.gradient)]
     if not flat:
         return list(range(len(values)))

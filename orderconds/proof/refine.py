@@ -59,7 +59,7 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
         system = equations(tableau)
         # Constants of the equations show on a box, not at a point.
         wide = [ring.variable(i, x + arb(0, 1e-6)) for i, x in enumerate(start)]
-        kept = independent(system, wide, ring)
+        kept = independent(system, system(wide, ring))
         values = system(at, ring)
         free = determined([[values[i].gradient[j] for j in range(len(start))] for i in kept])
         solved = _newton(tableau, kept, free, start, digits)

@@ -15,7 +15,7 @@ from math import comb, factorial
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.action import ActionSeries, Exponential, Stages
 from orderconds.series.action_trees import Velocity, Word
-from orderconds.series.b_series import sparse
+from orderconds.series.b_series import Sums, sparse
 from orderconds.series.dexpinv import dexpinv_terms
 
 Terms = tuple[tuple[Fraction, int, int], ...]
@@ -47,6 +47,7 @@ class MuntheKaasActionSeries(ActionSeries):
         self._cutoff = cutoff
         # The arguments of the stages, and that of the update.
         self._rows: tuple[list[Exponential], ...] = ([sparse(ring, row) for row in A], [sparse(ring, b)])
+        self._sums = tuple(Sums(rows, ring.zero) for rows in self._rows)
         self._powers: dict[tuple[int, int, Word], Stages] = {}
         self._varied_powers: dict[tuple[int, int, Letters], list[Varied]] = {}
         self._summands: dict[Word, Stages] = {}
@@ -101,8 +102,7 @@ class MuntheKaasActionSeries(ActionSeries):
         found = self._powers.get((update, n, word))
         if found is None:
             if n == 1:
-                summands, zero = self._summand(word), self.ring.zero
-                found = [sum((a * summands[j] for j, a in row), zero) for row in self._rows[update]]
+                found = self._sums[update](self._summand(word))
             else:
                 found = [self.ring.zero] * len(self._rows[update])
                 for cut in range(1, len(word) - n + 2):

@@ -152,18 +152,30 @@ def _inside(letters: str, momenta: Momenta) -> str:
 
 
 def mixing(word: Word) -> int:
-    """Words of one repeated letter are powers of a sum; any other needs sums over ordered indices."""
+    """Return the cost of different letters: one repeated is a power of a sum, others need ordered sums.
+
+    >>> mixing((velocity(), velocity())), mixing((velocity(), velocity((velocity(),))))
+    (0, 5)
+    """
     return 0 if len(word) < 2 or len(set(word)) == 1 else 5 * (len(word) - 1)
 
 
 def force_cost(before: Word, after: Word) -> int:
-    """Return the cost of H(u * v), to which its momenta add theirs."""
+    """Return the cost of H(u * v), to which its momenta add theirs.
+
+    >>> force_cost((), ()), force_cost((velocity(),), ())
+    (3, 9)
+    """
     letters = before + after
     return 3 + sum([letter.nesting for letter in letters]) + 6 * len(letters)
 
 
 def transport_cost(word: Word) -> int:
-    """Return the cost of L(w)."""
+    """Return the cost of L(w).
+
+    >>> transport_cost((velocity(), velocity()))
+    10
+    """
     return 4 + sum([letter.nesting for letter in word]) + 6 * (len(word) - 1)
 
 
@@ -174,13 +186,21 @@ def _symmetry(word: Word, momenta: Momenta) -> int:
 
 @cache
 def canonical_velocity(word: Word, momenta: Momenta) -> Velocity:
-    """Return (w, M) for an M in canonical order."""
+    """Return (w, M) for an M in canonical order.
+
+    >>> canonical_velocity((), (force(), transport((velocity(),))))
+    o(|f(*) L(o))
+    """
     return Velocity(word, momenta)
 
 
 @cache
 def canonical_force(before: Word, after: Word, momenta: Momenta) -> Force:
-    """Return H(u * v | M) for an M in canonical order."""
+    """Return H(u * v | M) for an M in canonical order.
+
+    >>> canonical_force((velocity(),), (), ())
+    f(o *)
+    """
     return Force(before, after, momenta)
 
 

@@ -15,7 +15,7 @@ from itertools import pairwise
 from math import comb, factorial
 
 from orderconds.ring.protocol import Element, Ring
-from orderconds.series.b_series import sparse
+from orderconds.series.b_series import Sums, sparse
 from orderconds.trees.levels import Forest, Tree, branches
 
 
@@ -36,7 +36,7 @@ class DexpinvSeries:
     ) -> None:
         self._ring, self._cutoff = ring, cutoff
         # The arguments of the stages, and that of the step.
-        self._rows = ([sparse(ring, row) for row in A], [sparse(ring, b)])
+        self._rows = (Sums([sparse(ring, row) for row in A], ring.zero), Sums([sparse(ring, b)], ring.zero))
         self._stages = len(b)
         self._powers: dict[tuple[int, int, Forest], list[Element]] = {}
         self._summands: dict[Forest, list[Element]] = {}
@@ -75,12 +75,10 @@ class DexpinvSeries:
         """Return the coefficient of ``word``, of n letters at least, in every u_i^n, or in the step's."""
         found = self._powers.get((step, n, word))
         if found is None:
-            zero = self._ring.zero
             if n == 1:
-                summands = self._dexpinv(word)
-                found = [sum([weight * summands[j] for j, weight in row], zero) for row in self._rows[step]]
+                found = self._rows[step](self._dexpinv(word))
             else:
-                found = [zero] * len(self._rows[step])
+                found = [self._ring.zero] * len(self._rows[step])
                 cuts = _cuts(word)
                 for cut in cuts[: len(cuts) + 2 - n]:
                     heads, tails = self._power(step, 1, word[:cut]), self._power(step, n - 1, word[cut:])

@@ -30,6 +30,7 @@ class ProductOfExponentials:
 
     def __init__(self, ring: Ring, count: int, letter: Callable[[int, int], Element | None]) -> None:
         self._ring, self._count, self._letter = ring, count, letter
+        self._known: dict[int, list[Element | None]] = {}
         self._inverse_factorials: list[Element] = []
         self._partial: dict[Word, list[Element]] = {(): [ring.one] * (count + 1)}
 
@@ -39,22 +40,35 @@ class ProductOfExponentials:
 
     def _sweep(self, word: Word) -> list[Element]:
         """Return the coefficients of ``word`` in the products of the first 0, 1, ... exponentials."""
-        if word not in self._partial:
+        found = self._partial.get(word)
+        if found is None:
+            whole = len(word)
+            heads = [self._sweep(word[:end]) for end in range(whole - 1, -1, -1)]
+            letters = [self._letters(k) for k in word[::-1]]
+            factorials = [self._inverse_factorial(r) for r in range(whole + 1)]
             found = [self._ring.zero]
-            heads = [self._sweep(word[:end]) for end in range(len(word))]
-            while len(self._inverse_factorials) <= len(word):
-                n = len(self._inverse_factorials)
-                self._inverse_factorials.append(self._ring.rational(1, factorial(n)))
             for J in range(self._count):
-                value, run = found[-1], self._ring.one
+                value, run = found[-1], None
                 # The last r letters come from this exponential, those before from earlier ones.
-                for r in range(1, len(word) + 1):
-                    x = self._letter(J, word[-r])
+                for r, letter in enumerate(letters, start=1):
+                    x = letter[J]
                     if x is None:
                         break
                     run = x if r == 1 else run * x
-                    share = run if r == len(word) else heads[-r][J] * run
-                    value = value + (share if r == 1 else share * self._inverse_factorials[r])
+                    share = run if r == whole else heads[r - 1][J] * run
+                    value = value + (share if r == 1 else share * factorials[r])
                 found.append(value)
             self._partial[word] = found
-        return self._partial[word]
+        return found
+
+    def _letters(self, k: int) -> list[Element | None]:
+        """Return the coefficients of a letter in all exponents."""
+        found = self._known.get(k)
+        if found is None:
+            found = self._known[k] = [self._letter(J, k) for J in range(self._count)]
+        return found
+
+    def _inverse_factorial(self, n: int) -> Element:
+        while len(self._inverse_factorials) <= n:
+            self._inverse_factorials.append(self._ring.rational(1, factorial(len(self._inverse_factorials))))
+        return self._inverse_factorials[n]

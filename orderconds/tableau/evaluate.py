@@ -147,9 +147,10 @@ class _Evaluation:
             self.value(Name(name))
 
     def value(self, x: Expression) -> Element:
-        if x not in self.known:
-            self.known[x] = self.bounded(self.compute(x))
-        return self.known[x]
+        found = self.known.get(x)
+        if found is None:
+            found = self.known[x] = self.bounded(self.compute(x))
+        return found
 
     def bounded(self, value: Element) -> Element:
         if self.scalars.size(value) > MAX_SIZE:

@@ -35,20 +35,20 @@ _TOKEN = re.compile(
 )
 
 
-class Constant(Struct, frozen=True):
+class Constant(Struct, frozen=True, cache_hash=True):
     """A rational number; with ``unit`` positive, a ball of that radius around it."""
 
     value: Fraction
     unit: Fraction = Fraction(0)
 
 
-class Name(Struct, frozen=True):
+class Name(Struct, frozen=True, cache_hash=True):
     """A name defined under ``numbers``."""
 
     name: str
 
 
-class Chain(Struct, frozen=True):
+class Chain(Struct, frozen=True, cache_hash=True):
     """``operands`` joined from left to right by ``operators``, one fewer; all of ``+ -`` or all of ``* /``.
 
     Flat, so that the depth of an expression is that of its parentheses.
@@ -58,7 +58,7 @@ class Chain(Struct, frozen=True):
     operands: tuple[Expression, ...]
 
 
-class Power(Struct, frozen=True):
+class Power(Struct, frozen=True, cache_hash=True):
     """``base^exponent`` with a rational exponent; sqrt(x) is x^(1/2)."""
 
     base: Expression
