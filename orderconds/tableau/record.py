@@ -24,7 +24,8 @@ from orderconds.tableau.products import AdjointComposition, Method
 from orderconds.tableau.unknowns import Proof, Spelled
 
 
-class OrderClaim(Struct, frozen=True):
+@dataclass(frozen=True)
+class OrderClaim:
     """The claim that ``family`` (with ``cutoff``, where it takes one) has exactly this order."""
 
     family: str
