@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from flint import fmpq_poly
+
 from orderconds.ring.protocol import Element, Ring
+from orderconds.series.nodal import NodalAlgebra, nodal_algebra
 from orderconds.tableau.methods import RungeKutta
 from orderconds.tableau.properties import symplectic
 
@@ -65,9 +68,29 @@ def simplified_order(method: RungeKutta, ring: Ring, order: int) -> int:
     """
     if symplectic(method, ring) is True:
         return order
+    algebra = nodal_algebra(ring, (method.A,), method.b)
+
+    def holds(m: int) -> bool:
+        if algebra is not None:
+            return _simplifies(algebra, m)
+        return all(ring.is_zero(x) is True for x in simplifying(method, ring, {"C": m, "D": m}))
+
     m = 0
-    while 2 * (m + 1) <= order and all(
-        ring.is_zero(x) is True for x in simplifying(method, ring, {"C": m + 1, "D": m + 1})
-    ):
+    while 2 * (m + 1) <= order and holds(m + 1):
         m += 1
     return min(order, 2 * m + 1)
+
+
+def _simplifies(algebra: NodalAlgebra, m: int) -> bool:
+    """Say whether C(m) and D(m) hold, over Q: for polynomials in the nodes, which are all vectors."""
+    stages = range(int(algebra.modulus.degree()))
+    powers = [fmpq_poly([0] * k + [1]) % algebra.modulus for k in range(max(m + 1, len(stages)))]
+    for k in range(1, m + 1):
+        if algebra.apply(0, powers[k - 1]) != powers[k] / k:
+            return False
+        rest = (1 - powers[k]) / k
+        for p in powers[: len(stages)]:
+            left = algebra.weigh(algebra.multiply(powers[k - 1], algebra.apply(0, p)))
+            if left != algebra.weigh(algebra.multiply(rest, p)):
+                return False
+    return True

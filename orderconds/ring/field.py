@@ -326,7 +326,10 @@ class Algebraic:
     def __truediv__(self, other: Any) -> Algebraic:
         if (pair := self._pair(other)) is None:
             return NotImplemented
-        return pair[0] * pair[1].reciprocal()
+        x, y = pair
+        if y.polynomial.degree() == 0:
+            return Algebraic(x.field, x.polynomial / y.polynomial[0])
+        return x * y.reciprocal()
 
     def __rtruediv__(self, other: Any) -> Algebraic:
         return self.reciprocal().__mul__(other)

@@ -78,6 +78,20 @@ class NodalAlgebra:
             total = total + correction * x[k]
         return total
 
+    def rational_maps(self) -> tuple[list[list[fmpq]], list[list[fmpq]]]:
+        """Return the rational matrices of A - 1 b^T and of A, the first one, on polynomials in the nodes.
+
+        >>> from orderconds.tableau import Tableau, find
+        >>> gauss2 = Tableau.load(find("gauss2"))
+        >>> nodal_algebra(gauss2.ring, (gauss2.method.A,), gauss2.method.b).rational_maps()[1]
+        [[0, -1/12], [1, 1/2]]
+        """
+        stages = range(int(self.modulus.degree()))
+        basis = [fmpq_poly([0] * k + [1]) for k in stages]
+        images, moments = [self.apply(0, p) for p in basis], [self.weigh(p) for p in basis]
+        A = [[image[i] for image in images] for i in stages]
+        return [[x - m for x, m in zip(A[0], moments, strict=True)], *A[1:]], A
+
 
 def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) -> NodalAlgebra | None:
     """Return the algebra of the nodes c_i = sum_j a_ij of the first matrix, None where it is not rational.
