@@ -31,23 +31,37 @@ class Entry:
 
 
 def entries(path: Path = LIST) -> list[Entry]:
-    """Return the list; an InputError names the entry that cannot be read."""
+    """Return the list; an InputError names the entry that cannot be read.
+
+    A file without modules is no list: by it everything that stands in ``generated/`` would be stale.
+    """
     try:
-        modules = tomllib.loads(path.read_text(encoding="utf-8")).get("module", [])
+        data = tomllib.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
         raise InputError("no such file", where=str(path), expected="a list of modules") from None
-    except tomllib.TOMLDecodeError as error:
+    except ValueError as error:  # TOML that is wrong, or bytes that are no text
         raise InputError(f"this is not TOML: {error}", where=str(path)) from None
-    found = []
-    for number, module in enumerate(modules):
-        if not isinstance(module, dict) or sorted(module) != sorted(KEYS):
-            raise InputError(
-                f"module {number + 1} has the keys {', '.join(sorted(module))}",
-                where=str(path),
-                expected=", ".join(KEYS),
-            )
-        found.append(Entry(module["scene"], module["method"], tuple(module["targets"])))
-    return found
+    modules = data.get("module", [])
+    if set(data) != {"module"} or not isinstance(modules, list) or not modules:
+        keys = ", ".join(data) or "none"
+        raise InputError(
+            f"no list of modules; its keys are: {keys}", where=str(path), expected="tables [[module]] alone"
+        )
+    return [_entry(module, f"{path}: module {number}") for number, module in enumerate(modules, start=1)]
+
+
+def _entry(module: Any, where: str) -> Entry:
+    """Return one entry of the list."""
+    if not isinstance(module, dict) or sorted(module) != sorted(KEYS):
+        keys = ", ".join(sorted(module)) if isinstance(module, dict) else repr(module)
+        raise InputError(f"the keys {keys}", where=where, expected=", ".join(KEYS))
+    scene, method, targets = (module[key] for key in KEYS)
+    texts = [scene, method, *(targets if isinstance(targets, list) else [None])]
+    if not all(isinstance(text, str) for text in texts):
+        raise InputError(
+            f"{scene!r}, {method!r}, {targets!r}", where=where, expected="two strings and a list of strings"
+        )
+    return Entry(scene, method, tuple(targets))
 
 
 def contents(listed: list[Entry]) -> dict[str, str]:

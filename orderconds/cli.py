@@ -165,17 +165,25 @@ def _offered() -> Iterable[EntryPoint]:
 
 
 def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[str]) -> None:
-    """Raise a UsageError for an option of one value that is given twice, of which click takes the last."""
+    """Raise a UsageError for an option of one value that is given twice, of which click takes the last.
+
+    Flags that set the same value are one option, as ``--quick`` and ``--full``.
+    """
     try:
         _, _, met = command.make_parser(ctx).parse_args(list(args))
     except click.UsageError:
         return  # click meets it again, and says so
-    given: set[click.Parameter] = set()
+    given: dict[str | None, click.Option] = {}
+    seen: set[str | None] = set()
     for option in met:
-        if isinstance(option, click.Option) and not (option.multiple or option.is_flag or option.count):
-            if option in given:
-                raise click.UsageError(f"{option.opts[0]} is given twice; it takes one value", ctx)
-            given.add(option)
+        if not isinstance(option, click.Option) or option.multiple or option.count:
+            continue
+        before = given.setdefault(option.name, option)
+        if before is not option:
+            raise click.UsageError(f"{before.opts[0]} and {option.opts[0]} contradict each other", ctx)
+        if option.name in seen and not option.is_flag:
+            raise click.UsageError(f"{option.opts[0]} is given twice; it takes one value", ctx)
+        seen.add(option.name)
 
 
 def _usage_message(error: click.UsageError) -> str:

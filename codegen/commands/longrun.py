@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import click
@@ -44,8 +43,10 @@ def command(
 
     setting = scenes.load(scene)
     h = float((setting.span[1] - setting.span[0]) / 100) if size is None else size
-    if not (math.isfinite(h) and h != 0.0):
-        raise InputError(f"the step size {h:g}", where="--h", expected="a finite number that is not 0")
+    if not 1e-300 <= abs(h) <= 1e300:  # NaN is not
+        raise InputError(
+            f"the step size {h:g}", where="--h", expected="a number between 1e-300 and 1e300 in size"
+        )
     with working("emitting"):
         compiled = [compile_method(setting, m) for m in methods_for(setting, methods)]
     found = []

@@ -45,7 +45,8 @@ class Drift:
 
 
 def fit(times: Sequence[float], deviations: Sequence[float]) -> Drift:
-    """Return the drift of deviations from an initial value, sampled at increasing times after the start.
+    """Return the drift of deviations from an initial value, sampled after the start at times that increase,
+    or that decrease, as in a run backwards.
 
     >>> found = fit([float(k) for k in range(1, 401)], [1e-9 * k for k in range(1, 401)])
     >>> f"{found.slope:.1e}", found.law, found.is_drift
@@ -57,6 +58,8 @@ def fit(times: Sequence[float], deviations: Sequence[float]) -> Drift:
     t, y = numpy.array(times, dtype=float), numpy.array(deviations, dtype=float)
     if len(t) < 2 * BLOCKS:
         raise ValueError(f"expected at least {2 * BLOCKS} samples, found {len(t)}")
+    whole = float(t[-1])
+    t /= whole  # squares of very short and very long times are no doubles
     blocks = [(a.mean(), b.mean()) for a, b in _cut(t, y)]
     x, z = numpy.array(blocks).T
     centred = x - x.mean()
@@ -64,7 +67,7 @@ def fit(times: Sequence[float], deviations: Sequence[float]) -> Drift:
     residual = z - z.mean() - slope * centred
     error = math.sqrt(float(residual @ residual) / (BLOCKS - 2) / float(centred @ centred))
     half = float(scipy.stats.t.ppf((1 + CONFIDENCE) / 2, BLOCKS - 2)) * error
-    return Drift(slope, half, float(numpy.abs(y).max()), _exponent(t, numpy.abs(y)))
+    return Drift(slope / whole, half / abs(whole), float(numpy.abs(y).max()), _exponent(t, numpy.abs(y)))
 
 
 def _cut(t: Any, y: Any) -> list[tuple[Any, Any]]:

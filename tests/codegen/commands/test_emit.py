@@ -136,8 +136,19 @@ def test_regenerate_never_removes_what_was_not_emitted(made):
 
 def test_a_list_that_cannot_be_read_is_bad_input(tmp_path):
     path = tmp_path / "list.toml"
-    for text, message in ((LIST + "extra = 1\n", "module 1 has the keys"), ("[[module", "not TOML")):
-        path.write_text(text)
+    wrong = {
+        LIST + "extra = 1\n": "module 1: the keys extra, method",
+        "[[module": "not TOML",
+        "\xff": "not TOML",
+        'name = "euler"\n': "no list of modules; its keys are: name",
+        "": "no list of modules; its keys are: none",
+        "module = 3": "no list of modules",
+        'module = ["a"]': "module 1: the keys 'a'",
+        LIST.replace('"cf4"', "4"): "expected two strings and a list of strings",
+        LIST.replace('["c", "python"]', '"c"'): "expected two strings and a list of strings",
+    }
+    for text, message in wrong.items():
+        path.write_bytes(text.encode("latin-1"))
         with pytest.raises(InputError, match=message):
             run(regenerate, "--list", str(path), "-o", str(tmp_path / "made"))
 

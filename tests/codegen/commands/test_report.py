@@ -75,6 +75,7 @@ def test_a_user_scene_is_reported_by_its_own_words(tmp_path: Path) -> None:
         (("nowhere",), "unknown scene"),
         (("free_rigid_body", "-m", "vcg:gauss1"), "family vcg"),
         (("free_rigid_body", "-m", "cg33"), "cg33"),
+        (("free_rigid_body", "--quick", "--full"), "--quick and --full contradict each other"),
     ],
 )
 def test_bad_input_is_one_message_before_anything_is_measured(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import random
 
 import pytest
@@ -52,6 +53,16 @@ def test_a_random_walk_grows_like_the_square_root():
             series.append(value)
         exponents.append(fit([float(k) for k in range(1, 2001)], series).exponent)
     assert 0.35 < sum(exponents) / len(exponents) < 0.65
+
+
+@pytest.mark.parametrize("unit", [-1.0, 1e-200, -1e200])
+def test_the_way_back_and_other_units_of_time_give_the_same_law(unit):
+    deviations = [1e-9 * k + 1e-10 * (-1) ** k for k in range(1, 401)]
+    usual = fit([float(k) for k in range(1, 401)], deviations)
+    other = fit([k * unit for k in range(1, 401)], deviations)
+    assert other.slope * unit == pytest.approx(usual.slope, rel=1e-12)
+    assert other.half_width * abs(unit) == pytest.approx(usual.half_width, rel=1e-9)
+    assert (other.largest, other.exponent) == pytest.approx((usual.largest, usual.exponent), rel=1e-12)
 
 
 def test_too_few_samples_are_refused():
@@ -119,7 +130,16 @@ def test_the_command_prints_every_kept_quantity():
         assert word in done.output
 
 
-@pytest.mark.parametrize("size", ["0", "nan", "inf"])
+def test_a_run_backwards_is_measured():
+    words = ["free_rigid_body", "-m", "cf:cf4", "--steps", "200", "--h", "-0.1", "--json"]
+    done = CliRunner().invoke(command, words, standalone_mode=False)
+    assert done.exception is None
+    (record,) = json.loads(done.output)
+    assert (record["h"], record["failure"]) == (-0.1, "")
+    assert {kept["name"] for kept in record["kept"]} >= {"radius", "energy"}
+
+
+@pytest.mark.parametrize("size", ["0", "nan", "inf", "1e-320", "-1e305"])
 def test_a_step_that_is_none_is_refused(size):
     done = CliRunner().invoke(command, ["dipole", "-m", "vcg:midpoint", "--h", size], standalone_mode=False)
     assert isinstance(done.exception, InputError)
