@@ -45,7 +45,7 @@ from codegen.ir.tangent import tangents
 from codegen.lower import late, newton
 from codegen.lower.arguments import SharedArguments
 from codegen.lower.frames import Frames
-from codegen.lower.outline import LONG, WORTH, Outline
+from codegen.lower.outline import LONG, LONG_EXPLICIT, WORTH, Outline
 from codegen.lower.series_sums import SeriesSums
 from codegen.lower.variation import Variations
 from codegen.passes.rewrite import uses
@@ -196,7 +196,7 @@ def to_kernel(
     scalars = (TIME, "h", *scene.runtime, *durations)
     body = schedule.run()
     pieces: tuple[Piece, ...] = ()
-    if blocks and variations is None and is_long(body):
+    if variations is None and chains in (AS_WRITTEN, ORDERED) and _count(body) > (LONG if blocks else LONG_EXPLICIT):
         taken.clear()
         taken.update(before)
         shorter, pieces = _outlined(outline, blocks, (*outputs, *errors), hints, name)

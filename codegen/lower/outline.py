@@ -25,8 +25,10 @@ from codegen.lower.pieces import WithPieces, piece, rewritten
 from codegen.lower.trees import Tree, Trees
 from codegen.setting import Setting
 
-LONG = 700
-"""A step of fewer assignments is left as it is."""
+LONG, LONG_EXPLICIT = 700, 500
+"""A step of fewer assignments is left as it is: one that solves equations, and one that does not.
+
+What an explicit step repeats stands in no loop already, so that it outgrows the caches of instructions sooner."""
 
 WORTH = 0.85
 """What part of its assignments a step may keep at most."""
@@ -161,6 +163,8 @@ class Outline:
                 old = evaluate(before, FloatDomain(0.1), values)
                 new = evaluate(after, WithPieces(FloatDomain(0.1), self.pieces), values)
             except (ArithmeticError, ValueError):
+                continue
+            if not all(map(math.isfinite, old)):
                 continue
             scale = max(1.0, *map(abs, old))
             if not all(abs(a - b) <= AGREE * scale for a, b in zip(old, new, strict=True)):

@@ -6,6 +6,7 @@ or whether all three should be turned, depends on what the scene reads of the at
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from codegen.groups.cotangent import Cotangent
@@ -32,7 +33,7 @@ def fastest(program: Program, scene: Setting) -> Kernel:
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
     if not isinstance(scene.group, Cotangent) and FLOWS.isdisjoint(program.counts()):
-        return min((to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)), key=time)
+        return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
     parted = None if scene.inputs else part(program, scene)  # inputs are sampled step by step
     core = program if parted is None else parted.core
     found: list[tuple[Kernel, Setting, int]] = []
@@ -40,8 +41,14 @@ def fastest(program: Program, scene: Setting) -> Kernel:
         view = replace(scene, group=group)
         for chains in (ORDERED, SHORTENED):
             found.append((to_kernel(core, view, chains=chains), view, chains))
-    kernel, view, chains = min(found, key=lambda candidate: time(candidate[0]))
+    best = _shortest([kernel for kernel, _, _ in found])
+    kernel, view, chains = next(candidate for candidate in found if candidate[0] is best)
     return kernel if parted is None else with_put_off(kernel, parted, view, chains)
+
+
+def _shortest(kernels: Sequence[Kernel]) -> Kernel:
+    """Return the kernel of the shortest step; of steps that are so long that they call pieces, one that does."""
+    return min([kernel for kernel in kernels if kernel.pieces] or kernels, key=time)
 
 
 def time(kernel: Kernel) -> tuple[float, int]:
