@@ -85,6 +85,7 @@ def command(
                     {"name": r.name, "before": r.before, "after": r.after, "removed": r.removed}
                     for r in compiled.trace
                 ]
+                record["pieces"] = pieces_of(compiled)
         screen.print_json(records)
     return 0
 
@@ -104,10 +105,22 @@ def explanation(compiled: Any) -> str:
         parts.append(report.program.text())
     costs = sentences(operations(arrange(compiled.kernel)))
     parts.append("# kernel\n" + "".join(f"  {line}\n" for line in costs))
+    pieces = pieces_of(compiled)
+    if pieces:
+        lines = [f"  {p['name']}, {p['calls']} calls: {p['about']}\n" for p in pieces]
+        parts.append("# functions of what the kernel repeats\n" + "".join(lines))
     if compiled.solvers:
         parts.append("# solved by\n" + "".join(f"  {choice.text()}\n" for choice in compiled.solvers))
     parts.append("# left out\n" + "".join(f"  {line}\n" for line in left_out(compiled)))
     return "\n".join(parts)
+
+
+def pieces_of(compiled: Any) -> list[dict[str, Any]]:
+    """Return the functions of what a long step repeats: name, number of calls in its text, what it does."""
+    from codegen.lower.pieces import calls
+
+    often = calls(compiled.kernel)
+    return [{"name": p.name, "calls": often[p.name], "about": p.about} for p in compiled.kernel.pieces]
 
 
 def counted(counts: dict[str, int]) -> str:

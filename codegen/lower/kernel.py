@@ -196,7 +196,11 @@ def to_kernel(
     scalars = (TIME, "h", *scene.runtime, *durations)
     body = schedule.run()
     pieces: tuple[Piece, ...] = ()
-    if variations is None and chains in (AS_WRITTEN, ORDERED) and _count(body) > (LONG if blocks else LONG_EXPLICIT):
+    if (
+        variations is None
+        and chains in (AS_WRITTEN, ORDERED)
+        and _count(body) > (LONG if blocks else LONG_EXPLICIT)
+    ):
         taken.clear()
         taken.update(before)
         shorter, pieces = _outlined(outline, blocks, (*outputs, *errors), hints, name)

@@ -28,7 +28,7 @@ from codegen.setting import Setting
 LONG, LONG_EXPLICIT = 700, 500
 """A step of fewer assignments is left as it is: one that solves equations, and one that does not.
 
-What an explicit step repeats stands in no loop already, so that it outgrows the caches of instructions sooner."""
+What an explicit step repeats stands in no loop: it outgrows the cache of instructions sooner."""
 
 WORTH = 0.85
 """What part of its assignments a step may keep at most."""

@@ -11,7 +11,7 @@ from typing import Any
 
 from codegen.ir.expr import Expr, Space, evaluate, walk
 from codegen.ir.interpret import apply, flatten
-from codegen.ir.kernel import Piece
+from codegen.ir.kernel import Kernel, Piece
 from codegen.ir.program import Coefficient, Kind
 from codegen.lower.trees import Tree, Trees, Values, distinct
 from codegen.setting import Setting
@@ -99,6 +99,16 @@ def _words(kinds: Sequence[Kind]) -> list[str]:
     ['x1', 'm1', 'x2']
     """
     return [f"{LETTER[kind]}{1 + kinds[:k].count(kind)}" for k, kind in enumerate(kinds)]
+
+
+def calls(kernel: Kernel) -> dict[str, int]:
+    """Return in how many places a kernel calls each of its pieces, in order."""
+    found = {made.name: dict[tuple[int, ...], None]() for made in kernel.pieces}
+    for node in walk(kernel.expressions()):
+        name = node.payload.partition(".")[0] if node.op == "call" else ""
+        if name in found:
+            found[name][tuple(a.id for a in node.args)] = None
+    return {name: len(places) for name, places in found.items()}
 
 
 class WithPieces:

@@ -47,7 +47,7 @@ def fastest(program: Program, scene: Setting) -> Kernel:
 
 
 def _shortest(kernels: Sequence[Kernel]) -> Kernel:
-    """Return the kernel of the shortest step; of steps that are so long that they call pieces, one that does."""
+    """Return the kernel of the shortest step; where some are so long that they call pieces, of those."""
     return min([kernel for kernel in kernels if kernel.pieces] or kernels, key=time)
 
 

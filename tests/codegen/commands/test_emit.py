@@ -56,6 +56,11 @@ def test_the_command_in_the_header_makes_the_same_bytes(tmp_path):
         assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes()
 
 
+def test_explain_tells_what_a_long_step_calls_and_how_often():
+    told = run(emit, "dipole", "-m", "cg:cg4a", "--explain")
+    assert "# functions of what the kernel repeats\n  piece_1, 5 calls: field(y1)\n" in told
+
+
 def test_explain_tells_every_pass_and_writes_nothing():
     told = run(emit, "free_rigid_body", "-m", "cg:cg3", "--explain")
     for word in ("# lowered:", "# sharing: took out", "# left out", "the scene does not depend on it"):
@@ -68,6 +73,7 @@ def test_json_is_the_manifest_and_nothing_else(tmp_path):
     assert record["order"] == 4
     assert record["certificate"] == "exact"
     assert record["passes"][0]["name"] == "sharing"
+    assert record["pieces"] == []
     assert [Path(p).name for p in record["paths"]][-1] == "manifest.json"
 
 
