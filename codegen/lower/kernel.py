@@ -142,7 +142,10 @@ def to_kernel(
         if assign.operation.name.startswith("force"):
             known = [x for v in assign.args for x in flatten(v.kind, env[v])]
             results = tuple(gathered(x, known) for x in results)
-        outline.trees.note(assign, args, results, len(blocks) if inside else -1, joined=nested is None)
+        reads = bool(scene.inputs) and any(v.kind is Kind.REAL for v in assign.args)  # signals at a time
+        outline.trees.note(
+            assign, args, results, len(blocks) if inside else -1, joined=nested is None and not reads
+        )
         for target, value in zip(assign.targets, results, strict=True):
             env[target] = value
             remember(target)

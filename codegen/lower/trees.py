@@ -75,7 +75,8 @@ class Trees:
     ) -> None:
         """Take note of an assignment in the block that is number ``place``, -1 between blocks.
 
-        One whose results were made otherwise than by its operation is not ``joined`` with others.
+        One whose results were made otherwise than by its operation, or read more than its arguments, is not
+        ``joined`` with others.
         """
         assign, args = self._from_the_whole(assign, args)
         self.made.append(

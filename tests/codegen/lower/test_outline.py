@@ -24,7 +24,7 @@ from orderconds.errors import InputError
 from orderconds.tableau import available
 from tests.strategies import hamiltonian_scene
 
-SPECS = [("dipole", "vcg:gauss3")]
+SPECS = [("dipole", "vcg:gauss4")]
 
 EXPLICIT = ("dipole", "cg:cg4a")
 
@@ -217,10 +217,10 @@ def test_calls_are_counted_by_place():
 
 
 def test_single_precision_takes_pieces_too():
-    made = compiled("dipole", "vcg:gauss3")
-    emission = emit_compiled(made, "c", precision="single", prefix="single_gauss3_")
-    exact = load(emit_compiled(made, "c", prefix="double_gauss3_"))
+    made = compiled("dipole", "vcg:gauss4")
+    emission = emit_compiled(made, "c", precision="single", prefix="single_gauss4_")
+    exact = load(emit_compiled(made, "c", prefix="double_gauss4_"))
     start = emission.manifest["initial"]
     assert load(emission).run(start, 0.01, 1) == pytest.approx(exact.run(start, 0.01, 1), abs=1e-5)
-    python = load(emit_compiled(made, "python", precision="single", prefix="python_gauss3_"))
+    python = load(emit_compiled(made, "python", precision="single", prefix="python_gauss4_"))
     assert python.run(start, 0.01, 1) == pytest.approx(exact.run(start, 0.01, 1), abs=1e-5)
