@@ -95,12 +95,18 @@ class Needed:
 
 
 def needed(
-    target: str, functions: Iterable[str], precision: Precision = DOUBLE, *, sweeps: bool = False
+    target: str,
+    functions: Iterable[str],
+    precision: Precision = DOUBLE,
+    *,
+    sweeps: bool = False,
+    wide: int = 0,
 ) -> Needed:
     """Return what the functions called by a module need in a target, and nothing else.
 
     ``sweeps`` says that they are called in sweeps over equations, where many values are at hand that a call
-    would put aside: C then may inline all branches of Stumpff functions.
+    would put aside: C then may inline all branches of Stumpff functions. ``wide`` is how many rows
+    all matrices have that are inverted, 0 where they differ or are many: C spells a row number by number.
 
     >>> needed("c", ["sin"])
     Needed(library=('sin',), texts=())
@@ -112,11 +118,12 @@ def needed(
     nodes = {m for name in wanted for m in (name, *nx.descendants(whole, name))}
     order = reversed(list(nx.lexicographical_topological_sort(whole.subgraph(nodes))))
     found = [whole.nodes[name]["snippet"] for name in order]
-    texts = tuple(_text(target, snippet, precision, sweeps) for snippet in found if snippet is not None)
+    given = {"sweeps": sweeps, "wide": wide}
+    texts = tuple(_text(target, snippet, precision, given) for snippet in found if snippet is not None)
     return Needed(tuple(name for name in LIBRARY if name in nodes), texts)
 
 
-def _text(target: str, snippet: Snippet, precision: Precision, sweeps: bool) -> str:
+def _text(target: str, snippet: Snippet, precision: Precision, given: dict[str, Any]) -> str:
     template = environment(target).get_template(f"snippets/{snippet.template}.j2")
 
     def number(x: float) -> str:
@@ -126,8 +133,7 @@ def _text(target: str, snippet: Snippet, precision: Precision, sweeps: bool) -> 
         return text if precision is DOUBLE else f"float32({text})"
 
     # "f" follows the names of C's library functions.
-    spelled: dict[str, Any] = {"real": precision.c_type, "f": precision.suffix, "number": number}
-    spelled["sweeps"] = sweeps
+    spelled: dict[str, Any] = {"real": precision.c_type, "f": precision.suffix, "number": number, **given}
     for name, value in snippet.variables.items():
         if isinstance(value, float):
             spelled[name] = number(value)

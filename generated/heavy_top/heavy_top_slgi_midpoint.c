@@ -284,7 +284,7 @@ static inline double slope2(double z)
 }
 
 /* Replace an n x n matrix, by rows, by its inverse (Gauss-Jordan, rows exchanged); return 0 where it has
- * none. There is room for n in row and order. */
+ * none. There is room for n in row and order. Here n is always 6. */
 static int invert(size_t n, double *restrict a, double *restrict row, size_t *order)
 {
     for (size_t k = 0; k < n; k++) {
@@ -310,11 +310,15 @@ static int invert(size_t n, double *restrict a, double *restrict row, size_t *or
         a[k * n + k] = factor;
         for (size_t i = 0; i < n; i++) {
             if (i != k) {
-                const double multiple = a[i * n + k];
-                for (size_t j = 0; j < n; j++) {
-                    a[i * n + j] -= multiple * row[j];
-                }
-                a[i * n + k] = -(multiple * factor);
+                double *const b = a + i * n;
+                const double multiple = b[k];
+                b[0] -= multiple * row[0];
+                b[1] -= multiple * row[1];
+                b[2] -= multiple * row[2];
+                b[3] -= multiple * row[3];
+                b[4] -= multiple * row[4];
+                b[5] -= multiple * row[5];
+                b[k] = -(multiple * factor);
             }
         }
     }

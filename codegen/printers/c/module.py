@@ -15,7 +15,7 @@ from codegen.printers.c.statements import RESERVED, Statements, literal
 from codegen.printers.c.text import comment, fill, paired
 from codegen.printers.expression import spell
 from codegen.printers.interface import Interface
-from codegen.printers.layout import inverts, layout, register, times
+from codegen.printers.layout import WIDE, inverts, layout, register, times
 from codegen.printers.names import Names
 from codegen.printers.operations import costs
 from codegen.printers.precision import DOUBLE
@@ -74,7 +74,9 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     if kernel.put_off is not None:
         variables["put_off"], more, held = put_off(kernel.put_off, arrangement, names, interface)
         functions |= more
-    found = needed("c", sorted(functions), interface.format, sweeps=bool(interface.blocks))
+    found = needed(
+        "c", sorted(functions), interface.format, sweeps=bool(interface.blocks), wide=inverted(kernel)
+    )
     variables |= {
         "recipe": [
             comment(line)
@@ -354,6 +356,13 @@ def solution(unknowns: list[str], real: str) -> list[str]:
 def inverses_of(kernel: Kernel) -> list[tuple[int, int]]:
     """Return the loops that keep the inverse of a matrix, by number, with how many unknowns each has."""
     return [(k, len(loop.unknowns)) for k, loop in enumerate(kernel.loops, 1) if loop.solver == NEWTON]
+
+
+def inverted(kernel: Kernel) -> int:
+    """Return the size of all matrices that are inverted at run time, 0 where they are many or differ."""
+    loops = [loop for loop in kernel.loops if loop.newton is not None and not loop.newton.inverted]
+    sizes = {len(loop.unknowns) for loop in loops}
+    return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
 
 
 def remembered(kernel: Kernel) -> int:

@@ -1,0 +1,65 @@
+"""Matrices are inverted with rows exchanged: to rounding, and alike with and without loops over a row."""
+
+from __future__ import annotations
+
+import random
+
+import numpy as np
+import pytest
+from cffi import FFI
+
+from codegen.build import build
+from codegen.snippets.graph import needed
+
+SIZE = 6
+
+
+def in_c(wide):
+    head = "int probe(double *a)"
+    call = f"double row[{SIZE}]; size_t order[{SIZE}]; return invert({SIZE}, a, row, order);"
+    (text,) = needed("c", ["invert"], wide=wide).texts
+    ffi = FFI()
+    ffi.cdef(f"{head};")
+    source = f"#include <math.h>\n#include <stddef.h>\n{text}\n{head};\n{head} {{ {call} }}\n"
+    library = ffi.dlopen(str(build({"probe.c": source})))
+
+    def inverted(rows):
+        a = ffi.new("double[]", [x for row in rows for x in row])
+        return [list(a[SIZE * i : SIZE * (i + 1)]) for i in range(SIZE)] if library.probe(a) else None
+
+    return inverted
+
+
+def in_python():
+    found = needed("python", ["invert"])
+    namespace = {"fabs": abs}
+    exec("\n\n".join(found.texts), namespace)
+    return lambda rows: namespace["invert"]([list(row) for row in rows])
+
+
+@pytest.fixture(scope="module")
+def versions():
+    return [in_c(0), in_c(SIZE), in_python()]
+
+
+def matrices():
+    rng = random.Random(6)
+    for _ in range(20):
+        yield [[rng.uniform(-1, 1) for _ in range(SIZE)] for _ in range(SIZE)]
+    yield [[float(j == (i + 1) % SIZE) for j in range(SIZE)] for i in range(SIZE)]  # no entry on the diagonal
+
+
+def test_an_inverse_times_the_matrix_is_one(versions):
+    for a in matrices():
+        error = np.array(versions[1](a)) @ np.array(a) - np.eye(SIZE)
+        assert np.abs(error).max() < 1e-13 * np.linalg.cond(a)
+
+
+def test_all_versions_round_alike(versions):
+    for a in matrices():
+        assert versions[0](a) == versions[1](a) == versions[2](a)
+
+
+def test_what_has_no_inverse_is_refused(versions):
+    rows = [[float(i * j) for j in range(SIZE)] for i in range(SIZE)]
+    assert [invert(rows) for invert in versions] == [None, None, None]
