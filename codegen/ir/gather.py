@@ -32,8 +32,9 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     """
     if not roots:
         return ()
-    work = _Gathering(_powers(roots))
-    for node in map(_bare, kept):
+    bare = [_bare(node) for node in kept]
+    work = _Gathering(_powers(roots, bare))
+    for node in bare:
         if node.args:
             work.sums[node.id], work.spelled[node.id] = {node.id: (Number.rational(1), node)}, node
     still = set(work.sums)
@@ -54,17 +55,20 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
     return products + sum(node.op not in ("const", "sym", "neg", "pow") for node in nodes)
 
 
-def _powers(roots: Sequence[Expr]) -> dict[int, tuple[int, int]]:
+def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
     """Return inverse roots of which odd powers from the third on are read, and their powers.
 
-    Each with the number of the inverse root and the exponent; numbers in front are left out.
+    Each with the number of the inverse root and the exponent; numbers in front are left out, and so is what
+    is part of anything ``kept``.
     """
+    still = {node.id for node in walk(kept)}
     found: dict[int, tuple[int, int]] = {}
     used: list[tuple[Expr, Expr | None]] = [(root, None) for root in roots]
     for node in walk(roots):
         used += [(a, node) for a in node.args]
         inside = [found[a.id] for a in node.args if a.id in found]
-        if _is_inverse(node) and node.args[1].op == "call" and node.args[1].payload == "sqrt":
+        root = _is_inverse(node) and node.args[1].op == "call" and node.args[1].payload == "sqrt"
+        if root and node.id not in still:
             found[node.id] = (node.id, 1)
         elif _is_power(node, inside):
             exponent = sum(n for _, n in inside)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from fractions import Fraction
 
 import pytest
@@ -72,3 +73,40 @@ def test_what_would_be_longer_stays():
     shared = x + number(1, 2) * y
     roots = (number(3) * shared, D.call("sin", shared) * shared)
     assert gathered(roots) == roots
+
+
+def drawn(rng):
+    """Some expressions that share parts, products of inverse roots among them, and one of them to be kept."""
+    D = ExprDomain()
+    pool = [D.space.sym(name) for name in "xy"]
+
+    def some():
+        return D.rational(rng.choice([-3, -2, -1, 1, 2, 5]), rng.randint(1, 4))
+
+    inverses = [D.rational(1) / D.call("sqrt", D.rational(7) + some() * s) for s in pool]
+    pool += [some(), *inverses]
+    for _ in range(rng.randint(4, 18)):
+        a, b, r = rng.choice(pool), rng.choice(pool), rng.choice(inverses)
+        made = [
+            a + b,
+            a - b,
+            a * b,
+            -a,
+            some() * a,
+            a ** rng.randint(2, 5),
+            r**3 * some(),
+            (some() * r) * r**2,
+        ]
+        pool.append(rng.choice(made))
+    return rng.sample(pool, rng.randint(1, 3)), rng.sample(pool, rng.randint(0, 1))
+
+
+def test_values_stay_whatever_is_gathered_and_kept():
+    values, changed = {"x": P.rational(3, 7), "y": P.rational(-5, 11)}, 0
+    for seed in range(300):
+        roots, kept = drawn(random.Random(seed))
+        found = gathered(roots, kept)
+        changed += found != tuple(roots)
+        for a, b in zip(evaluate(found, P, values), evaluate(roots, P, values), strict=True):
+            assert abs(a - b) < 1e-34 * max(1, abs(b))
+    assert changed > 30
