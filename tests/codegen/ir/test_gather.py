@@ -110,3 +110,9 @@ def test_values_stay_whatever_is_gathered_and_kept():
         for a, b in zip(evaluate(found, P, values), evaluate(roots, P, values), strict=True):
             assert abs(a - b) < 1e-34 * max(1, abs(b))
     assert changed > 30
+
+
+def test_what_is_kept_may_be_a_power_of_an_inverse_root():
+    kept = inverse**3
+    (found,) = gathered((x * (number(2) * (number(3) * kept**3 + number(1, 2)) - 1),), (kept,))
+    assert kept in set(walk([found]))
