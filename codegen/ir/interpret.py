@@ -108,6 +108,8 @@ def interpret(
     are what unknowns are expected to be, to begin with; they receive what was found. ``near`` instead gives
     numbers near the unknowns, a list for each block in the order they are solved, where Newton's method
     begins at once; they are replaced by what was found.
+    A domain that has ``computed`` is given the name and the value of every result, and what it returns is
+    used instead.
     """
     if program.frame == BODY:
         core, start = replace(program, frame=SPACE), {**inputs, "mu": inward(setting, domain, inputs)}
@@ -119,8 +121,12 @@ def interpret(
     expected = {} if solutions is None else solutions
     env: dict[Var, Any] = {v: inputs[v.name] for v in program.inputs}
 
+    computed = getattr(domain, "computed", None)
+
     def run(assign: Assign) -> None:
         results = apply(setting, domain, assign, tuple(env[a] for a in assign.args))
+        if computed is not None:
+            results = tuple(computed(v.name, x) for v, x in zip(assign.targets, results, strict=True))
         env.update(zip(assign.targets, results, strict=True))
 
     for statement in program.body:

@@ -58,7 +58,7 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
         if orders not in ((1,), (2,), (3,), (1, 3)):
             library.append("cos")
         series = (*library, *(f"stumpff_series_{k}" for k in orders))
-        values = {"name": name, "orders": orders, "switch": switch, "limit": stumpff.limit(precision)}
+        values = {"name": name, "orders": orders, "switch": switch}
         if precision is not DOUBLE:
             found.append(Snippet(name, "stumpff", series, values | {"small": ""}))
             continue
@@ -101,12 +101,14 @@ def needed(
     *,
     sweeps: bool = False,
     wide: int = 0,
+    chain: int = 1,
 ) -> Needed:
     """Return what the functions called by a module need in a target, and nothing else.
 
     ``sweeps`` says that they are called in sweeps over equations, where many values are at hand that a call
     would put aside: C then may inline all branches of Stumpff functions. ``wide`` is how many rows
     all matrices have that are inverted, 0 where they differ or are many: C spells a row number by number.
+    ``chain`` is how many angles depend one on the other, as for :func:`codegen.snippets.stumpff.limit`.
 
     >>> needed("c", ["sin"])
     Needed(library=('sin',), texts=())
@@ -118,7 +120,7 @@ def needed(
     nodes = {m for name in wanted for m in (name, *nx.descendants(whole, name))}
     order = reversed(list(nx.lexicographical_topological_sort(whole.subgraph(nodes))))
     found = [whole.nodes[name]["snippet"] for name in order]
-    given = {"sweeps": sweeps, "wide": wide}
+    given = {"sweeps": sweeps, "wide": wide, "limit": stumpff.limit(precision, chain)}
     texts = tuple(_text(target, snippet, precision, given) for snippet in found if snippet is not None)
     return Needed(tuple(name for name in LIBRARY if name in nodes), texts)
 
@@ -133,8 +135,8 @@ def _text(target: str, snippet: Snippet, precision: Precision, given: dict[str, 
         return text if precision is DOUBLE else f"float32({text})"
 
     # "f" follows the names of C's library functions.
-    spelled: dict[str, Any] = {"real": precision.c_type, "f": precision.suffix, "number": number, **given}
-    for name, value in snippet.variables.items():
+    spelled: dict[str, Any] = {"real": precision.c_type, "f": precision.suffix, "number": number}
+    for name, value in (given | snippet.variables).items():
         if isinstance(value, float):
             spelled[name] = number(value)
         elif isinstance(value, list | tuple) and value and isinstance(value[0], float):

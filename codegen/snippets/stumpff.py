@@ -28,16 +28,26 @@ SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n)
 """Every non-empty set of orders that a kernel may ask of one argument."""
 
 
-def limit(precision: Precision = DOUBLE) -> float:
-    """Return the z beyond which c_k is not a number: an angle of 2^21, two fifths of whose digits are turns.
+LEFT = 10
+"""Bits that are left of a step that turns as far as it may: three digits."""
 
-    A momentum carried along loses twice as many digits, by sums that go with the square of the angle, so that
-    nothing would be left of a step that turns much further. It says that its state is not finite.
 
-    >>> limit() == 2.0**42
-    True
+def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
+    """Return the z beyond which c_k is not a number: no digit of what turns further is determined.
+
+    A rounding of 2^-bits in what an angle a is computed from is one of a 2^-bits in the point, eight times
+    as much, say, in the field there, and so on along a ``chain`` of angles (:func:`codegen.ir.chain.chain`):
+    of a^chain 8^(chain-1) 2^-bits no more than 2^-LEFT may come. Stages of long chains turn by parts of the
+    step's angle, and lose no more than short ones: 2^(bits/6) is always allowed. No angle is larger than
+    2^(2 bits/5), for a momentum carried along loses twice as many digits as the angle has, by sums that go
+    with its square. A step that turns further says that its state is not finite.
+
+    >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
+    [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]
     """
-    return 2.0 ** (2 * (2 * precision.bits // 5))
+    bits = precision.bits
+    power = (bits - LEFT - 3 * (chain - 1)) // chain
+    return 2.0 ** (2 * max(bits // 6, min(2 * bits // 5, power)))
 
 
 def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> tuple[Fraction, ...]:

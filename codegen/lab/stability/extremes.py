@@ -1,11 +1,12 @@
 """Extreme input, one step: emitted C against the interpreter with 60 digits on the same doubles.
 
-A step is *accurate* when it differs from the exact step by no more than its input determines: rounding the
-input, and both sides of the equations of an implicit step, at the last bit moves the exact answer by so much,
-and every operation may round once. Where that leaves
-no digit (a rotation by 1e20 radians is known to no angle at all) the answer is accurate and says nothing; the
-table gives the digits that are determined. Anything else must be a status. A finite answer that is neither is
-*wrong*.
+A step is *accurate* when it has :data:`LEAST` digits at least, and differs from the exact step by no more
+than rounding explains: rounding the input, the result of every operation of the step's program, and both
+sides of the equations of an implicit step, at the last bit, moves the exact answer by so much, and every
+operation of emitted code may round a few times. The digits that this leaves are *determined*. Where too few
+are (a rotation by 1e20 radians is known to no angle at all) only a status will do. A finite answer that is
+neither is *wrong*. Digits are those of the larger of a block of the state and the same block before the
+step; what lies below the least normal number is zero.
 
 Equations of long implicit steps have several solutions, and the way to any leads past the others. The
 interpreter finds its own where a fixed point leads to it; elsewhere it begins at that of emitted Python,
@@ -35,7 +36,10 @@ TINY = 2.0**-1022
 """The least normal double: what underflows to less is as good as zero."""
 
 ROUNDINGS = 256.0
-"""Roundings that a step may gather, in units of what one rounding of the input does."""
+"""Roundings that a step may gather, in units of what one rounding of every input and operation does."""
+
+LEAST = 3
+"""Digits below which an answer says too little to be one."""
 
 PROBES = 4
 
@@ -43,9 +47,10 @@ SWEEPS, CORRECTIONS = 60, 30
 """Of the interpreter, for a fixed point and Newton's method."""
 
 ACCURATE, WRONG = "accurate", "WRONG"
+SILENT = f"{WRONG}: rounding leaves fewer than {LEAST} digits of it"
 UNSOLVED = f"{WRONG}: the equations of this step have no solution there"
 
-ANGLES = (1e-300, 1e-8, math.pi - 1e-9, math.pi, 2 * math.pi, 100.0, 1e8, 1e300)
+ANGLES = (1e-300, 1e-8, math.pi - 1e-9, math.pi, 2 * math.pi, 100.0, 1e3, 1e4, 1e5, 1e6, 1e8, 1e300)
 STEPS = (1e-300, 1e-12, 1e-8, 1e-4)
 SCALES = (0.0, 5e-324, 1e-160, 1e-75, 1e75, 1e150, 1e308)
 
@@ -160,17 +165,17 @@ def answer(compiled: Compiled, runner: Emitted, case: Case) -> Answer:
         return Answer(
             case, UNSOLVED if compiled.kernel.loops else f"{WRONG}: an answer where the interpreter has none"
         )
-    error, determined, accurate = 0.0, math.inf, True
+    error, determined, explained = 0.0, math.inf, True
     for block in _blocks(compiled):
-        scale = max(abs(exact[i]) for i in block)
+        scale = max(max(abs(exact[i]), abs(case.state[i])) for i in block)
         gap = max(abs(found[i] - exact[i]) for i in block)
         moves = max((abs(m[i] - exact[i]) for m in probed for i in block), default=0)
-        allowed = ROUNDINGS * (moves + EPSILON * scale + TINY)
-        accurate &= bool(gap <= allowed)
-        if scale:
-            error = max(error, float(gap / scale))
+        explained &= bool(gap <= ROUNDINGS * (moves + EPSILON * scale + TINY))
+        if scale > TINY:
+            error = max(error, float(max(gap - ROUNDINGS * TINY, 0) / scale))
             determined = min(determined, -math.log10(max(float((moves + EPSILON * scale) / scale), 1e-17)))
-    return Answer(case, ACCURATE if accurate else WRONG, error, max(determined, 0.0))
+    verdict = WRONG if not explained else ACCURATE if error <= 10.0**-LEAST else SILENT
+    return Answer(case, verdict, error, max(determined, 0.0))
 
 
 def _blocks(compiled: Compiled) -> list[range]:
@@ -181,18 +186,18 @@ def _blocks(compiled: Compiled) -> list[range]:
     return result
 
 
-def _probes(case: Case) -> list[tuple[tuple[Any, ...], Any, Any]]:
+def _probe(case: Case, number: int) -> tuple[tuple[Any, ...], Any, Any]:
     """Return the input with every number rounded otherwise in the last bit, up or down at random."""
     import mpmath
 
-    draw = random.Random(7)
+    draw = random.Random(number)
     context = mpmath.mp.clone()
     context.dps = DIGITS
 
     def rounded(x: float) -> Any:
         return context.mpf(x) * (1 + draw.choice((-1, 1)) * context.mpf(EPSILON))
 
-    return [(tuple(rounded(x) for x in case.state), rounded(case.t), rounded(case.h)) for _ in range(PROBES)]
+    return tuple(rounded(x) for x in case.state), rounded(case.t), rounded(case.h)
 
 
 def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Any], list[list[Any]]]:
@@ -211,9 +216,14 @@ def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Any], 
         near = solutions(runner, *given)
     probes = [
         precise_step(
-            compiled, *probe, near and list(near), limit=CORRECTIONS, probing=True, digits=DIGITS + more
+            compiled,
+            *_probe(case, number),
+            near and list(near),
+            limit=CORRECTIONS,
+            probe=number,
+            digits=DIGITS + more,
         )
-        for probe in _probes(case)
+        for number in range(1, PROBES + 1)
     ]
     return exact, probes
 
@@ -245,11 +255,26 @@ def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> li
 
 
 class Rounding(PreciseDomain):
-    """Numbers of many digits, but one side of every equation is off by a rounding of it and its neighbour."""
+    """Numbers of many digits, but every result of an operation is off by a rounding.
+
+    One side of every equation is off by a rounding of it and one of its neighbour. Each is moved up or down
+    at random, always the same way in a probe, so that equations stay smooth.
+    """
+
+    def __init__(self, h: Any, digits: int, probe: int) -> None:
+        super().__init__(h, digits)
+        self.probe = probe
+
+    def computed(self, name: str, value: Any) -> Any:
+        """Return the result of an operation, rounded."""
+        draw = random.Random(f"{self.probe} {name}")
+        if isinstance(value, tuple):
+            return tuple(x * (1 + draw.choice((-1, 1)) * self.context.mpf(EPSILON)) for x in value)
+        return value * (1 + draw.choice((-1, 1)) * self.context.mpf(EPSILON))
 
     def rounded(self, images: list[Any]) -> list[Any]:
-        """Return the images moved up or down at random, each always the same way."""
-        draw = random.Random(11)
+        """Return the images of an equation's unknowns, rounded."""
+        draw = random.Random(self.probe)
         moves = [[draw.choice((-1, 1)) * EPSILON for _ in range(2)] for _ in images]
         after = [*images[1:], images[0]]
         return [x + a * x + b * y for x, y, (a, b) in zip(images, after, moves, strict=True)]
@@ -268,14 +293,14 @@ def precise_step(
     *,
     limit: int = 400,
     newton: bool = True,
-    probing: bool = False,
+    probe: int | None = None,
     digits: int = DIGITS,
 ) -> list[Any]:
     """Return the state after one step of the program, in many digits; ``near`` as for :func:`interpret`.
 
-    ``probing`` rounds equations too.
+    The number of a ``probe`` says how every operation is rounded.
     """
-    domain = Rounding(h, digits) if probing else PreciseDomain(h, digits)
+    domain = PreciseDomain(h, digits) if probe is None else Rounding(h, digits, probe)
     view = setting(compiled.scene, compiled.method)
     numbers = tuple(domain.context.mpf(x) for x in state)
     values: dict[str, Any] = {"t": domain.context.mpf(t)}

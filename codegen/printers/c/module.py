@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import comb
 
+from codegen.ir.chain import chain
 from codegen.ir.kernel import CHORD, ELAPSED, LEAD, LONGEST, NEWTON, Kernel, PutOff, Start
 from codegen.ir.number import Number
 from codegen.printers.arrange import Arrangement, Beginning, Invocation, Iteration, arrange
@@ -75,7 +76,10 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         variables["put_off"], more, held = put_off(kernel.put_off, arrangement, names, interface)
         functions |= more
     found = needed(
-        "c", sorted(functions), interface.format, sweeps=bool(interface.blocks), wide=inverted(kernel)
+        *("c", sorted(functions), interface.format),
+        sweeps=bool(interface.blocks),
+        wide=inverted(kernel),
+        chain=chain(kernel),
     )
     variables |= {
         "recipe": [

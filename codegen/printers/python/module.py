@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from codegen.ir.chain import chain
 from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Kernel, PutOff, Start
 from codegen.printers.arrange import Arrangement, arrange
 from codegen.printers.expression import spell
@@ -56,7 +57,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         lines, constants = function(piece, arranged, interface)
         statements.constants |= constants
         pieces.append(lines)
-    found = needed("python", sorted(functions), precision)
+    found = needed("python", sorted(functions), precision, chain=chain(kernel))
     library = found.library
     imports = ["isfinite"] if single else library
     if kernel.estimate is not None:
