@@ -28,6 +28,8 @@ from codegen.ir.kernel import (
     FIXED_POINT,
     LEAD,
     NEWTON,
+    VARIATION,
+    VARIED,
     Estimate,
     Field,
     Kernel,
@@ -194,7 +196,7 @@ def to_kernel(
     schedule = _Schedule(blocks, (*outputs, *errors), hints, name, variations is None)
     fields = frames.fields()
     if variations is not None:
-        fields = (*fields, Field("variation", variations.names, variations.text()))
+        fields = (*fields, Field(VARIATION, variations.names, variations.text()))
     durations = [v.name for v in program.inputs if v.name in (LEAD, ELAPSED)]
     scalars = (TIME, "h", *scene.runtime, *durations)
     body = schedule.run()
@@ -290,7 +292,7 @@ def _varied(block: _Block, seeds: dict[str, Expr], space: Space, name: Callable[
     own = [name(f"d_{u}") for u in block.unknowns]
     seeds |= {u: space.sym(d) for u, d in zip(block.unknowns, own, strict=True)}
     starts = (space.zero,) * len(own)
-    return _Block(f"the variation of {block.label}", tuple(own), starts, tangents(block.images, seeds))
+    return _Block(f"{VARIED}{block.label}", tuple(own), starts, tangents(block.images, seeds))
 
 
 def _sampled(kernel: Kernel, scene: Setting, domain: ExprDomain) -> Kernel:

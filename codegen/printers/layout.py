@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from codegen.ir.kernel import Kernel
+from codegen.ir.kernel import VARIATION, Kernel
 from codegen.printers.arrange import Arrangement, Beginning, Invocation, Iteration, Joint, Statement
 from codegen.printers.expression import spell
 from codegen.printers.names import Names
+
+Place = tuple[str, int, int]
+"""An array, where in it a block begins, and of how many numbers it is."""
 
 WIDE = 12
 """The most unknowns for which each entry of a matrix stands in a statement of its own."""
@@ -23,6 +26,20 @@ def layout(kernel: Kernel) -> tuple[str, ...]:
         lines.append(f"{places} {field.name}: {field.meaning}")
         start = end
     return tuple(lines)
+
+
+def blocks(kernel: Kernel) -> tuple[Place, ...]:
+    """Return where the blocks of a kernel's state lie.
+
+    A kernel that carries a variation along has it as its last field, and in an array of its own.
+    """
+    found: list[Place] = []
+    start = 0
+    for field in kernel.state:
+        varied = field.name == VARIATION
+        found.append(("vector" if varied else "state", 0 if varied else start, len(field.symbols)))
+        start += len(field.symbols)
+    return tuple(found)
 
 
 def times(kernel: Kernel) -> tuple[str, ...]:

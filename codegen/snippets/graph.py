@@ -33,6 +33,7 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
     The shorter polynomials near zero are for doubles: in single precision the longer one is as short.
     """
     found = [Snippet("greater", "greater"), Snippet("quotient", "quotient")]
+    found.append(Snippet("largest", "largest", ("fabs",)))
     found.append(Snippet("invert", "invert", ("fabs",)))
     for k in (2, 3):
         variables = {"k": k, "terms": stumpff.slopes(k, precision)}

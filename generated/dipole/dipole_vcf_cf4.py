@@ -933,10 +933,12 @@ def _advance(state, h, memory, statistics):
             abs(d_xi4_1), abs(d_xi4_2),
         )
         scale = max(
-            1.0, abs(xi1_0), abs(xi1_1), abs(xi1_2), abs(xi2_0), abs(xi2_1), abs(xi2_2),
+            0.0, abs(xi1_0), abs(xi1_1), abs(xi1_2), abs(xi2_0), abs(xi2_1), abs(xi2_2),
             abs(xi3_0), abs(xi3_1), abs(xi3_2), abs(xi4_0), abs(xi4_1), abs(xi4_2),
         )
-        still = 0.0 < previous_1 <= change <= 5.684341886080802e-14 * scale
+        still = 0.0 < previous_1 <= change and (
+            change <= 5.684341886080802e-14 * scale or change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state))
+        )
         if sweep == 1:
             memory.first = max(memory.first, change)
         if previous_1 > 0.0:

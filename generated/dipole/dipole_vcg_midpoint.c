@@ -205,6 +205,16 @@ static inline void stumpff_12(double z, double *c1, double *c2)
     }
 }
 
+/* The largest size of n numbers */
+static double largest(const double *x, size_t n)
+{
+    double size = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        size = fabs(x[i]) > size ? fabs(x[i]) : size;
+    }
+    return size;
+}
+
 static void count_sweeps(dipole_vcg_midpoint_statistics *statistics, size_t block, size_t sweeps, int failed)
 {
     if (statistics == NULL) {
@@ -442,7 +452,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             count_sweeps(statistics, 0, sweep, 1);
             return DIPOLE_VCG_MIDPOINT_NOT_FINITE;
         }
-        const double scale = (1.0 + fabs(xi1_0)) + (fabs(xi1_1) + fabs(xi1_2));
+        const double scale = (fabs(xi1_0) + fabs(xi1_1)) + fabs(xi1_2);
         xi1_0 += d_xi1_0;
         xi1_1 += d_xi1_1;
         xi1_2 += d_xi1_2;
@@ -453,7 +463,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         }
         const int contracts = rate_1 < 0.5;
         if (contracts ? change * (rate_1 + 0.0001220703125) <= 2.220446049250313e-16 * scale
-                      : previous_1 > 0.0 && change <= 5.684341886080802e-14 * scale) {
+                      : previous_1 > 0.0 && (change <= 5.684341886080802e-14 * scale
+                          || change * fabs(h) <= 7.105427357601002e-15 * largest(state, 12))) {
             memory->rate_1 = rate_1;
             count_sweeps(statistics, 0, sweep, 0);
             break;

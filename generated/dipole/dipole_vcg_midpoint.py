@@ -376,8 +376,10 @@ def _advance(state, h, memory, statistics):
         xi1_1 += d_xi1_1
         xi1_2 += d_xi1_2
         change = max(abs(d_xi1_0), abs(d_xi1_1), abs(d_xi1_2))
-        scale = max(1.0, abs(xi1_0), abs(xi1_1), abs(xi1_2))
-        still = 0.0 < previous_1 <= change <= 5.684341886080802e-14 * scale
+        scale = max(0.0, abs(xi1_0), abs(xi1_1), abs(xi1_2))
+        still = 0.0 < previous_1 <= change and (
+            change <= 5.684341886080802e-14 * scale or change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state))
+        )
         if sweep == 1:
             memory.first = max(memory.first, change)
         if previous_1 > 0.0:

@@ -242,6 +242,16 @@ static inline void stumpff_12(double z, double *c1, double *c2)
     }
 }
 
+/* The largest size of n numbers */
+static double largest(const double *x, size_t n)
+{
+    double size = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        size = fabs(x[i]) > size ? fabs(x[i]) : size;
+    }
+    return size;
+}
+
 /* Replace an n x n matrix, by rows, by its inverse (Gauss-Jordan, rows exchanged); return 0 where it has
  * none. There is room for n in row and order. Here n is always 6. */
 static int invert(size_t n, double *restrict a, double *restrict row, size_t *order)
@@ -735,8 +745,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             count_sweeps(statistics, 0, sweep, 1);
             return DIPOLE_VRKMK2_GAUSS2_NOT_FINITE;
         }
-        const double scale = (1.0 + fabs(v1_0)) + (fabs(v1_1) + fabs(v1_2))
-            + (fabs(v2_0) + fabs(v2_1)) + fabs(v2_2);
+        const double scale = (fabs(v1_0) + fabs(v1_1)) + (fabs(v1_2) + fabs(v2_0))
+            + (fabs(v2_1) + fabs(v2_2));
         v1_0 += d_v1_0;
         v1_1 += d_v1_1;
         v1_2 += d_v1_2;
@@ -750,7 +760,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         }
         const int contracts = rate_1 < 0.5;
         if (contracts ? change * (rate_1 + 0.0001220703125) <= 2.220446049250313e-16 * scale
-                      : previous_1 > 0.0 && change <= 5.684341886080802e-14 * scale) {
+                      : previous_1 > 0.0 && (change <= 5.684341886080802e-14 * scale
+                          || change * fabs(h) <= 7.105427357601002e-15 * largest(state, 12))) {
             memory->rate_1 = rate_1;
             count_sweeps(statistics, 0, sweep, 0);
             break;

@@ -628,9 +628,11 @@ def _advance(state, h, memory, statistics):
             abs(d_v2_2),
         )
         scale = max(
-            1.0, abs(v1_0), abs(v1_1), abs(v1_2), abs(v2_0), abs(v2_1), abs(v2_2),
+            0.0, abs(v1_0), abs(v1_1), abs(v1_2), abs(v2_0), abs(v2_1), abs(v2_2),
         )
-        still = 0.0 < previous_1 <= change <= 5.684341886080802e-14 * scale
+        still = 0.0 < previous_1 <= change and (
+            change <= 5.684341886080802e-14 * scale or change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state))
+        )
         if sweep == 1:
             memory.first = max(memory.first, change)
         if previous_1 > 0.0:

@@ -109,7 +109,7 @@ static double stumpff_1_far(double z)
     if (z <= 1.0) {
         return stumpff_series_1(z);
     }
-    const double s = sqrt(z <= 4398046511104.0 ? z : NAN);
+    const double s = sqrt(z <= 65536.0 ? z : NAN);
     return sin(s) / s;
 }
 
@@ -128,7 +128,7 @@ static double stumpff_0_far(double z)
     if (z <= 1.0) {
         return stumpff_series_0(z);
     }
-    const double s = sqrt(z <= 4398046511104.0 ? z : NAN);
+    const double s = sqrt(z <= 65536.0 ? z : NAN);
     return cos(s);
 }
 

@@ -113,7 +113,7 @@ def _stumpff_1_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s."""
     if z <= 1.0:
         return _stumpff_series_1(z)
-    s = sqrt(z if z <= 4398046511104.0 else float("nan"))
+    s = sqrt(z if z <= 65536.0 else float("nan"))
     return sin(s) / s
 
 
@@ -130,7 +130,7 @@ def _stumpff_0_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_0 = cos(s)."""
     if z <= 1.0:
         return _stumpff_series_0(z)
-    s = sqrt(z if z <= 4398046511104.0 else float("nan"))
+    s = sqrt(z if z <= 65536.0 else float("nan"))
     return cos(s)
 
 

@@ -235,6 +235,16 @@ static inline double quotient(double a, double b)
     return b > 0.0 || b < 0.0 ? a / b : b;
 }
 
+/* The largest size of n numbers */
+static double largest(const double *x, size_t n)
+{
+    double size = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        size = fabs(x[i]) > size ? fabs(x[i]) : size;
+    }
+    return size;
+}
+
 static inline double greater(double a, double b)
 {
     return a > b ? a : b;
@@ -963,7 +973,8 @@ static inline int advance(double state[static 4], double h, struct memory *memor
         xi_0 += change_xi_0;
         xi_1 += change_xi_1;
         xi_2 += change_xi_2;
-        if (close || (still && change <= 5.684341886080802e-14 * greater(1.0, scale))) {
+        if (close || (still && (change <= 5.684341886080802e-14 * scale
+            || change * fabs(h) <= 7.105427357601002e-15 * largest(state, 4)))) {
             count_sweeps(statistics, 0, sweep, 0);
             memory->rate_1 = sweep > 1 ? rate_1 : 2.0 * rate_1;
             break;

@@ -999,7 +999,9 @@ def _advance(state, h, memory, statistics):
         xi_2 += change_xi_2
         change = max(abs(change_xi_0), abs(change_xi_1), abs(change_xi_2))
         scale = max(0.0, abs(xi_0), abs(xi_1), abs(xi_2))
-        still = 0.0 < previous_1 <= change <= 5.684341886080802e-14 * max(1.0, scale)
+        still = 0.0 < previous_1 <= change and (
+            change <= 5.684341886080802e-14 * scale or change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state))
+        )
         if sweep == 1:
             memory.first = max(memory.first, change)
         if previous_1 > 0.0:

@@ -283,6 +283,16 @@ static inline double slope2(double z)
     return total;
 }
 
+/* The largest size of n numbers */
+static double largest(const double *x, size_t n)
+{
+    double size = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        size = fabs(x[i]) > size ? fabs(x[i]) : size;
+    }
+    return size;
+}
+
 /* Replace an n x n matrix, by rows, by its inverse (Gauss-Jordan, rows exchanged); return 0 where it has
  * none. There is room for n in row and order. Here n is always 6. */
 static int invert(size_t n, double *restrict a, double *restrict row, size_t *order)
@@ -733,7 +743,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         n1_0 += change_n1_0;
         n1_1 += change_n1_1;
         n1_2 += change_n1_2;
-        if (close || (still && change <= 5.684341886080802e-14 * greater(1.0, scale))) {
+        if (close || (still && (change <= 5.684341886080802e-14 * scale
+            || change * fabs(h) <= 7.105427357601002e-15 * largest(state, 12)))) {
             count_sweeps(statistics, 0, sweep, 0);
             memory->rate_1 = sweep > 1 ? rate_1 : 2.0 * rate_1;
             break;

@@ -596,7 +596,9 @@ def _advance(state, h, memory, statistics):
         scale = max(
             0.0, abs(xi1_0), abs(xi1_1), abs(xi1_2), abs(n1_0), abs(n1_1), abs(n1_2),
         )
-        still = 0.0 < previous_1 <= change <= 5.684341886080802e-14 * max(1.0, scale)
+        still = 0.0 < previous_1 <= change and (
+            change <= 5.684341886080802e-14 * scale or change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state))
+        )
         if sweep == 1:
             memory.first = max(memory.first, change)
         if previous_1 > 0.0:

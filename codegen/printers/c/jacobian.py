@@ -7,7 +7,7 @@ from codegen.printers.arrange import Arrangement, arrange
 from codegen.printers.c.statements import Statements
 from codegen.printers.c.text import fill
 from codegen.printers.interface import Interface
-from codegen.printers.layout import register
+from codegen.printers.layout import blocks, register
 from codegen.printers.names import Names
 
 
@@ -22,7 +22,7 @@ def varying(
     register(kernel, arrangement, names)
     symbols = tuple(s for f in kernel.state for s in f.symbols)
     real, read = interface.format.c_type, arrangement.symbols()
-    statements = Statements(arrangement, names, interface.prefix, interface.format)
+    statements = Statements(arrangement, names, interface.prefix, interface.format, blocks(kernel))
     body = list(statements.lines())
     ends, new = statements.outputs(symbols[interface.size :])
     places = [f"state[{i}]" for i in range(interface.size)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from codegen.ir.kernel import CHORD, NEWTON, SLOWEST, Newton
+from codegen.ir.kernel import CHORD, LOST, NEWTON, SLOWEST, VARIED, Loop, Newton
 from codegen.printers.arrange import METHODS, Beginning, Iteration
 from codegen.printers.c.text import broken, comment, fill, greatest, paired
 from codegen.printers.expression import spell
@@ -191,16 +191,16 @@ def _end(
 ) -> Iterator[str]:
     """Yield the lines that correct the unknowns and end the comparison of momenta.
 
-    It ends where the next change would be below rounding, by the rate of the last two: that of the step
-    before in the first sweep. What stands still at rounding ends it, too.
+    It ends where the next change would be below four roundings of the sum of the unknowns, by the rate of the
+    last two: that of the step before in the first sweep. What stands still at rounding, of the unknowns or of
+    the state, ends it, too.
     """
     number, absolute, limit = statement.number, s.style.function("fabs"), statement.loop.limit
     rate, zero = f"rate_{number}", s.literal(0.0)
-    twice, still = (s.literal(s.precision.scaled(x)) for x in (2.0**-52, statement.loop.tolerance))
+    close, still = (s.literal(s.precision.scaled(x)) for x in (2.0**-50, statement.loop.tolerance))
     yield from fill(f"const {s.real} change =", paired([f"{absolute}({x})" for x in changes]), ";")
     yield from _not_finite(s, statement, ["change"])
-    sizes = [s.literal(1.0), *(f"{absolute}({x})" for x in now)]
-    yield from fill(f"const {s.real} scale =", paired(sizes), ";")
+    yield from fill(f"const {s.real} scale =", paired([f"{absolute}({x})" for x in now]), ";")
     yield from (f"{x} += {y};" for x, y in zip(now, changes, strict=True))
     yield f"if ({previous} > {zero}) {{"
     yield f"    {rate} = change / {previous};"
@@ -208,8 +208,9 @@ def _end(
     yield "    memory->first += change;"
     yield "}"
     yield f"const int contracts = {rate} < {s.literal(0.5)};"
-    yield f"if (contracts ? change * ({rate} + {s.literal(LEAST_RATE)}) <= {twice} * scale"
-    yield f"              : {previous} > {zero} && change <= {still} * scale) {{"
+    yield f"if (contracts ? change * ({rate} + {s.literal(LEAST_RATE)}) <= {close} * scale"
+    yield f"              : {previous} > {zero} && (change <= {still} * scale"
+    yield from _alternative(_lost(s, statement.loop), "                  ", "))")
     yield f"    memory->{rate} = {rate};"
     yield f"    count_sweeps(statistics, {number - 1}, sweep, 0);"
     yield "    break;"
@@ -220,6 +221,25 @@ def _end(
     yield "}"
     yield f"{_fresh(number)} = 0;"
     yield f"{previous} = change;"
+
+
+def _lost(s: Statements, loop: Loop) -> list[str]:
+    """Spell the tests whether a change of the unknowns is lost in the state, or in the variation of it."""
+    varied, bound = loop.label.startswith(VARIED), s.literal(s.precision.scaled(LOST))
+    moved = f"change * {s.style.function('fabs')}(h)"
+    return [
+        f"{moved} <= {bound} * largest({name}{f' + {start}' if start else ''}, {size})"
+        for name, start, size in s.blocks
+        if varied == (name == "vector")
+    ]
+
+
+def _alternative(tests: list[str], indent: str, end: str) -> Iterator[str]:
+    """Yield the lines of "or all tests", the last of a condition that ``end`` closes."""
+    opened, closed = ("(", ")") if len(tests) > 1 else ("", "")
+    for k, test in enumerate(tests):
+        start = f"|| {opened}" if k == 0 else "    && "
+        yield f"{indent}{start}{test}" + (f"{closed}{end} {{" if k == len(tests) - 1 else "")
 
 
 def _decision(
@@ -257,8 +277,8 @@ def _decision(
         small = f"change * {rate} <= {unit} * scale"
     yield from fill("const int close =", (f"change <= {close} * scale", f"&& {small}"), ";")
     yield from (f"{x} += {y};" for x, y in corrections)
-    most = f"greater({s.literal(1.0)}, scale)"
-    yield f"if (close || (still && change <= {tolerance} * {most})) {{"
+    yield f"if (close || (still && (change <= {tolerance} * scale"
+    yield from _alternative(_lost(s, loop), "    ", ")))")
     yield f"    count_sweeps(statistics, {block}, sweep, 0);"
     if not statement.starts:
         rate = f"rate_{statement.number}"

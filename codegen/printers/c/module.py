@@ -16,7 +16,7 @@ from codegen.printers.c.statements import RESERVED, Statements, literal
 from codegen.printers.c.text import comment, fill, paired
 from codegen.printers.expression import spell
 from codegen.printers.interface import Interface
-from codegen.printers.layout import WIDE, inverts, layout, register, times
+from codegen.printers.layout import WIDE, blocks, inverts, layout, register, times
 from codegen.printers.names import Names
 from codegen.printers.operations import costs
 from codegen.printers.precision import DOUBLE
@@ -40,7 +40,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     variables = declarations(kernel, interface, names) | definition(kernel, arrangement, names, interface)
     functions = {*arrangement.functions(), "isfinite"}
     if interface.blocks:
-        functions |= {"fabs"}
+        functions |= {"fabs", "largest"}
     loops = (*kernel.loops, *(kernel.vary.loops if kernel.vary is not None else ()))
     if any(loop.newton is None or not loop.newton.residuals for loop in loops):
         functions |= {"greater"}
@@ -105,7 +105,7 @@ def definition(
     """Return what the body of a function that changes the state is spelled from."""
     symbols = tuple(s for f in kernel.state for s in f.symbols)
     real = interface.format.c_type
-    statements = Statements(arrangement, names, interface.prefix, interface.format)
+    statements = Statements(arrangement, names, interface.prefix, interface.format, blocks(kernel))
     # The next guess waits for the solution alone: it is made before what else does.
     unknowns = [names.spelled[u] for u in kernel.start.unknowns] if kernel.start else []
     kept = [*solution(unknowns, real), "remember(memory, solution);"] if unknowns else []

@@ -9,6 +9,7 @@ from codegen.printers.arrange import Arrangement, Assignment, Beginning, Invocat
 from codegen.printers.c import loops
 from codegen.printers.c.text import fill
 from codegen.printers.expression import Style, spell
+from codegen.printers.layout import Place
 from codegen.printers.names import Names
 from codegen.printers.precision import DOUBLE, Precision
 from codegen.snippets.graph import LIBRARY
@@ -28,7 +29,7 @@ _WORDS = """
     FP_ZERO MATH_ERREXCEPT MATH_ERRNO math_errhandling
     M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_PI M_PI_2 M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2
     main NULL INFINITY NAN size_t memcpy fmax
-    sqrt sin cos exp log sinh cosh fabs isfinite greater quotient signed_stumpff0 signed_stumpff1
+    sqrt sin cos exp log sinh cosh fabs isfinite greater largest quotient signed_stumpff0 signed_stumpff1
     sqrtf sinf cosf expf logf sinhf coshf fabsf
     state statistics steps step stride trajectory completed status advance row sweep change scale still close
     count_sweeps count_matrix contracts input inputs context held hold memory moved size_of solution invert
@@ -49,13 +50,20 @@ likely to include; what the helpers and templates call their own.
 class Statements:
     """Prints the statements of one arrangement.
 
-    ``prefix`` starts status codes; lines carry no indentation of their own beyond nested blocks.
+    ``prefix`` starts status codes; lines carry no indentation of their own beyond nested blocks. ``blocks``
+    say where those of the state lie.
     """
 
     def __init__(
-        self, arrangement: Arrangement, names: Names, prefix: str, precision: Precision = DOUBLE
+        self,
+        arrangement: Arrangement,
+        names: Names,
+        prefix: str,
+        precision: Precision = DOUBLE,
+        blocks: Sequence[Place] = (),
     ) -> None:
         self.arrangement, self.names, self.prefix, self.precision = arrangement, names, prefix, precision
+        self.blocks = tuple(blocks)
         self.real = precision.c_type
         self.style = style(precision)
 

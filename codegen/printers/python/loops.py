@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from codegen.ir.kernel import CHORD, NEWTON, SLOWEST, Newton
+from codegen.ir.kernel import CHORD, LOST, NEWTON, SLOWEST, VARIED, Newton
 from codegen.printers.arrange import METHODS, Beginning, Iteration
 from codegen.printers.layout import WIDE
 from codegen.printers.python.text import WIDTH, call, filled, indented, quoted
@@ -164,12 +164,20 @@ def _decision(
     close, tolerance = (precision.text(precision.scaled(x)) for x in (loop.close, loop.tolerance))
     unit = precision.text(precision.unit)
     yield from call("change = max", changes, 2)
-    compared = loop.newton is not None and loop.newton.residuals
     sizes = [f"abs({x})" for x in now]
-    yield from call("scale = max", ["1.0" if compared else "0.0", *sizes], 2)
+    yield from call("scale = max", ["0.0", *sizes], 2)
     yield from _finite(s, statement, finite) if finite else ()
-    most = "scale" if compared else "max(1.0, scale)"
-    yield f"        still = 0.0 < {previous} <= change <= {tolerance} * {most}"
+    varied, bound = loop.label.startswith(VARIED), precision.text(precision.scaled(LOST))
+    lost = [
+        f"max(map(abs, {name}[{start}:{start + size}]))"
+        for name, start, size in s.blocks
+        if varied == (name == "vector")
+    ]
+    felt = f"{bound} * " + (f"min({', '.join(lost)})" if len(lost) > 1 else lost[0])
+    yield f"        still = 0.0 < {previous} <= change and ("
+    yield f"            change <= {tolerance} * scale"
+    yield f"            or change * abs(h) <= {felt}"
+    yield "        )"
     small = f"change * change <= {unit} * scale * {previous}"
     if not statement.starts:
         rate = f"rate_{statement.number}"

@@ -9,7 +9,7 @@ from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Kernel, PutOff, Start
 from codegen.printers.arrange import Arrangement, arrange
 from codegen.printers.expression import spell
 from codegen.printers.interface import Interface
-from codegen.printers.layout import inverts, layout, register, times
+from codegen.printers.layout import blocks, inverts, layout, register, times
 from codegen.printers.names import Names
 from codegen.printers.operations import costs
 from codegen.printers.precision import DOUBLE
@@ -32,7 +32,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     symbols = tuple(s for f in kernel.state for s in f.symbols)
     precision = interface.format
     single = precision is not DOUBLE
-    statements = Statements(arrangement, names, precision)
+    statements = Statements(arrangement, names, precision, blocks=blocks(kernel))
     body = list(statements.lines())
     ends, new = statements.outputs(symbols)
     functions = {*arrangement.functions(), "isfinite"}
@@ -166,7 +166,7 @@ def jacobian(kernel: Kernel, interface: Interface) -> tuple[dict[str, object], s
     arrangement = arrange(kernel)
     names = register(kernel, arrangement, Names(RESERVED))
     symbols = tuple(s for f in kernel.state for s in f.symbols)
-    statements = Statements(arrangement, names, interface.format, "D")
+    statements = Statements(arrangement, names, interface.format, "D", blocks(kernel))
     body = list(statements.lines())
     ends, new = statements.outputs(symbols[interface.size :])
     asked = samples(kernel, arrangement.symbols(), names, statements)

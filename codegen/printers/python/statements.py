@@ -9,13 +9,14 @@ from codegen.ir.expr import Expr
 from codegen.ir.number import Number
 from codegen.printers.arrange import Arrangement, Assignment, Beginning, Invocation, Iteration, Simple
 from codegen.printers.expression import Style, spell
+from codegen.printers.layout import Place
 from codegen.printers.names import Names
 from codegen.printers.precision import DOUBLE, Precision
 from codegen.printers.python import loops
 from codegen.printers.python.text import filled, indented
 
 _WORDS = """
-    abs all max range float len list map sum tuple zip ArithmeticError ValueError
+    abs all max min range float len list map sum tuple zip ArithmeticError ValueError
     sqrt sin cos exp log sinh cosh inf isfinite still close quotient signed_stumpff0 signed_stumpff1
     state statistics steps step stride trajectory run row rows sweep change scale total
     settled error failure labels count made new memory invert fabs slope2 slope3
@@ -32,13 +33,19 @@ class Statements:
     """Prints the statements of one arrangement at the indentation of a function body.
 
     In single precision constants are NumPy's float32, made once: ``constants`` maps their names, which begin
-    with ``letter``, to digits.
+    with ``letter``, to digits. ``blocks`` say where those of the state lie.
     """
 
     def __init__(
-        self, arrangement: Arrangement, names: Names, precision: Precision = DOUBLE, letter: str = "C"
+        self,
+        arrangement: Arrangement,
+        names: Names,
+        precision: Precision = DOUBLE,
+        letter: str = "C",
+        blocks: Sequence[Place] = (),
     ) -> None:
         self.arrangement, self.names, self.precision, self.letter = arrangement, names, precision, letter
+        self.blocks = tuple(blocks)
         self.constants: dict[str, str] = {}
         self._named: dict[str, str] = {}
         self.style = Style() if precision is DOUBLE else Style(self._constant)
