@@ -25,6 +25,9 @@ slope by less than 0.03."""
 FIRST = 5
 """Steps on the first rung of a ladder that nobody prescribed."""
 
+LONGER = (2, 3, 4)
+"""Steps on rungs before the first."""
+
 
 @dataclass(frozen=True)
 class Rung:
@@ -92,6 +95,8 @@ def climb(run: Callable[[int], Rung], most: int, to_rounding: bool = False) -> L
 
     With ``to_rounding`` the climb does not end where the slopes have settled. A run that failed ends nothing:
     Newton's method may find some solution with a long step, none with half of it, and the right one beyond.
+    Where a high order meets rounding before three slopes have settled, runs of longer steps and runs in
+    between are added: their slopes say the same, if each must settle to less.
     """
     rungs: list[Rung] = []
     steps = FIRST
@@ -103,7 +108,13 @@ def climb(run: Callable[[int], Rung], most: int, to_rounding: bool = False) -> L
         if (ladder.settled and not to_rounding) or (ladder.clean and too_fine):
             break
         steps *= 2
-    return Ladder(tuple(rungs))
+    ladder = Ladder(tuple(rungs))
+    if ladder.settled or not ladder.clean or not ladder.rungs[-1].excluded:
+        return ladder
+    known = {r.steps: r for r in rungs}
+    more = [*LONGER, *(k * r.steps // FIRST for r in ladder.clean for k in (6, 7))]
+    known |= {n: run(n) for n in more if n <= most}
+    return Ladder(tuple(known[n] for n in sorted(known)))
 
 
 def rounding(steps: int, epsilon: float, size: float) -> float:

@@ -1163,9 +1163,10 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             memory->first += change;
         }
         const int contracts = rate_1 < 0.5;
-        if (contracts ? change * (rate_1 + 0.0001220703125) <= 2.220446049250313e-16 * scale
-                      : previous_1 > 0.0 && (change <= 5.684341886080802e-14 * scale
-                          || change * fabs(h) <= 7.105427357601002e-15 * largest(state, 12))) {
+        if (contracts ? change * (rate_1 + 0.0001220703125) <= 8.881784197001252e-16 * scale
+                      : sweep > 1 && (change <= 5.684341886080802e-14 * scale
+                          || (change * fabs(h) <= 7.105427357601002e-15 * largest(state, 9)
+                              && change * fabs(h) <= 7.105427357601002e-15 * largest(state + 9, 3)))) {
             memory->rate_1 = rate_1;
             count_sweeps(statistics, 0, sweep, 0);
             break;

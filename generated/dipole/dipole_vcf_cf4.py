@@ -937,7 +937,8 @@ def _advance(state, h, memory, statistics):
             abs(xi3_0), abs(xi3_1), abs(xi3_2), abs(xi4_0), abs(xi4_1), abs(xi4_2),
         )
         still = 0.0 < previous_1 <= change and (
-            change <= 5.684341886080802e-14 * scale or change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state))
+            change <= 5.684341886080802e-14 * scale
+            or change * abs(h) <= 7.105427357601002e-15 * min(max(map(abs, state[0:9])), max(map(abs, state[9:12])))
         )
         if sweep == 1:
             memory.first = max(memory.first, change)

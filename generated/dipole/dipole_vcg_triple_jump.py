@@ -382,7 +382,8 @@ def _substep(state, h, memory, statistics):
         change = max(abs(d_xi1_0), abs(d_xi1_1), abs(d_xi1_2))
         scale = max(0.0, abs(xi1_0), abs(xi1_1), abs(xi1_2))
         still = 0.0 < previous_1 <= change and (
-            change <= 5.684341886080802e-14 * scale or change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state))
+            change <= 5.684341886080802e-14 * scale
+            or change * abs(h) <= 7.105427357601002e-15 * min(max(map(abs, state[0:9])), max(map(abs, state[9:12])))
         )
         if sweep == 1:
             memory.first = max(memory.first, change)

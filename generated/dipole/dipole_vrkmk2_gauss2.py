@@ -631,7 +631,8 @@ def _advance(state, h, memory, statistics):
             0.0, abs(v1_0), abs(v1_1), abs(v1_2), abs(v2_0), abs(v2_1), abs(v2_2),
         )
         still = 0.0 < previous_1 <= change and (
-            change <= 5.684341886080802e-14 * scale or change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state))
+            change <= 5.684341886080802e-14 * scale
+            or change * abs(h) <= 7.105427357601002e-15 * min(max(map(abs, state[0:9])), max(map(abs, state[9:12])))
         )
         if sweep == 1:
             memory.first = max(memory.first, change)

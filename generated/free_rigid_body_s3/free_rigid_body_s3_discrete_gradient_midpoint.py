@@ -1000,7 +1000,8 @@ def _advance(state, h, memory, statistics):
         change = max(abs(change_xi_0), abs(change_xi_1), abs(change_xi_2))
         scale = max(0.0, abs(xi_0), abs(xi_1), abs(xi_2))
         still = 0.0 < previous_1 <= change and (
-            change <= 5.684341886080802e-14 * scale or change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state))
+            change <= 5.684341886080802e-14 * scale
+            or change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state[0:4]))
         )
         if sweep == 1:
             memory.first = max(memory.first, change)

@@ -744,7 +744,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         n1_1 += change_n1_1;
         n1_2 += change_n1_2;
         if (close || (still && (change <= 5.684341886080802e-14 * scale
-            || change * fabs(h) <= 7.105427357601002e-15 * largest(state, 12)))) {
+            || (change * fabs(h) <= 7.105427357601002e-15 * largest(state, 9)
+                && change * fabs(h) <= 7.105427357601002e-15 * largest(state + 9, 3))))) {
             count_sweeps(statistics, 0, sweep, 0);
             memory->rate_1 = sweep > 1 ? rate_1 : 2.0 * rate_1;
             break;

@@ -597,7 +597,8 @@ def _advance(state, h, memory, statistics):
             0.0, abs(xi1_0), abs(xi1_1), abs(xi1_2), abs(n1_0), abs(n1_1), abs(n1_2),
         )
         still = 0.0 < previous_1 <= change and (
-            change <= 5.684341886080802e-14 * scale or change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state))
+            change <= 5.684341886080802e-14 * scale
+            or change * abs(h) <= 7.105427357601002e-15 * min(max(map(abs, state[0:9])), max(map(abs, state[9:12])))
         )
         if sweep == 1:
             memory.first = max(memory.first, change)

@@ -182,6 +182,42 @@ def test_a_state_that_is_no_number_is_reported(solver, target, bad):
     assert failure.value.status == Status.NOT_FINITE
 
 
+LINEAR = ("rk:gauss2", "rk:radau2a2", "vcg:midpoint", "vrkmk:gauss1")
+
+
+@pytest.mark.parametrize("target", sorted(TARGETS))
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("method", LINEAR)
+def test_a_linear_scene_knows_no_large_and_small_states(method, solver, target):
+    """Powers of two go through every sweep: answers are scaled to the last bit, failures stay failures.
+
+    In units where the state is tiny a long step that diverges once passed for solved.
+    """
+    integrator, state = loaded("linear_oscillator", method, solver, target)
+    for h in (0.01, 0.1, 1.0, 10.0, 100.0):
+        ends = []
+        for power in (0, -30, -200, 200):
+            scaled = [math.ldexp(x, power) for x in state]
+            try:
+                ends.append([math.ldexp(x, -power) for x in integrator.step(scaled, h)])
+            except StepFailed as failure:
+                assert list(failure.state) == scaled
+                ends.append(None)
+        assert ends == [ends[0]] * len(ends)
+        assert h > 0.1 or ends[0] is not None
+
+
+@pytest.mark.parametrize("target", sorted(TARGETS))
+@pytest.mark.parametrize(("method", "solver"), [("vcg:midpoint", NEWTON), ("vcf:midpoint", FIXED_POINT)])
+def test_a_body_at_rest_stays_at_rest(method, solver, target):
+    """The change of the unknowns is zero in the first sweep."""
+    integrator, state = loaded("free_rigid_body_attitude", method, solver, target)
+    rest = [*state[:9], 0.0, 0.0, 0.0]
+    statistics = Statistics()
+    assert integrator.run(rest, 0.1, 5, statistics=statistics) == rest
+    assert statistics.most <= 2
+
+
 def test_a_wrong_matrix_is_seen_in_the_sweeps():
     """The control: with the unit matrix Newton's method is the fixed point, and fails where that does."""
     made = compiled("heavy_top", "vcg:midpoint", NEWTON)

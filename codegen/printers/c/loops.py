@@ -209,7 +209,7 @@ def _end(
     yield "}"
     yield f"const int contracts = {rate} < {s.literal(0.5)};"
     yield f"if (contracts ? change * ({rate} + {s.literal(LEAST_RATE)}) <= {close} * scale"
-    yield f"              : {previous} > {zero} && (change <= {still} * scale"
+    yield f"              : sweep > 1 && (change <= {still} * scale"
     yield from _alternative(_lost(s, statement.loop), "                  ", "))")
     yield f"    memory->{rate} = {rate};"
     yield f"    count_sweeps(statistics, {number - 1}, sweep, 0);"

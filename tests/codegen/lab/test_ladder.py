@@ -45,7 +45,8 @@ def test_slopes_divide_by_the_true_step_ratio() -> None:
 def test_what_is_missing_is_judged_by_the_step_ratio() -> None:
     # Steps in the ratio 1.1: slopes change by 0.03 a rung, yet they are still 0.3 and more from the order 2.
     steps = [round(1000 * 1.1**k) for k in range(5)]
-    rungs, error = [], 1.0
+    rungs: list[Rung] = []
+    error = 1.0
     for n, slope in zip(steps, (0, 1.60, 1.63, 1.66, 1.69), strict=True):
         error = rungs[-1].error * (rungs[-1].steps / n) ** slope if rungs else error
         rungs.append(Rung(n, 1 / n, error))
@@ -83,6 +84,20 @@ def test_a_climb_stops_where_rounding_begins_and_where_patience_ends() -> None:
 
     assert climb(run, 10**6).rungs[-1].steps <= 160
     assert [r.steps for r in climb(lambda n: Rung(n, 1 / n, math.exp(-n)), 50).rungs] == [5, 10, 20, 40]
+
+
+@pytest.mark.parametrize(("order", "size"), [(6, 5e-4), (8, 1e-2), (10, 1.0)])
+def test_a_high_order_that_meets_rounding_soon_is_decided_by_runs_in_between(order: int, size: float) -> None:
+    def run(n: int) -> Rung:
+        error = size * n**-order * (1 - 1 / n**2)
+        return Rung(n, 1 / n, error, "rounding" if error < 100 * rounding(n, 2.0**-52, 1) else "")
+
+    doubled = Ladder(tuple(run(FIRST * 2**k) for k in range(4)))
+    assert doubled.verdict(order) == "undecided"
+    ladder = climb(run, 10**6, to_rounding=True)
+    assert ladder.verdict(order) == "holds"
+    assert ladder.verdict(order - 1) == ladder.verdict(order + 1) == "fails"
+    assert [r.steps for r in ladder.rungs] == sorted({r.steps for r in ladder.rungs})
 
 
 def test_a_run_that_failed_does_not_end_the_climb() -> None:

@@ -19,7 +19,9 @@ def test_no_helper_calls_itself():
 
 
 @pytest.mark.parametrize("target", TARGETS)
-@pytest.mark.parametrize("snippet", [s for s in snippets() if s.name not in ("greater", "largest")], ids=lambda s: s.name)
+@pytest.mark.parametrize(
+    "snippet", [s for s in snippets() if s.name not in ("greater", "largest")], ids=lambda s: s.name
+)
 def test_the_edges_are_the_calls_in_the_text(target, snippet):
     text = needed(target, [snippet.name]).texts[-1]
     body = text.split("\n", 1)[1]

@@ -9,7 +9,7 @@ import pytest
 
 from codegen.emit import compile_method
 from codegen.lab.runner import Emitted
-from codegen.lab.stability.extremes import ACCURATE, WRONG, Case, answer, cases
+from codegen.lab.stability.extremes import ACCURATE, SILENT, WRONG, Case, answer, cases
 from codegen.load import Integrator
 
 
@@ -96,6 +96,56 @@ def test_digits_go_as_the_angle_grows():
     made = compile_method("free_rigid_body", "cf:cf4")
     runner = Emitted(made, "c")
     usual = next(iter(cases(made)))
-    digits = [answer(made, runner, replace(usual, h=h)).determined for h in (0.1, 10.0, 1000.0)]
+    digits = [answer(made, runner, replace(usual, h=h)).determined for h in (0.1, 10.0, 300.0)]
     assert digits == sorted(digits, reverse=True)
     assert digits[0] > digits[-1] + 4
+
+
+FAR = 2.0**8
+"""Radians that four stages may turn through."""
+
+
+@pytest.mark.parametrize("scene", ["driven_spin", "free_rigid_body", "fast_heavy_top"])
+def test_the_last_step_before_the_limit_has_its_digits_and_the_first_beyond_is_a_status(scene):
+    """The exponentials of CF4's update turn by a third to two thirds of the step."""
+    made = compile_method(scene, "cf:cf4")
+    runner = Emitted(made, "c")
+    angle = next(case for case in cases(made) if case.name == "angle 100")
+    near = answer(made, runner, replace(angle, h=angle.h * FAR / 100))
+    assert near.verdict == ACCURATE
+    assert near.error is not None
+    assert near.error < 1e-3
+    far = answer(made, runner, replace(angle, h=angle.h * 4 * FAR / 100))
+    assert far.verdict == "status: the new state is not finite"
+
+
+def test_an_answer_without_digits_is_wrong_however_well_rounding_explains_it(monkeypatch):
+    """The control: with the limit of a single angle for a chain of them."""
+    monkeypatch.setattr("codegen.printers.c.module.chain", lambda kernel: 1)
+    made = compile_method("free_rigid_body", "cf:cf4")
+    runner = Emitted(made, "c")
+    named = {case.name: case for case in cases(made)}
+    found = answer(made, runner, named["angle 1e+06"])
+    assert found.verdict == SILENT
+    assert found.verdict.startswith(WRONG)
+    assert found.determined is not None
+    assert found.determined < 3
+    assert answer(made, runner, named["angle 100"]).verdict == ACCURATE
+
+
+def test_rounding_within_a_step_is_not_taken_for_a_fault():
+    """CF4 finds a momentum that stands still as a difference: its digits go with the angle."""
+    made = compile_method("free_rigid_body_attitude", "cf:cf4")
+    runner = Emitted(made, "c")
+    angle = next(case for case in cases(made) if case.name == "angle 100")
+    assert answer(made, runner, angle).verdict == ACCURATE
+    spoilt = [x * (1 + 1e-9) for x in runner.integrator.run(list(angle.state), angle.h, 1, angle.t)]
+    assert answer(made, Answering(runner, spoilt), angle).verdict.startswith(WRONG)
+
+
+class Answering:
+    """A runner whose integrator gives one answer."""
+
+    def __init__(self, runner: Emitted, found) -> None:
+        self.compiled, self.twin = runner.compiled, runner.twin
+        self.integrator = Spoilt(runner.integrator, lambda *_: found)
