@@ -58,6 +58,13 @@ def iteration(s: Statements, statement: Iteration) -> Iterator[str]:
     yield "}"
 
 
+def compares(loop: Loop) -> bool:
+    """Whether the lines of a loop call ``greater``: of several changes, or of rates from step to step."""
+    if loop.newton is not None and loop.newton.residuals:
+        return False
+    return len(loop.unknowns) > 1 or not loop.starts
+
+
 def _fresh(number: int) -> str:
     return f"make_{number}"
 

@@ -11,6 +11,7 @@ from codegen.ir.number import Number
 from codegen.printers.arrange import Arrangement, Beginning, Invocation, Iteration, arrange
 from codegen.printers.c.carried import turning
 from codegen.printers.c.jacobian import varying
+from codegen.printers.c.loops import compares
 from codegen.printers.c.pieces import function
 from codegen.printers.c.statements import RESERVED, Statements, literal
 from codegen.printers.c.text import comment, fill, paired
@@ -42,7 +43,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     if interface.blocks:
         functions |= {"fabs", "largest"}
     loops = (*kernel.loops, *(kernel.vary.loops if kernel.vary is not None else ()))
-    if any(loop.newton is None or not loop.newton.residuals for loop in loops):
+    if any(map(compares, loops)):
         functions |= {"greater"}
     if inverts(kernel):
         functions.add("invert")
