@@ -42,7 +42,7 @@ class Emission:
             folder.mkdir(parents=True, exist_ok=True)
             entries = [e for e in entries_of(folder) if (e["module"], e["target"]) != self.key]
             texts = dict(self.files) | {MANIFEST: manifest_text([*entries, dict(self.manifest)])}
-            return [write_text(folder / name, text) for name, text in texts.items()]
+            return write_texts({folder / name: text for name, text in texts.items()})
         except OSError as error:
             raise InputError(
                 f"cannot write there: {error.strerror}",
@@ -71,6 +71,9 @@ def entries_of(folder: Path) -> list[dict[str, Any]]:
             raise KeyError("module")
     except FileNotFoundError:
         return []
+    except OSError as problem:
+        reason = (problem.strerror or "unreadable").lower()
+        raise InputError(reason, where=str(path), expected="the file that emit wrote") from None
     except (ValueError, KeyError, TypeError, AttributeError):
         raise InputError(
             "this is not a manifest", where=str(path), expected="the file that emit wrote", hint="remove it"
@@ -107,16 +110,25 @@ def read(directory: str | Path, module: str = "", target: str = "") -> Emission:
 
 def write_text(path: Path, text: str) -> Path:
     """Write a file under a temporary name, then give it its own; return its path."""
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    return write_texts({path: text})[0]
+
+
+def write_texts(texts: Mapping[Path, str]) -> list[Path]:
+    """Write files under temporary names, and when all are written give them their own; return their paths."""
+    written: dict[Path, str] = {}
     try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
-            stream.write(text)
-        os.chmod(temporary, 0o666 & ~_umask())
-        os.replace(temporary, path)
+        for path, text in texts.items():
+            handle, written[path] = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+            with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
+                stream.write(text)
+            os.chmod(written[path], 0o666 & ~_umask())
+        for path, temporary in written.items():
+            os.replace(temporary, path)
     except BaseException:
-        os.unlink(temporary)
+        for temporary in written.values():
+            Path(temporary).unlink(missing_ok=True)
         raise
-    return path
+    return list(texts)
 
 
 def _umask() -> int:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 
 from codegen import scenes
-from codegen.emission import write_text
+from codegen.emission import write_texts
 from codegen.errors import MethodError
 from codegen.lab.adaptive import AdaptiveContestant
 from codegen.lab.contest import Contestant, EmittedContestant, PeerContestant, Row, climb
@@ -87,7 +87,8 @@ class Bench:
             f"{name}.json": json.dumps([r.as_json() for r in result.rows], indent=2) + "\n",
             f"{name}.svg": picture(result),
         }
-        paths = tuple(str(write_text(self.folder / file, text)) for file, text in texts.items())
+        written = write_texts({self.folder / file: text for file, text in texts.items()})
+        paths = tuple(str(path) for path in written)
         journal.close()
         return Result(self.scene, entries, result.places, paths)
 

@@ -210,12 +210,16 @@ def _print_report(report: Report, *, detailed: bool) -> None:
 def _work(work: dict[str, Work]) -> str:
     """Say what a step costs, in one line: evaluations, then what is told apart by family."""
     evaluations = max(cost.evaluations for cost in work.values())
-    told = ["1 evaluation" if evaluations == 1 else f"{evaluations} evaluations"]
+    told = [_count(evaluations, "evaluation")]
     for label, cost in work.items():
         if cost.exponentials is not None:
-            brackets = f" and {cost.brackets} brackets" if cost.brackets else ""
-            told.append(f"{label} {cost.exponentials} exponentials{brackets}")
+            brackets = f" and {_count(cost.brackets, 'bracket')}" if cost.brackets else ""
+            told.append(f"{label} {_count(cost.exponentials, 'exponential')}{brackets}")
     return "; ".join(told)
+
+
+def _count(n: int, what: str) -> str:
+    return f"{n} {what}{'' if n == 1 else 's'}"
 
 
 def _proof(proof: Certificate) -> str:

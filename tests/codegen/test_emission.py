@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 
 import pytest
 
@@ -65,10 +66,37 @@ def test_what_is_no_manifest_is_said_to_be_none(kernels, tmp_path):
         kernels.emission(kernels.rigid(), "c").write(tmp_path)
 
 
+def test_a_file_in_place_of_a_folder_or_a_folder_in_place_of_a_manifest_is_told(tmp_path):
+    (tmp_path / "file").write_text("")
+    (tmp_path / "folder" / "manifest.json").mkdir(parents=True)
+    with pytest.raises(InputError, match=r"file.manifest\.json: not a directory"):
+        read(tmp_path / "file")
+    with pytest.raises(InputError, match=r"folder.manifest\.json: is a directory"):
+        read(tmp_path / "folder")
+
+
 def test_a_folder_that_cannot_be_made_is_bad_input(kernels, tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(InputError, match="cannot write there"):
         kernels.emission(kernels.rigid(), "c").write(tmp_path / "file" / "folder")
+
+
+def test_a_disk_that_is_full_after_the_header_leaves_no_header(kernels, tmp_path, monkeypatch):
+    opened = []
+
+    def full(handle, *words, **options):
+        opened.append(handle)
+        if len(opened) > 1:
+            os.close(handle)
+            raise OSError(28, "No space left on device")
+        return fdopen(handle, *words, **options)
+
+    fdopen = os.fdopen
+    monkeypatch.setattr("codegen.emission.os.fdopen", full)
+    with pytest.raises(InputError, match="cannot write there: No space left on device"):
+        kernels.emission(kernels.rigid(), "c").write(tmp_path)
+    assert len(opened) == 2
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_an_interrupted_write_leaves_the_folder_as_it_was(kernels, tmp_path, monkeypatch):
