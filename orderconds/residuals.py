@@ -9,16 +9,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from decimal import Decimal
+from decimal import Context, Decimal
 from functools import cache, cached_property, partial
 from math import factorial
 from typing import Any
+
+from flint import fmpq
 
 from orderconds import families
 from orderconds.conditions import OrderCondition
 from orderconds.families import Family
 from orderconds.ring import Balls, Element, NumberField, Ring
 from orderconds.ring.decimals import endpoints, rational_decimal
+from orderconds.ring.field import Algebraic
 from orderconds.series.nodal import nodal_algebra
 
 RESOLUTION = Decimal("1e-3")
@@ -29,6 +32,7 @@ BITS = 256
 """Precision of the balls: enough for twenty digits of a residual that is not zero."""
 
 DIGITS = 20
+ROUNDED = Context(prec=DIGITS)
 
 OVER_Q = ("rk", "prk", "prk_same_weights", "sprk")
 """Families that use :mod:`orderconds.series.nodal`."""
@@ -66,6 +70,8 @@ class Failure:
             low, high = (rational_decimal(x, DIGITS) for x in endpoints(self.enclosure))
             if low == high:
                 return Decimal(low)
+        if (q := _rational(self.value)) is not None:
+            return ROUNDED.divide(Decimal(int(q.p)), Decimal(int(q.q)))
         return Decimal(self.decimal)
 
     def as_json(self) -> dict[str, object]:
@@ -161,6 +167,13 @@ class _OnDemand:
 
     def _missing(self) -> Iterator[int]:
         return (k for k in range(len(self._conditions)) if k not in self._known)
+
+
+def _rational(x: Element) -> Any:
+    """Return an exact number as a quotient, None where it is none or a ball."""
+    if isinstance(x, Algebraic):
+        return x.rational_value if x.is_rational else None
+    return x if isinstance(x, fmpq) else None
 
 
 def _itself(x: Element) -> Element:

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import gc
 import io
-import json
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, redirect_stdout
@@ -86,6 +85,8 @@ def command(
                 click.echo(outcome.text, nl=False)
     verdicts = [outcome.verdict for outcome in outcomes]
     if as_json:
+        import json
+
         screen.print_json([json.loads(outcome.text) for outcome in outcomes if outcome.verdict])
     elif len(outcomes) > 1:
         _print_summary(verdicts)
@@ -139,6 +140,8 @@ def _checked(job: _Job) -> _Outcome:
         message = str(error)
         return _Outcome(None, f"orderconds: {message if job.path in message else f'{job.path}: {message}'}")
     if job.as_json:
+        import json
+
         return _Outcome(report.verdict, json.dumps(report.as_json()))
     if not job.one_of_many:  # here, where a terminal is a terminal
         _print_report(report, detailed=job.detailed)

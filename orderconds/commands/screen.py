@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -90,6 +89,8 @@ def print_json(value: Any) -> None:
       "order": 4
     }
     """
+    import json
+
     click.echo(json.dumps(value, indent=2, allow_nan=False))
 
 

@@ -6,7 +6,6 @@ One module a family, loaded when asked for by name. A module offers ``create(**o
 
 from __future__ import annotations
 
-import difflib
 import inspect
 import re
 from collections.abc import Sequence
@@ -101,6 +100,8 @@ def get(name: str, **options: Any) -> Family:
     base, argument = called.groups() if called else (name, None)
     base = base.replace("-", "_")
     if base not in MODULES:
+        import difflib
+
         close = difflib.get_close_matches(base, MODULES, n=1)
         raise UnknownName(
             f"unknown family {name!r}",

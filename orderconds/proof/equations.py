@@ -69,12 +69,18 @@ class Equations:
     kept: tuple[OrderCondition, ...] | None = None
     """The conditions that do not follow from others, for the reduction ``spelling``."""
 
-    def __call__(self, point: Sequence[Element], ring: Any) -> list[Element]:
-        """Return left-hand sides less right-hand sides; ``point`` are the unknowns' values in ``ring``."""
+    def __call__(
+        self, point: Sequence[Element], ring: Any, places: Sequence[int] | None = None
+    ) -> list[Element]:
+        """Return left-hand sides less right-hand sides; ``point`` are the unknowns' values in ``ring``.
+
+        With ``places`` of those equations alone.
+        """
         values = {u.name: x for u, x in zip(self.proof.unknowns, point, strict=True)}
         method, _ = self.proof.over(ring, values)
         if self.proof.reduction == "simplifying":
-            return list(simplifying(method, ring, self.proof.assumptions))
+            every = list(simplifying(method, ring, self.proof.assumptions))
+            return every if places is None else [every[i] for i in places]
         composed = self.proof.reduction == "symmetric" and isinstance(method, Composition)
         family = families.get(SYMMETRIC if composed else self.proof.conditions)
         read = replace(self.tableau, ring=ring, method=method).read_as(family.formats)
@@ -86,7 +92,9 @@ class Equations:
                 where=f"{self.tableau.path or self.tableau.name}: proof",
                 expected=f"a family that reads format {self.tableau.family}",
             )
-        return list(families.residuals(family, read, ring, self._conditions(family)))
+        conditions = self._conditions(family)
+        wanted = conditions if places is None else [conditions[i] for i in places]
+        return list(families.residuals(family, read, ring, wanted))
 
     def _conditions(self, family: Family) -> tuple[OrderCondition, ...]:
         if self.kept is not None:
@@ -227,8 +235,8 @@ def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
 
     R = Indeterminates(system.proof.spelled)
     try:
-        exact = system([R.variable(u) for u in system.proof.unknowns], R)
+        exact = system([R.variable(u) for u in system.proof.unknowns], R, flat)
     except OUTSIDE:
         return list(range(len(values)))  # radicals or quotients of unknowns
-    identical = {i for i in flat if R.is_zero(exact[i])}
+    identical = {i for i, x in zip(flat, exact, strict=True) if R.is_zero(x)}
     return [i for i in range(len(values)) if i not in identical]

@@ -10,13 +10,10 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from flint import arb, fmpq
+from flint import arb, arb_mat, fmpq
 
 from orderconds.ring.balls import Balls
 from orderconds.ring.precision import working_bits
-
-ZERO = arb(0)
-"""The slope along a variable that has not entered: no arithmetic is done with this very object."""
 
 
 class Jets:
@@ -34,26 +31,23 @@ class Jets:
     def __init__(self, width: int) -> None:
         self.width = width
         self.name = f"jets({width})"
-        self._flat = (ZERO,) * width
-        self.zero = Jet(arb(0), self._flat)
-        self.one = Jet(arb(1), self._flat)
+        self.zero = Jet(arb(0), width)
+        self.one = Jet(arb(1), width)
 
     def __repr__(self) -> str:
         return self.name
 
     def variable(self, place: int, value: arb) -> Jet:
         """Return the variable of that place, enclosed by ``value``."""
-        gradient = [ZERO] * self.width
-        gradient[place] = arb(1)
-        return Jet(value, tuple(gradient))
+        return Jet(value, self.width, arb_mat(1, self.width, [int(k == place) for k in range(self.width)]))
 
     def constant(self, value: arb) -> Jet:
         """Return a number that does not vary."""
-        return Jet(value, self._flat)
+        return Jet(value, self.width)
 
     def rational(self, p: int, q: int = 1) -> Jet:
         """Return p/q."""
-        return Jet(arb(fmpq(p, q)), self._flat)
+        return Jet(arb(fmpq(p, q)), self.width)
 
     def root(self, x: Jet, index: int) -> Jet:
         """Return the real root; ValueError where x may be zero, or negative with an even index."""
@@ -61,8 +55,7 @@ class Jets:
         if not (x.value > 0 or (negative and index % 2)):
             raise ValueError("a root of a number whose sign is not known")
         value = -((-x.value).root(index)) if negative else x.value.root(index)
-        slope = value / (x.value * index)
-        return Jet(value, tuple([g if g is ZERO else slope * g for g in x.gradient]))
+        return Jet(value, x.width, _scaled(x.slopes, value / (x.value * index)))
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Jet:
         """Return the one real root of ``minpoly`` within ``unit`` of ``near``, a constant."""
@@ -72,7 +65,8 @@ class Jets:
         """Return True for the constant zero, False where zero lies outside, else None."""
         if not x.value.contains(0):
             return False
-        return True if x.value.is_zero() and all(g.is_zero() for g in x.gradient) else None
+        flat = x.slopes is None or all(g.is_zero() for g in x.gradient)
+        return True if x.value.is_zero() and flat else None
 
     def text(self, x: Jet) -> str:
         """Spell the value with what is known of it."""
@@ -88,33 +82,33 @@ class Jets:
 
 
 class Jet:
-    """A value and its gradient, all flint balls."""
+    """A value and its gradient, all flint balls; ``slopes`` None stands for a gradient that is zero.
 
-    __slots__ = ("gradient", "value")
+    The gradient is a matrix of one row, on which flint computes at once.
+    """
 
-    def __init__(self, value: arb, gradient: tuple[arb, ...]) -> None:
-        self.value, self.gradient = value, gradient
+    __slots__ = ("slopes", "value", "width")
+
+    def __init__(self, value: arb, width: int, slopes: arb_mat | None = None) -> None:
+        self.value, self.width, self.slopes = value, width, slopes
+
+    @property
+    def gradient(self) -> tuple[arb, ...]:
+        """The partial derivatives."""
+        return (arb(0),) * self.width if self.slopes is None else tuple(self.slopes.entries())
 
     def __repr__(self) -> str:
         return f"Jet({self.value.str(12)})"
 
     def __add__(self, other: Any) -> Jet:
         if not isinstance(other, Jet):
-            return Jet(self.value + other, self.gradient)
-        return Jet(
-            self.value + other.value,
-            tuple(
-                [
-                    h if g is ZERO else g if h is ZERO else g + h
-                    for g, h in zip(self.gradient, other.gradient, strict=True)
-                ]
-            ),
-        )
+            return Jet(self.value + other, self.width, self.slopes)
+        return Jet(self.value + other.value, self.width, _added(self.slopes, other.slopes))
 
     __radd__ = __add__
 
     def __neg__(self) -> Jet:
-        return Jet(-self.value, tuple([g if g is ZERO else -g for g in self.gradient]))
+        return Jet(-self.value, self.width, None if self.slopes is None else -self.slopes)
 
     def __sub__(self, other: Any) -> Jet:
         return self.__add__(-other)
@@ -124,17 +118,9 @@ class Jet:
 
     def __mul__(self, other: Any) -> Jet:
         if not isinstance(other, Jet):
-            return Jet(self.value * other, tuple([g if g is ZERO else g * other for g in self.gradient]))
+            return Jet(self.value * other, self.width, _scaled(self.slopes, other))
         x, y = self.value, other.value
-        return Jet(
-            x * y,
-            tuple(
-                [
-                    (h if h is ZERO else x * h) if g is ZERO else g * y if h is ZERO else g * y + x * h
-                    for g, h in zip(self.gradient, other.gradient, strict=True)
-                ]
-            ),
-        )
+        return Jet(x * y, self.width, _added(_scaled(self.slopes, y), _scaled(other.slopes, x)))
 
     __rmul__ = __mul__
 
@@ -143,8 +129,7 @@ class Jet:
         if self.value.contains(0):
             raise ZeroDivisionError("division by a ball that contains zero")
         value = 1 / self.value
-        slope = -value * value
-        return Jet(value, tuple([g if g is ZERO else slope * g for g in self.gradient]))
+        return Jet(value, self.width, _scaled(self.slopes, -value * value))
 
     def __truediv__(self, other: Any) -> Jet:
         if not isinstance(other, Jet):
@@ -156,7 +141,15 @@ class Jet:
 
     def __pow__(self, n: int) -> Jet:
         base, n = (self, n) if n >= 0 else (self.reciprocal(), -n)
-        result = Jet(arb(1), (ZERO,) * len(self.gradient))
+        result = Jet(arb(1), self.width)
         for _ in range(n):
             result = result * base
         return result
+
+
+def _scaled(slopes: arb_mat | None, factor: Any) -> arb_mat | None:
+    return None if slopes is None else slopes * factor
+
+
+def _added(one: arb_mat | None, other: arb_mat | None) -> arb_mat | None:
+    return other if one is None else one if other is None else one + other
