@@ -103,6 +103,10 @@ def data_of(found: Arrays, where: str) -> dict[str, Any]:
     {'family': 'composition', 'gamma': ['1'], 'base': 'symmetric-2'}
     """
     known = {*TEXTS, *ROWS, *MATRICES}
+    if not found.keys() - set(TEXTS):
+        raise TableauError(
+            "no array of coefficients", where=where, expected=f"one of {', '.join((*MATRICES, *ROWS))}"
+        )
     for name in found:
         if name not in known:
             raise TableauError(
@@ -163,6 +167,27 @@ def _stages(found: Arrays, where: str) -> dict[str, Any]:
         lower = products.pop() | {"order": _integer(found["embedded_order"], where)}
         return {"stage": products[:-1], "update": products[-1], "embedded": lower}
     return {"stage": products[:-1], "update": products[-1]}
+
+
+def butcher(stages: Sequence[Row], weights: Sequence[Row]) -> Arrays:
+    """Return the arrays of a plain Butcher tableau: rows c, a_1, ..., a_s, then b and perhaps embedded b.
+
+    As in print a cell left blank is zero; blank ones beyond the last stage are none.
+
+    >>> butcher([["0", "", ""], ["1", "1", ""]], [["", "1"]])["A"]
+    [['0', '0'], ['1', '0']]
+    """
+    width = len(stages)
+    names = ("b", "embedded_b")
+    found: Arrays = {name: _unblanked(row, width) for name, row in zip(names, weights, strict=False)}
+    return {"c": [row[0] for row in stages], "A": [_unblanked(row[1:], width) for row in stages], **found}
+
+
+def _unblanked(row: Row, width: int) -> Row:
+    end = len(row)
+    while end > width and not row[end - 1]:
+        end -= 1
+    return [x or "0" for x in row[:end]]
 
 
 def _integer(text: str, where: str) -> int:

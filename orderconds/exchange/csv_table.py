@@ -1,7 +1,7 @@
 """CSV: one array a line, or a line a row of a matrix, its name first; a plain Butcher tableau reads as well.
 
 A plain one has c and a row of A in each line, then b after an empty cell, and after another the embedded
-weights.
+weights; a blank cell elsewhere is a zero.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import io
 from typing import Any
 
 from orderconds.errors import TableauError
-from orderconds.exchange.arrays import MATRICES, ROWS, TEXTS, Arrays, arrays, coefficient, data_of
+from orderconds.exchange.arrays import MATRICES, ROWS, TEXTS, Arrays, arrays, butcher, coefficient, data_of
 
 
 def write(data: Any) -> bytes:
@@ -66,7 +66,4 @@ def _plain(rows: list[list[str]], where: str) -> dict[str, Any]:
             where=where,
             expected="lines c, a_1, ..., a_s, then one or two that begin with an empty cell: b, embedded b",
         )
-    found: Arrays = {"A": [row[1:] for row in stages], "b": weights[0], "c": [row[0] for row in stages]}
-    if len(weights) == 2:
-        found["embedded_b"] = weights[1]
-    return data_of(found, where)
+    return data_of(butcher(stages, weights), where)

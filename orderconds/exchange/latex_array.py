@@ -1,6 +1,7 @@
 r"""LaTeX: a Butcher tableau as an ``array`` with rules, other methods as matrices by name.
 
-Read back are ``\begin{array}{c|cc}`` with c, A, a rule and b, and ``A = \begin{pmatrix} ... \end{pmatrix}``.
+Read back are ``\begin{array}{c|cc}`` with c, A (blank cells are zeros), a rule and b, and
+``A = \begin{pmatrix} ... \end{pmatrix}``.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ import re
 from typing import Any
 
 from orderconds.errors import TableauError
-from orderconds.exchange.arrays import MATRICES, ROWS, TEXTS, Arrays, arrays, coefficient, data_of
+from orderconds.exchange.arrays import MATRICES, ROWS, TEXTS, Arrays, arrays, butcher, coefficient, data_of
 from orderconds.exchange.spelling import from_latex, latex
 from orderconds.ring import Ball, Balls
 from orderconds.tableau import Tableau
@@ -17,7 +18,7 @@ from orderconds.tableau.file import from_data
 
 SHORT = Balls(64)
 _TEXT = re.compile(r"^% (\w+): (.*)$", re.MULTILINE)
-_BUTCHER = re.compile(r"\\begin\{array\}\{[rc]\|[rc]+\}(.*?)\\end\{array\}", re.DOTALL)
+_BUTCHER = re.compile(r"\\begin\{array\}\{\s*[lcr]\s*\|[lcr\s]+\}(.*?)\\end\{array\}", re.DOTALL)
 _MATRIX = re.compile(r"([A-Za-z_\\{}]+)\s*=\s*\\begin\{[bp]matrix\}(.*?)\\end\{[bp]matrix\}", re.DOTALL)
 
 
@@ -90,10 +91,7 @@ def _butcher(body: str, where: str) -> Arrays:
         raise TableauError(
             "rules that part no tableau", where=where, expected=r"rows c & A, \hline, a row & b"
         )
-    found: Arrays = {"c": [row[0] for row in parts[0]], "A": [row[1:] for row in parts[0]]}
-    for key, (row,) in zip(("b", "embedded_b"), parts[1:], strict=False):
-        found[key] = row[1:]
-    return found
+    return butcher(parts[0], [row[1:] for (row,) in parts[1:]])
 
 
 def _rows(body: str, where: str) -> list[list[str]]:

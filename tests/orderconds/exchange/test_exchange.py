@@ -248,6 +248,31 @@ class TestForeignFiles:
         assert tableau.method.b == Tableau.load(find("gauss2")).method.b  # type: ignore[union-attr]
         assert tableau.method == Tableau.load(find("gauss2")).method
 
+    def test_blank_cells_of_a_printed_tableau_are_zeros(self) -> None:
+        printed = r"""
+        \begin{array}{l | l l l l}
+          0 & & & & \\ 1/2 & 1/2 & & & \\ 1/2 & & 1/2 & & \\ 1 & & & 1 & \\
+          \hline & 1/6 & 1/3 & 1/3 & 1/6 \\
+        \end{array}"""
+        table = "0,,,,,\n1/2,1/2,,,,\n1/2, ,1/2\n1,,,1\n,1/6,1/3,1/3,1/6,\n,1,,,\n"
+        rk4 = Tableau.load(find("rk4")).method
+        assert from_data(read_data(printed.encode(), "latex", "x.tex")).method == rk4
+        found = from_data(read_data(table.encode(), "csv", "x.csv"))
+        assert found.method == rk4
+        assert found.embedded is not None
+        assert found.embedded.b == (1, 0, 0, 0)
+
+    def test_a_number_beyond_the_last_stage_is_no_blank(self) -> None:
+        with pytest.raises(TableauError, match="3 entries"):
+            from_data(read_data(b"0,0\n1/2,1/2,,1\n,0,1\n", "csv", "x.csv"))
+
+    @pytest.mark.parametrize("of", ["csv", "numpy"])
+    def test_a_file_without_coefficients_says_so(self, of: str, tmp_path: Path) -> None:
+        np.savez(tmp_path / "x.npz", name=np.array("m"))
+        content = (tmp_path / "x.npz").read_bytes() if of == "numpy" else b"name,m\n"
+        with pytest.raises(TableauError, match="no array of coefficients; expected one of A, "):
+            read_data(content, of, "file")
+
 
 @pytest.mark.parametrize(
     ("of", "content"),
