@@ -24,7 +24,7 @@ def read(content: bytes, where: str) -> dict[str, Any]:
     {'name': 'm'}
     """
     try:
-        data = json.loads(content)
+        data = json.loads(content, object_pairs_hook=_once)
     except (ValueError, RecursionError) as problem:
         raise TableauError(str(problem) or "nested too deep", where=where, expected="JSON") from None
     if not isinstance(data, dict):
@@ -32,3 +32,13 @@ def read(content: bytes, where: str) -> dict[str, Any]:
             f"a JSON {type(data).__name__}", where=where, expected="an object with name, family, ..."
         )
     return data
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Return an object in which no name stands twice; Python's reader would take the last."""
+    found: dict[str, Any] = {}
+    for name, value in pairs:
+        if name in found:
+            raise ValueError(f"{name!r} twice in one object")
+        found[name] = value
+    return found

@@ -279,6 +279,7 @@ class TestForeignFiles:
     [
         ("json", b"[1, 2]"),
         ("json", b"{"),
+        ("json", b'{"name": "m", "family": "rk", "A": [[]], "b": [1], "b": ["1"]}'),
         ("json", b"[" * 100_000),
         ("csv", b'"'),
         ("csv", b"\xff"),
