@@ -206,9 +206,10 @@ def emit_compiled(
     options += [f"--precision {precision}"] if single else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]
-    options += [f"--parameter {p}={value}" for p, value in scene.fixed if p not in scene.runtime]
+    options += [f"--parameter {p}={value}" for p, value in scene.fixed]  # of an input its default
     options += [f"--input {name}" for name in scene.inputs]
-    words = ["orderconds emit", named["scene"], "--method", quoted(named["method"]), "--target", target]
+    words = ["orderconds emit", quoted(named["scene"]), "--method", quoted(named["method"])]
+    words += ["--target", target]
     command = " ".join([*words, *options, "-o", "."])
     first, last = scene.span
     recipe = Recipe(
@@ -340,7 +341,7 @@ def bare(name: str) -> str:
 
 def quoted(word: str) -> str:
     """Quote a word that a shell would read otherwise."""
-    return f"'{word}'" if re.search(r"[^\w.:/-]", word) else word
+    return f"'{word}'" if re.search(r"[^\w.:/+-]", word) else word
 
 
 def default_prefix(scene: Setting, method: Method) -> str:

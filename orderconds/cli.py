@@ -173,8 +173,9 @@ def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[st
     """
     try:
         _, _, met = command.make_parser(ctx).parse_args(list(args))
-    except click.UsageError:
-        return  # click meets it again, and says so
+    except click.UsageError as error:
+        error.ctx = error.ctx or ctx  # which click leaves out where an option lacks its value
+        raise
     given: dict[str | None, click.Option] = {}
     seen: set[str | None] = set()
     for option in met:

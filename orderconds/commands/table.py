@@ -30,15 +30,12 @@ def command(write: str | None, against: str | None, as_json: bool) -> int:
 
     Exits with 1 where --check finds another table.
     """
+    texts = {path: _around(path) for path in (write, against) if path is not None}
     rows = list(computed())
     table = "\n".join([BEGIN, *markdown(rows), END])
     status = 0
-    for path in filter(None, (write, against)):
-        text = _text(path)
-        start, end = text.find(BEGIN), text.find(END)
-        if not 0 <= start < end:
-            raise InputError("no place for the table", where=path, expected=f"{BEGIN} and {END}")
-        new = text[:start] + table + text[end + len(END) :]
+    for path, (text, before, after) in texts.items():
+        new = before + table + after
         if path == write:
             put(path, new.encode())
         elif new != text:
@@ -112,10 +109,17 @@ def _least_said(claim: OrderClaim) -> tuple[int, int, int]:
     return -claim.order, rank, claim.cutoff or 0
 
 
-def _text(path: str) -> str:
+def _around(path: str) -> tuple[str, str, str]:
+    """Return the text of a file, and what stands in it before and behind the place of the table."""
     try:
-        return Path(path).read_text(encoding="utf-8")
+        text = Path(path).read_text(encoding="utf-8")
     except OSError as problem:
         raise InputError(
             (problem.strerror or "unreadable").lower(), where=path, expected="a text file"
         ) from None
+    except UnicodeDecodeError:
+        raise InputError("bytes that are no UTF-8", where=path, expected="a text file") from None
+    start, end = text.find(BEGIN), text.find(END)
+    if not 0 <= start < end:
+        raise InputError("no place for the table", where=path, expected=f"{BEGIN} and {END}")
+    return text, text[:start], text[end + len(END) :]

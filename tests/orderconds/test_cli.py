@@ -75,6 +75,7 @@ def test_no_arguments_is_help() -> None:
     [
         (["chekc", "rk4"], "type: orderconds check"),
         (["--frobnicate"], "--frobnicate"),
+        (["check", "rk4", "--family"], "check --help"),
         (["zzzzz"], "type: orderconds --help"),
     ],
 )

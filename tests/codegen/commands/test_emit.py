@@ -61,6 +61,21 @@ def test_explain_tells_what_a_long_step_calls_and_how_often():
     assert "# functions of what the kernel repeats\n  piece_1, 5 calls: field(y1)\n" in told
 
 
+def test_the_header_s_command_quotes_a_file_s_name_and_keeps_the_default_of_an_input(tmp_path, monkeypatch):
+    import shlex
+
+    path = tmp_path / "my scene.py"
+    path.write_text("from codegen.scenes.free_rigid_body import scene\n")
+    words = [str(path), "--method", "cg:cg3", "--parameter", "alpha=1/3", "--parameter", "alpha"]
+    run(emit, *words, "-o", str(tmp_path / "a"))
+    entry = json.loads((tmp_path / "a/manifest.json").read_text())["modules"][0]
+    assert entry["defaults"] == {"alpha": 1 / 3}
+    monkeypatch.chdir(tmp_path)
+    run(emit, *shlex.split(entry["command"])[2:-1], str(tmp_path / "b"))
+    for made in (tmp_path / "a").iterdir():
+        assert made.read_bytes() == (tmp_path / "b" / made.name).read_bytes()
+
+
 def test_explain_tells_every_pass_and_writes_nothing():
     told = run(emit, "free_rigid_body", "-m", "cg:cg3", "--explain")
     for word in ("# lowered:", "# sharing: took out", "# left out", "the scene does not depend on it"):

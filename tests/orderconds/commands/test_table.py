@@ -56,6 +56,20 @@ def test_a_file_without_marks_is_bad_usage(tmp_path: Path) -> None:
     assert "no place for the table" in result.output
 
 
+def test_a_file_that_cannot_be_read_is_told_before_anything_is_computed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(table, "computed", None)
+    (tmp_path / "latin.md").write_bytes(b"caf\xe9")
+    for name, said in (
+        ("latin.md", "bytes that are no UTF-8"),
+        ("absent.md", "no such file"),
+        (".", "is a dir"),
+    ):
+        result = run("--check", str(tmp_path / name))
+        assert (result.exit_code, said in result.output) == (2, True)
+
+
 @pytest.mark.usefixtures("three")
 def test_json_has_a_record_a_tableau_also_beside_a_file(tmp_path: Path) -> None:
     rows = json.loads(run("--json").stdout)
