@@ -19,6 +19,7 @@ from flint import fmpq
 from orderconds import families
 from orderconds.conditions import OrderCondition
 from orderconds.families import Family
+from orderconds.families.once import Once
 from orderconds.ring import Balls, Element, NumberField, Ring
 from orderconds.ring.decimals import endpoints, rational_decimal
 from orderconds.ring.field import Algebraic
@@ -31,6 +32,7 @@ exact value that an elementary integral of that order takes."""
 BITS = 256
 """Precision of the balls: enough for twenty digits of a residual that is not zero."""
 
+ENCLOSING = Balls(BITS)
 DIGITS = 20
 ROUNDED = Context(prec=DIGITS)
 
@@ -128,8 +130,8 @@ def judge(
 def _by_balls(
     family: Family, method: Any, ring: NumberField, conditions: Sequence[OrderCondition]
 ) -> tuple[set[str], tuple[Failure, ...]]:
-    balls = Balls(BITS)
-    enclosed = method.map(cache(lambda x: balls.enclose(ring.ball(x, BITS))))
+    balls = ENCLOSING
+    enclosed = _ENCLOSED(method, ring)
     around = families.residuals(family, enclosed, balls, conditions)
     doubtful = [c for c, x in zip(conditions, around, strict=True) if balls.is_zero(x) is not False]
     exact = iter(families.residuals(family, method, ring, doubtful))
@@ -143,6 +145,13 @@ def _by_balls(
         else:
             verdicts.add("zero")
     return verdicts | ({"fails"} if failing else set()), tuple(failing)
+
+
+def _enclosed(method: Any, ring: Any) -> Any:
+    return method.map(cache(lambda x: ENCLOSING.enclose(ring.ball(x, BITS))))
+
+
+_ENCLOSED = Once(_enclosed)
 
 
 def _over_q(family: Family, method: Any, ring: NumberField) -> bool:

@@ -15,6 +15,7 @@ from typing import Any, Protocol
 
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError, UnknownName, ZeroWeight
+from orderconds.families.once import Once
 from orderconds.ring.balls import Balls, Enclosures
 from orderconds.ring.precision import precision
 from orderconds.ring.protocol import Element, Ring
@@ -139,11 +140,18 @@ def residuals(
         return ()
     if isinstance(ring, Balls):
         with precision(ring.bits):  # once, and not in each operation
-            found = _residuals(family, method.map(lambda x: x.value), Enclosures(ring.bits), conditions)
+            found = _residuals(family, *_UNWRAPPED(method, ring), conditions)
         if not all(x.is_finite() for x in found):
             raise ZeroDivisionError("division by a ball that contains zero")
         return tuple(map(ring.enclose, found))
     return _residuals(family, method, ring, conditions)
+
+
+def _unwrapped(method: Any, ring: Any) -> tuple[Any, Enclosures]:
+    return method.map(lambda x: x.value), Enclosures(ring.bits)
+
+
+_UNWRAPPED = Once(_unwrapped)
 
 
 def _residuals(

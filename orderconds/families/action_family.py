@@ -5,12 +5,13 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import cache, partial
+from functools import cache, cached_property, partial
 from math import prod
 from typing import TYPE_CHECKING, Any
 
 from orderconds.conditions import OrderCondition
 from orderconds.families.action_formula import ActionFormula, multiplier
+from orderconds.families.once import Once
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series import action_exact
 from orderconds.series.action_counts import class_count
@@ -96,9 +97,13 @@ class ActionFamily(ABC):
         """Return how many they are, at no cost."""
         return class_count(order)
 
+    @cached_property
+    def _once(self) -> Once[ActionSeries]:
+        return Once(self.series)
+
     def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
         """Return the left-hand sides, as printed, for a method with coefficients in ``ring``."""
-        series = self.series(method, ring)
+        series = self._once(method, ring)
         return tuple(series.condition(c.key) * multiplier(c.key) for c in conditions)
 
     def elementary_hamiltonian(self, condition: OrderCondition) -> str:

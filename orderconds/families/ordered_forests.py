@@ -11,11 +11,12 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from functools import lru_cache, partial
+from functools import cached_property, lru_cache, partial
 from math import factorial, prod
 from typing import Any
 
 from orderconds.conditions import OrderCondition
+from orderconds.families.once import Once
 from orderconds.families.relations import in_lyndon_words, with_relations
 from orderconds.formula import Formula
 from orderconds.ring.protocol import Element, Ring
@@ -55,9 +56,13 @@ class OrderedForestFamily(ABC):
             self._of(tuple(ordered_forests(order))), lambda forest: in_lyndon_words(forest, scale), text
         )
 
+    @cached_property
+    def _once(self) -> Once[ForestSeries]:
+        return Once(self.series)
+
     def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
         """Return the step's values on the words of ``conditions``, each times its scale."""
-        series = self.series(method, ring)
+        series = self._once(method, ring)
         return tuple(series(condition.key) * scale(condition.key) for condition in conditions)
 
     def _of(self, forests: Sequence[Forest]) -> tuple[OrderCondition, ...]:

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from functools import lru_cache, partial
+from functools import cached_property, lru_cache, partial
 from typing import Any
 
 from orderconds.conditions import OrderCondition
 from orderconds.families.elementary_weights import elementary_weight
+from orderconds.families.once import Once
 from orderconds.formula import Formula
 from orderconds.ring.protocol import Element, Ring
-from orderconds.series.b_series import runge_kutta_series
+from orderconds.series.b_series import ElementaryWeights, runge_kutta_series
 from orderconds.trees.levels import Tree, children, density, text
 from orderconds.trees.rooted import rooted_trees
 
@@ -41,9 +42,13 @@ class RungeKuttaFamily:
         """Return the same conditions."""
         return _conditions(order)
 
+    @cached_property
+    def _once(self) -> Once[ElementaryWeights[Tree]]:
+        return Once(lambda method, ring: runge_kutta_series(ring, method.A, method.b))
+
     def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
         """Return elementary weights; ``method`` has ``A`` and ``b`` over ``ring``."""
-        weights = runge_kutta_series(ring, method.A, method.b)
+        weights = self._once(method, ring)
         return tuple(weights(condition.key) for condition in conditions)
 
 

@@ -7,12 +7,13 @@ across an edge at the price of products of conditions of lower order (Abia and S
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 from orderconds.conditions import OrderCondition
 from orderconds.families import require_nonzero_weights
 from orderconds.families.elementary_weights import conjugate, kept_branches, weight_conditions
+from orderconds.families.once import Once
 from orderconds.families.relations import RootSwitching
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.b_series import ElementaryWeights
@@ -55,10 +56,17 @@ class SymplecticPartitionedFamily:
 
     def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
         """Return elementary weights; ``method`` has ``A`` and ``b`` over ``ring``, which can divide."""
+        weights = self._once(method, ring)
+        return tuple(weights(condition.key) for condition in conditions)
+
+    @cached_property
+    def _once(self) -> Once[ElementaryWeights[DirectedTree]]:
+        return Once(self._weights)
+
+    def _weights(self, method: Any, ring: Ring) -> ElementaryWeights[DirectedTree]:
         require_nonzero_weights(self.label(), ring, method.b)
         matrices = (method.A, conjugate(method.A, method.b))
-        weights = ElementaryWeights[DirectedTree](ring, matrices, method.b, kept_branches)
-        return tuple(weights(condition.key) for condition in conditions)
+        return ElementaryWeights[DirectedTree](ring, matrices, method.b, kept_branches)
 
 
 def create() -> SymplecticPartitionedFamily:

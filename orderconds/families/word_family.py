@@ -9,11 +9,12 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from functools import partial
+from functools import cached_property, partial
 from math import prod
 from typing import TYPE_CHECKING, Any
 
 from orderconds.conditions import OrderCondition
+from orderconds.families.once import Once
 from orderconds.families.relations import Polynomial, with_relations
 from orderconds.formula import Formula
 from orderconds.ring.protocol import Element, Ring
@@ -92,9 +93,13 @@ class WordFamily(ABC):
         """Return every word's condition of exactly this order, dependent ones with their relations."""
         return with_relations(map(self._condition, self.words(order)), self._scaled, self.text)
 
+    @cached_property
+    def _once(self) -> Once[Callable[[Word], Element]]:
+        return Once(self.series)
+
     def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
         """Return the step's values on the words of ``conditions``, each times its scale."""
-        series = self.series(method, ring)
+        series = self._once(method, ring)
         return tuple(series(c.key) * self.scale(c.key) for c in conditions)
 
     def _scaled(self, word: Word) -> Polynomial:
