@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import keyword
 import re
+import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import PurePath
@@ -340,8 +341,12 @@ def bare(name: str) -> str:
 
 
 def quoted(word: str) -> str:
-    """Quote a word that a shell would read otherwise."""
-    return f"'{word}'" if re.search(r"[^\w.:/+-]", word) else word
+    """Quote a word that a shell would read otherwise.
+
+    >>> quoted("rkmk(2):rk4"), quoted("linear_oscillator+u")
+    ("'rkmk(2):rk4'", 'linear_oscillator+u')
+    """
+    return shlex.quote(word)
 
 
 def default_prefix(scene: Setting, method: Method) -> str:

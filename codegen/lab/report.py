@@ -45,7 +45,7 @@ class Request:
 
     def command(self) -> str:
         """Return the command of this report."""
-        words = ["orderconds report", *map(bare, self.scenes)]
+        words = ["orderconds report", *(quoted(bare(scene)) for scene in self.scenes)]
         words += [f"-m {quoted(bare(m))}" for m in self.methods]
         words += [f"--adaptive {quoted(bare(m))}" for m in self.adaptive]
         words += [f"-a {peer}" for peer in self.peers]

@@ -64,7 +64,7 @@ def test_explain_tells_what_a_long_step_calls_and_how_often():
 def test_the_header_s_command_quotes_a_file_s_name_and_keeps_the_default_of_an_input(tmp_path, monkeypatch):
     import shlex
 
-    path = tmp_path / "my scene.py"
+    path = tmp_path / "my scene's.py"
     path.write_text("from codegen.scenes.free_rigid_body import scene\n")
     words = [str(path), "--method", "cg:cg3", "--parameter", "alpha=1/3", "--parameter", "alpha"]
     run(emit, *words, "-o", str(tmp_path / "a"))
