@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -112,9 +113,10 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 def _size(text: str | None) -> Fraction | None:
     if text is None:
         return None
+    number = r"\d{1,20}(/\d{1,20}|\.\d{0,20})?([eE][+-]?\d{1,2})?"  # no exponent that fills the memory
     try:
-        size = Fraction(text)
-    except (ValueError, ZeroDivisionError):
+        size = Fraction(text) if re.fullmatch(number, text, re.ASCII) else Fraction(0)
+    except (ValueError, ZeroDivisionError):  # 1/0, 1/2e3
         size = Fraction(0)
     if size <= 0:
         raise InputError(repr(text), where="--size", expected="a positive number such as 2 or 3/2")

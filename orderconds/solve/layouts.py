@@ -72,7 +72,7 @@ def _row(cells: _Cells, names: Sequence[str], full: bool = False) -> str:
 
 
 def _runge_kutta(family: str, wishes: Wishes, structure: str, name: str) -> Ansatz:
-    refuse(family, wishes, ("rkn",))
+    refuse(family, wishes, ("rkn", "exponentials", "inner"))
     s = wishes.stages
     A = [[named("a", i + 1, j + 1) for j in range(s)] for i in range(s)]
     b = [named("b", i + 1) for i in range(s)]
@@ -252,7 +252,7 @@ def _exponentials(rows: Sequence[Sequence[str]], cells: _Cells) -> list[str]:
 
 
 def _composition(family: str, wishes: Wishes, structure: str, name: str) -> Ansatz:
-    refuse(family, wishes, ("rkn", "fsal", "explicit", "dirk"))
+    refuse(family, wishes, ("rkn", "fsal", "explicit", "dirk", "exponentials", "inner"))
     s = wishes.stages
     gamma = [named("g", i + 1) for i in range(s)]
     total = Constraint("the steps sum to 1", {**dict.fromkeys(gamma, Fraction(1)), "": Fraction(-1)})
@@ -278,7 +278,7 @@ def _composition(family: str, wishes: Wishes, structure: str, name: str) -> Ansa
 
 
 def _splitting(family: str, wishes: Wishes, structure: str, name: str) -> Ansatz:
-    refuse(family, wishes, ("fsal", "explicit", "dirk"))
+    refuse(family, wishes, ("fsal", "explicit", "dirk", "exponentials", "inner"))
     s = wishes.stages
     a, b = ([named(x, i + 1) for i in range(n)] for x, n in (("a", s + 1), ("b", s)))
     constraints = []

@@ -35,8 +35,9 @@ def refuse(family: str, wishes: Wishes, options: Sequence[str]) -> None:
 
     >>> refuse("rk", Wishes(stages=2), ("rkn",))
     """
+    plain = Wishes(wishes.stages)
     for option in options:
-        if getattr(wishes, option):
+        if getattr(wishes, option) != getattr(plain, option):
             raise InputError(
                 f"family {family} has no methods with --{option}", where="solve", expected="other options"
             )
