@@ -163,12 +163,15 @@ class _Tried:
         self.work[solver] = operations(arrange(kernel))
 
     def soon(self) -> bool:
-        """Whether fixed points solve what are large blocks throughout in few sweeps."""
+        """Whether fixed points solve what are large blocks throughout in few sweeps, and longer steps at all.
+
+        A matrix of so many unknowns costs more than all of the sweeps that a longer step may take.
+        """
         usual, far = self.usual[FIXED_POINT], self.far[FIXED_POINT]
         return (
             min(len(loop.unknowns) for loop in self.kernels[FIXED_POINT].loops) > MANY
             and (usual.good and max(usual.sweeps) <= FEW)
-            and (far.good and max(far.sweeps) <= SWEEPS)
+            and far.good
         )
 
     def reasons_for_fixed_points(self) -> dict[str, str]:

@@ -15,6 +15,9 @@ Place = tuple[str, int, int]
 WIDE = 12
 """The most unknowns for which each entry of a matrix stands in a statement of its own."""
 
+WIDEST = 20
+"""The most unknowns of a fixed point for which each stands in a statement of its own."""
+
 
 def layout(kernel: Kernel) -> tuple[str, ...]:
     """Return a line for each field of the state: its places, its name and what it means."""

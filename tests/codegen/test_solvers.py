@@ -254,3 +254,21 @@ def test_sweeps_fall_with_the_step_faster_the_better_the_matrix():
     assert counts[NEWTON, 1 / 64] < counts[CHORD, 1 / 64] < counts[FIXED_POINT, 1 / 64]
     assert counts[CHORD, 1 / 1024] <= 5
     assert counts[FIXED_POINT, 1 / 1024] > counts[CHORD, 1 / 1024]
+
+
+def test_many_unknowns_are_left_to_a_fixed_point_and_moved_together():
+    """Twenty-seven unknowns: no matrix is tried, and both targets compare and move them in loops."""
+    made = compile_method("dipole", "slgi:cg5")
+    (choice,) = made.solvers
+    assert (choice.solver, choice.unknowns) == ("fixed-point", 27)
+    assert choice.reason.endswith("a step; no matrix of so many unknowns was tried")
+    modules = [load(emit_compiled(made, target, prefix=f"many_{target}_")) for target in ("c", "python")]
+    newton = compile_method("dipole", "slgi:cg5", solver="newton")
+    modules.append(load(emit_compiled(newton, "c", prefix="many_newton_")))
+    start = emit_compiled(made, "c").manifest["initial"]
+    by_c, by_python, by_newton = (module.run(start, 0.01, 4) for module in modules)
+    assert by_c == pytest.approx(by_python, rel=1e-14, abs=1e-14)
+    assert by_c == pytest.approx(by_newton, rel=1e-12, abs=1e-12)
+    for module in modules:
+        with pytest.raises(StepFailed, match="finite|converge"):
+            module.run([*start[:-1], math.inf], 0.01, 1)

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from codegen.ir.kernel import CHORD, LOST, NEWTON, SLOWEST, VARIED, Loop, Newton
 from codegen.printers.arrange import METHODS, Beginning, Iteration
-from codegen.printers.c.text import broken, comment, fill, greatest, paired
+from codegen.printers.c.text import broken, comment, fill, greatest, paired, together
 from codegen.printers.expression import spell
-from codegen.printers.layout import WIDE
+from codegen.printers.layout import WIDE, WIDEST
 
 if TYPE_CHECKING:
     from codegen.printers.c.statements import Statements
@@ -23,15 +23,25 @@ def beginning(s: Statements, statement: Beginning) -> Iterator[str]:
     """Yield the lines that give the unknowns of all loops their first values."""
     unknowns = [s.names.spelled[u] for u in statement.start.unknowns]
     yield from fill(s.real, (*(f"{u}," for u in unknowns[:-1]), unknowns[-1]), ";")
+    joined = together if len(unknowns) > WIDEST else list
     yield "if (memory->known > 0) {"
-    for place, unknown in enumerate(unknowns):
-        yield f"    {unknown} = memory->guess[{place}];"
+    loads = [f"{unknown} = memory->guess[{place}];" for place, unknown in enumerate(unknowns)]
+    yield from (f"    {line}" for line in joined(loads))
     yield "} else {"
     for inner in statement.body:
         yield from (f"    {line}" for line in s.simple(inner))
-    for unknown, value in zip(unknowns, statement.values, strict=True):
-        yield from (f"    {line}" for line in s.declare(unknown, value, ""))
+    values = [
+        line
+        for unknown, value in zip(unknowns, statement.values, strict=True)
+        for line in s.declare(unknown, value, "")
+    ]
+    yield from (f"    {line}" for line in (joined(values) if _short(values) else values))
     yield "}"
+
+
+def _short(statements: Sequence[str]) -> bool:
+    """Whether each line is a statement."""
+    return all(line.endswith(";") and not line.startswith(" ") for line in statements)
 
 
 def iteration(s: Statements, statement: Iteration) -> Iterator[str]:
@@ -85,6 +95,13 @@ def _sweep(s: Statements, statement: Iteration, now: list[str], previous: str) -
     changes = [s.names.fresh(f"change_{u}") for u in loop.unknowns]
     if loop.newton is not None and compared:
         changes = [s.names.spelled[c] for c in loop.newton.changes]
+    if loop.newton is None and len(now) > WIDEST:
+        largest, total = (s.names.fresh(f"{word}_{statement.number}") for word in ("largest", "total"))
+        yield from _compared(s, statement, now, new, largest, total)
+        yield from _decision(s, statement, [total], [largest], now, previous)
+        yield f"{previous} = change;"
+        yield from together([f"{x} = {y};" for x, y in zip(now, new, strict=True)])
+        return
     if loop.newton is None:
         for change, x, y in zip(changes, new, now, strict=True):
             yield f"const {s.real} {change} = {absolute}({x} - {y});"
@@ -111,6 +128,22 @@ def _sweep(s: Statements, statement: Iteration, now: list[str], previous: str) -
         limit = f"{s.literal(Newton.CONTRACTION)} * {previous}"
         yield f"{_fresh(statement.number)} = {limit} > {s.literal(0.0)} && change > {limit};"
     yield f"{previous} = change;"
+
+
+def _compared(
+    s: Statements, statement: Iteration, now: list[str], new: list[str], largest: str, total: str
+) -> Iterator[str]:
+    """Yield the lines that find the largest of many changes, and their sum, which is finite if they are."""
+    n = len(now)
+    before, after = (s.names.fresh(f"{word}_{statement.number}") for word in ("unknowns", "images"))
+    yield from array(f"const {s.real} {before}[{n}] =", now)
+    yield from array(f"const {s.real} {after}[{n}] =", new)
+    yield f"{s.real} {largest} = {s.literal(0.0)}, {total} = {s.literal(0.0)};"
+    yield f"for (size_t i = 0; i < {n}; i++) {{"
+    yield f"    const {s.real} moved = {s.style.function('fabs')}({after}[i] - {before}[i]);"
+    yield f"    {largest} = greater({largest}, moved);"
+    yield f"    {total} += moved;"
+    yield "}"
 
 
 def _product(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 WIDTH = 100
 
 
@@ -51,4 +53,19 @@ def fill(start: str, pieces: tuple[str, ...], end: str, width: int = WIDTH, join
             lines.append(f"    {piece}{tail}")
         else:
             lines[-1] += f"{' ' if position else joint}{piece}{tail}"
+    return lines
+
+
+def together(statements: Sequence[str], width: int = WIDTH) -> list[str]:
+    """Return lines of as many short statements as there is room for.
+
+    >>> together(["a = 1;", "b = 2;", "c = 3;"], width=22)
+    ['a = 1; b = 2;', 'c = 3;']
+    """
+    lines: list[str] = []
+    for statement in statements:
+        if lines and len(lines[-1]) + 1 + len(statement) <= width - 8:
+            lines[-1] += f" {statement}"
+        else:
+            lines.append(statement)
     return lines

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from codegen.ir.kernel import CHORD, LOST, NEWTON, SLOWEST, VARIED, Newton
 from codegen.printers.arrange import METHODS, Beginning, Iteration
-from codegen.printers.layout import WIDE
+from codegen.printers.layout import WIDE, WIDEST
 from codegen.printers.python.text import WIDTH, call, filled, indented, quoted
 
 if TYPE_CHECKING:
@@ -22,7 +22,15 @@ def beginning(s: Statements, statement: Beginning) -> Iterator[str]:
     yield "    else:"
     for inner in statement.body:
         yield from s.simple(inner, 2)
-    for unknown, value in zip(unknowns, statement.values, strict=True):
+    pairs = list(zip(unknowns, statement.values, strict=True))
+    if len(unknowns) > WIDEST:
+        copied = [k for k, (_, value) in enumerate(pairs) if value.op == "sym"]
+        first = s.names.fresh("first")
+        if copied:
+            yield from filled(f"{first} = [", [s.names.spelled[pairs[k][1].payload] for k in copied], "]", 2)
+            yield from unpacked([unknowns[k] for k in copied], first, 2)
+        pairs = [pair for k, pair in enumerate(pairs) if k not in copied]
+    for unknown, value in pairs:
         yield from s.assign(unknown, value, 2)
 
 
@@ -64,7 +72,15 @@ def iteration(s: Statements, statement: Iteration) -> Iterator[str]:
     changes = [s.names.fresh(f"change_{u}") for u in loop.unknowns]
     if loop.newton is not None and loop.newton.residuals:
         changes = [s.names.spelled[c] for c in loop.newton.changes]
-    if loop.newton is None:
+    if loop.newton is None and len(now) > WIDEST:
+        before, after, moved = (s.names.fresh(f"{x}_{number}") for x in ("unknowns", "images", "changes"))
+        yield from filled(f"{before} = [", now, "]", 2)
+        yield from filled(f"{after} = [", new, "]", 2)
+        yield f"        {moved} = [abs(x - y) for x, y in zip({after}, {before})]"
+        yield from _decision(s, statement, [f"sum({moved})"], [f"*{moved}", "0.0"], now, previous)
+        yield f"        {previous} = change"
+        yield from unpacked(now, after, 2)
+    elif loop.newton is None:
         for change, x, y in zip(changes, new, now, strict=True):
             yield f"        {change} = abs({x} - {y})"
         yield from _decision(s, statement, changes, changes, now, previous)
