@@ -9,9 +9,10 @@ the usage example takes. Sweeps and matrices are counted and weighed by their op
 steps :data:`LONGER` times as long too, soon, is preferred: near its limit a method fails at a user's next
 step size.
 
-Blocks of more than :data:`MANY` unknowns that a fixed point solves in :data:`FEW` sweeps are left to it:
-products with the inverse take what the fewer sweeps of Newton's method save, and its matrix is longer than
-the step. Of long steps chords are not tried where momenta are compared, which Newton's method serves.
+Where there are more than :data:`MANY` unknowns, in one block or several, and fixed points find them in
+:data:`FEW` sweeps, these are taken: products with the inverse take most of what the fewer sweeps of Newton's
+method save, or more, and its matrices are longer than the step. Of long steps chords are not tried where
+momenta are compared, which Newton's method serves.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ SWEEPS = 20
 """The most sweeps that a longer step may take."""
 
 MANY, FEW = 20, 5.0
-"""In how many sweeps a fixed point must solve a block of more than so many unknowns to be taken untried."""
+"""In how many sweeps fixed points must find more than so many unknowns to be taken at once."""
 
 WEIGHTS = {"add": 1, "mul": 1, "div": 4}
 """What operations cost; calls cost :data:`CALL`."""
@@ -163,16 +164,14 @@ class _Tried:
         self.work[solver] = operations(arrange(kernel))
 
     def soon(self) -> bool:
-        """Whether fixed points solve what are large blocks throughout in few sweeps, and longer steps at all.
+        """Whether fixed points solve a long step's many unknowns in few sweeps, and a longer step's at all.
 
-        A matrix of so many unknowns costs more than all of the sweeps that a longer step may take.
+        A matrix of so many unknowns in one block costs more than all sweeps that a longer step may take.
         """
         usual, far = self.usual[FIXED_POINT], self.far[FIXED_POINT]
-        return (
-            min(len(loop.unknowns) for loop in self.kernels[FIXED_POINT].loops) > MANY
-            and (usual.good and max(usual.sweeps) <= FEW)
-            and far.good
-        )
+        sizes = [len(loop.unknowns) for loop in self.kernels[FIXED_POINT].loops]
+        lasts = max(far.sweeps) <= SWEEPS or min(sizes) > MANY
+        return sum(sizes) > MANY and usual.good and max(usual.sweeps) <= FEW and far.good and lasts
 
     def reasons_for_fixed_points(self) -> dict[str, str]:
         """Return the reason for each block where nothing else was tried."""
