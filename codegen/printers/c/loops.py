@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from codegen.ir.kernel import CHORD, LOST, NEWTON, SLOWEST, VARIED, Loop, Newton
-from codegen.printers.arrange import METHODS, Beginning, Iteration
+from codegen.printers.arrange import METHODS, Assignment, Beginning, Iteration
 from codegen.printers.c.text import broken, comment, fill, greatest, paired, together
 from codegen.printers.expression import spell
 from codegen.printers.layout import WIDE, WIDEST
@@ -81,8 +81,7 @@ def _fresh(number: int) -> str:
 
 def _sweep(s: Statements, statement: Iteration, now: list[str], previous: str) -> Iterator[str]:
     loop = statement.loop
-    for inner in statement.body:
-        yield from s.simple(inner, statement.kept)
+    yield from _body(s, statement)
     plain = [x.op == "sym" and x.payload not in loop.unknowns for x in statement.images]
     new = [
         s.names.spelled[x.payload] if already else s.names.fresh(f"next_{u}")
@@ -103,11 +102,12 @@ def _sweep(s: Statements, statement: Iteration, now: list[str], previous: str) -
         yield from together([f"{x} = {y};" for x, y in zip(now, new, strict=True)])
         return
     if loop.newton is None:
-        for change, x, y in zip(changes, new, now, strict=True):
-            yield f"const {s.real} {change} = {absolute}({x} - {y});"
+        joined = together if _many(s) else list
+        pairs = zip(changes, new, now, strict=True)
+        yield from joined([f"const {s.real} {change} = {absolute}({x} - {y});" for change, x, y in pairs])
         yield from _decision(s, statement, changes, changes, now, previous)
         yield f"{previous} = change;"
-        yield from (f"{x} = {y};" for x, y in zip(now, new, strict=True))
+        yield from joined([f"{x} = {y};" for x, y in zip(now, new, strict=True)])
         return
     residuals = new if compared else [s.names.fresh(f"residual_{u}") for u in loop.unknowns]
     for residual, x, y in zip(residuals, new, now, strict=True):
@@ -128,6 +128,26 @@ def _sweep(s: Statements, statement: Iteration, now: list[str], previous: str) -
         limit = f"{s.literal(Newton.CONTRACTION)} * {previous}"
         yield f"{_fresh(statement.number)} = {limit} > {s.literal(0.0)} && change > {limit};"
     yield f"{previous} = change;"
+
+
+def _many(s: Statements) -> bool:
+    """Whether the loops of a step have so many unknowns that short statements share lines."""
+    loops = (x.loop for x in s.arrangement.statements if isinstance(x, Iteration))
+    return sum(len(loop.unknowns) for loop in loops) > WIDEST
+
+
+def _body(s: Statements, statement: Iteration) -> Iterator[str]:
+    """Yield the lines of what a sweep computes before its images."""
+    many, copies = _many(s), list[str]()
+    for inner in statement.body:
+        lines = list(s.simple(inner, statement.kept))
+        if many and isinstance(inner, Assignment) and inner.value.op == "sym" and len(lines) == 1:
+            copies += lines
+            continue
+        yield from together(copies)
+        copies = []
+        yield from lines
+    yield from together(copies)
 
 
 def _compared(
