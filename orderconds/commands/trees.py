@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from orderconds.commands import screen
-from orderconds.commands.place import put
+from orderconds.commands.place import FILE, put
 
 if TYPE_CHECKING:
     from orderconds.explain.kinds import Kind
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 @click.option("--draw", is_flag=True, help="A drawing of each.")
 @click.option("--explain", is_flag=True, help="A drawing of each, what it names, and its order condition.")
 @click.option("--ascii", "plain", is_flag=True, help="Draw with ASCII signs only.")
-@click.option("--svg", type=click.Path(dir_okay=False), help="Write all drawings to this file as SVG.")
+@click.option("--svg", type=FILE, metavar="FILE", help="Write all drawings to this file as SVG.")
 @click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
 def command(
     kind: str, order: int, count: bool, draw: bool, explain: bool, plain: bool, svg: str | None, as_json: bool
@@ -50,6 +50,8 @@ def command(
     from orderconds.explain import kinds
 
     found = kinds.get(kind)
+    if count and (draw or (explain and svg is None)):
+        raise click.UsageError("--count gives a number alone; leave --draw and --explain out")
     if svg is not None:
         _write_svg(found, order, svg, explain)
     if as_json:

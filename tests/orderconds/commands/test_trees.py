@@ -85,7 +85,17 @@ def test_the_drawing_of_a_rooted_tree() -> None:
     assert "    o\n    +-o\n    | +-o\n    +-o\n" in out
 
 
-@pytest.mark.parametrize("args", [["roted", "--order", "3"], ["rooted"], ["rooted", "--order", "-1"]])
+@pytest.mark.parametrize(
+    "args",
+    [
+        ["roted", "--order", "3"],
+        ["rooted"],
+        ["rooted", "--order", "-1"],
+        ["rooted", "--order", "3", "--svg", ""],
+        ["rooted", "--order", "3", "--count", "--draw"],
+        ["rooted", "--order", "3", "--count", "--explain"],
+    ],
+)
 def test_bad_usage_exits_2_with_one_message(args: list[str]) -> None:
     result = run(*args)
     assert (result.exit_code, result.stdout, result.stderr.count("\n")) == (2, "", 1)
