@@ -111,7 +111,12 @@ class Reader:
 
     def column(self, formulas: Any, n: int, what: str, constant: bool = False) -> tuple[Expr, ...]:
         """Return n formulas."""
-        entries = list(formulas)
+        try:
+            entries = list(formulas)
+        except TypeError:
+            raise SceneError(
+                f"{what} is {formulas}", where=self.name, expected=f"a column of {n} components"
+            ) from None
         if len(entries) != n:
             raise SceneError(f"{what} has {len(entries)} components", where=self.name, expected=str(n))
         return tuple(self.scalar(e, f"{what}[{k}]", constant) for k, e in enumerate(entries))

@@ -84,6 +84,8 @@ def FieldScene(
     ambient formula; f must generate it. :class:`SceneError` for a wrong shape or symbol, a start that is not
     on the group, an f that does not generate the velocity, an invariant that is none.
     """
+    _made(name, "group", group, "dim", "SO3()")
+    _made(name, "action", action, "velocity", "Rotation()")
     reader = Reader(name, list(y))
     _acts(reader, group, action)
     open_roots = reader.column(f, group.dim, "f")
@@ -131,6 +133,7 @@ def HamiltonianScene(
     scene has no energy and no parts. The energy is an invariant of a Hamiltonian without time.
     :class:`SceneError` as for :func:`FieldScene`.
     """
+    _made(name, "group", group, "dim", "SO3()")
     reader = Reader(name, [*q, *mu])
     if (len(q), len(mu)) != (group.size, group.dim):
         raise SceneError(
@@ -194,6 +197,13 @@ def _stated(
         found[key] = Stated((*element, *reader.column(mu, group.dim, f"mu of the flow of {key}")))
     reader.more = ()
     return found
+
+
+def _made(name: str, what: str, value: Any, has: str, example: str) -> None:
+    """Raise :class:`SceneError` for what is no group or action, as a name, or a class that is not called."""
+    if isinstance(value, type) or not hasattr(value, has):
+        found = value.__name__ if isinstance(value, type) else repr(value)
+        raise SceneError(f"the {what} {found}", where=name, expected=f"one of codegen.groups, as {example}")
 
 
 def _acts(reader: Reader, group: Any, action: Any) -> None:

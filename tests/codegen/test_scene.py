@@ -28,6 +28,21 @@ def sphere(**changes):
     return FieldScene(**(arguments | changes))
 
 
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"group": "SO3"}, r"scene: the group 'SO3'; expected one of codegen\.groups, as SO3\(\)"),
+        ({"group": SO3}, "scene: the group SO3; expected one of"),
+        ({"action": Rotation}, r"scene: the action Rotation; expected one of .* as Rotation\(\)"),
+        ({"f": 3}, "scene: f is 3; expected a column of 3 components"),
+        ({"y0": None}, "scene: y0 is None; expected a column of 3 components"),
+    ],
+)
+def test_what_is_no_group_action_or_column_is_told(changes, message):
+    with pytest.raises(SceneError, match=message):
+        sphere(**changes)
+
+
 @pytest.mark.parametrize("path", INVALID, ids=lambda p: p.stem)
 def test_an_invalid_file_is_one_message_with_file_and_line(path):
     line, message = path.read_text(encoding="utf-8").splitlines()[0].removeprefix("# ").split(": ", 1)
