@@ -270,5 +270,5 @@ def test_many_unknowns_are_left_to_a_fixed_point_and_moved_together():
     assert by_c == pytest.approx(by_python, rel=1e-14, abs=1e-14)
     assert by_c == pytest.approx(by_newton, rel=1e-12, abs=1e-12)
     for module in modules:
-        with pytest.raises(StepFailed, match="finite|converge"):
+        with pytest.raises(StepFailed, match=r"finite|converge"):
             module.run([*start[:-1], math.inf], 0.01, 1)
