@@ -23,6 +23,9 @@ from orderconds.ring.roots import isolating
 LARGE = 8
 """From this degree on division is a linear system."""
 
+REMEMBERED = 1000
+"""How many numbers of smaller fields a field remembers with their images."""
+
 
 class Generator(Struct, frozen=True):
     """A root adjoined to a field: its spelling, the index n of a radical (0 for a named root), its enclosure.
@@ -73,6 +76,7 @@ class NumberField:
         self._enclosure = enclosure
         self._enclosed: dict[int, arb] = {}
         self.reciprocals: dict[str, Algebraic] = {}
+        self._lifts: dict[int, tuple[Algebraic, Algebraic]] = {}
         self.zero = Algebraic(self, fmpq_poly([0]))
         self.one = Algebraic(self, fmpq_poly([1]))
 
@@ -112,13 +116,21 @@ class NumberField:
             return x
         if self.parent is None or self.parent_image is None or x.field.height >= self.height:
             raise TypeError(f"{x.field} is no subfield of {self} by construction")
+        known = self._lifts.get(id(x))
+        if known is not None and known[0] is x:
+            return known[1]
         below = self.parent.lift(x).polynomial
         if below.degree() <= 0:
             return Algebraic(self, below)
         image = fmpq_poly([0])
-        for x, c in zip(self._parent_powers, below.coeffs(), strict=False):
-            image = image + x * c
-        return Algebraic(self, image)
+        for basis, c in zip(self._parent_powers, below.coeffs(), strict=False):
+            image = image + basis * c
+        lifted = Algebraic(self, image)
+        # While a file is read the same few numbers are lifted for every product that they enter.
+        if len(self._lifts) >= REMEMBERED:
+            self._lifts.clear()
+        self._lifts[id(x)] = (x, lifted)
+        return lifted
 
     @cached_property
     def _parent_powers(self) -> tuple[fmpq_poly, ...]:

@@ -11,7 +11,7 @@ import pytest
 from orderconds import families
 from orderconds.check import read
 from orderconds.residuals import Failure, judge
-from orderconds.ring import NumberField
+from orderconds.ring import QQ, Balls, NumberField
 
 
 @pytest.mark.parametrize(
@@ -80,3 +80,21 @@ def test_failures_are_equal_where_condition_and_residual_are() -> None:
     assert hash(half) == hash(third)
     assert half.as_json()["residual"] == "1/2"
     assert str(half) == ".: sum_i b_i = 1, residual 1/2 (0.5)"
+
+
+@pytest.mark.parametrize(
+    ("name", "label"),
+    [("gauss2", "rk"), ("cg4", "cg"), ("gauss2", "vrkmk(2)"), ("gauss2", "sprk"), ("cg4a", "cg")],
+)
+def test_orders_evaluated_one_after_the_other_are_those_evaluated_alone(name: str, label: str) -> None:
+    # A family keeps the series of the last two methods between orders.
+    tableau, kept = read(name), families.get(label)
+    balls = Balls(128)
+    exact: Any = tableau.ring
+    enclosed = tableau.method.map(lambda x: balls.enclose(exact.ball(x, 128)))
+    for n in range(1, 5):
+        for method, ring in ((tableau.method, tableau.ring), (enclosed, balls), (read("rk4").method, QQ)):
+            conditions = kept.conditions(n)
+            alone = families.residuals(families.get(label), method, ring, conditions)
+            together = families.residuals(kept, method, ring, conditions)
+            assert [ring.text(x) for x in together] == [ring.text(x) for x in alone]
