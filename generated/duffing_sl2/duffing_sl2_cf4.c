@@ -161,61 +161,9 @@ static inline double signed_stumpff0(double z)
     return cosh(r);
 }
 
-static inline int advance(double state[static 2], double h)
-{
-    if (!isfinite(h)) {
-        return DUFFING_SL2_CF4_BAD_STEP;
-    }
-    const double z0 = state[0];
-    const double z1 = state[1];
-    const double w1 = 0.25 * h;
-    const double w2 = 0.3333333333333333 * h;
-    const double w3 = -0.08333333333333333 * h;
-    const double x_0 = w1 + w2 + w3;
-    const double k0_1 = -1.0 - z0 * z0;
-    const double x2_0 = 0.5 * h;
-    const double w4 = x2_0 * x2_0;
-    const double w5 = -k0_1 * w4;
-    const double w6 = signed_stumpff0(w5);
-    const double w7 = signed_stumpff1(w5);
-    const double w8 = z0 * w6 + x2_0 * w7 * z1;
-    const double w9 = -1.0 - w8 * w8;
-    const double w10 = -w4 * w9;
-    const double p_1 = z0 * signed_stumpff0(w10) + x2_0 * signed_stumpff1(w10) * z1;
-    const double w11 = -1.0 - p_1 * p_1;
-    const double w12 = 0.16666666666666666 * h * (w9 + w11);
-    const double w13 = -0.5 * h;
-    const double x4_0 = h + w13;
-    const double w14 = -x4_0 * (k0_1 * w13 + h * w11);
-    const double w15 = w8 * signed_stumpff0(w14)
-        + x4_0 * signed_stumpff1(w14) * (z1 * w6 + k0_1 * x2_0 * w7 * z0);
-    const double w16 = -1.0 - w15 * w15;
-    const double w17 = w12 + w1 * k0_1 + w3 * w16;
-    const double w18 = -x_0 * w17;
-    const double w19 = signed_stumpff0(w18);
-    const double w20 = signed_stumpff1(w18);
-    const double w21 = z0 * w19 + x_0 * w20 * z1;
-    const double x_2_0 = w2 + w3 + w1;
-    const double w22 = w12 + w3 * k0_1 + w1 * w16;
-    const double w23 = -x_2_0 * w22;
-    const double w24 = signed_stumpff0(w23);
-    const double w25 = w17 * w20 * z0 + z1 * w19;
-    const double w26 = signed_stumpff1(w23);
-    const double new_z0 = w21 * w24 + x_2_0 * w26 * w25;
-    const double new_z1 = w22 * w26 * w21 + w24 * w25;
-    /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
-    if (!isfinite(new_z0 + new_z1)
-        && !((new_z0 - new_z0) + (new_z1 - new_z1) == 0.0)) {
-        return DUFFING_SL2_CF4_NOT_FINITE;
-    }
-    state[0] = new_z0;
-    state[1] = new_z1;
-    return DUFFING_SL2_CF4_OK;
-}
-
 int duffing_sl2_cf4_step(double state[static 2], double h)
 {
-    return advance(state, h);
+    return duffing_sl2_cf4_run(state, h, 1, NULL, 0, NULL);
 }
 
 int duffing_sl2_cf4_run(double state[static 2], double h, size_t steps, double *trajectory,
@@ -227,17 +175,65 @@ int duffing_sl2_cf4_run(double state[static 2], double h, size_t steps, double *
     if (row != NULL) {
         memcpy(row, state, 2 * sizeof *state);
     }
+    if (steps > 0 && !isfinite(h)) {
+        status = DUFFING_SL2_CF4_BAD_STEP;
+        steps = 0;
+    }
+    double z0 = state[0];
+    double z1 = state[1];
     while (step < steps) {
-        status = advance(state, h);
-        if (status != DUFFING_SL2_CF4_OK) {
+        const double w1 = 0.25 * h;
+        const double w2 = 0.3333333333333333 * h;
+        const double w3 = -0.08333333333333333 * h;
+        const double x_0 = w1 + w2 + w3;
+        const double k0_1 = -1.0 - z0 * z0;
+        const double x2_0 = 0.5 * h;
+        const double w4 = x2_0 * x2_0;
+        const double w5 = -k0_1 * w4;
+        const double w6 = signed_stumpff0(w5);
+        const double w7 = signed_stumpff1(w5);
+        const double w8 = z0 * w6 + x2_0 * w7 * z1;
+        const double w9 = -1.0 - w8 * w8;
+        const double w10 = -w4 * w9;
+        const double p_1 = z0 * signed_stumpff0(w10) + x2_0 * signed_stumpff1(w10) * z1;
+        const double w11 = -1.0 - p_1 * p_1;
+        const double w12 = 0.16666666666666666 * h * (w9 + w11);
+        const double w13 = -0.5 * h;
+        const double x4_0 = h + w13;
+        const double w14 = -x4_0 * (k0_1 * w13 + h * w11);
+        const double w15 = w8 * signed_stumpff0(w14)
+            + x4_0 * signed_stumpff1(w14) * (z1 * w6 + k0_1 * x2_0 * w7 * z0);
+        const double w16 = -1.0 - w15 * w15;
+        const double w17 = w12 + w1 * k0_1 + w3 * w16;
+        const double w18 = -x_0 * w17;
+        const double w19 = signed_stumpff0(w18);
+        const double w20 = signed_stumpff1(w18);
+        const double w21 = z0 * w19 + x_0 * w20 * z1;
+        const double x_2_0 = w2 + w3 + w1;
+        const double w22 = w12 + w3 * k0_1 + w1 * w16;
+        const double w23 = -x_2_0 * w22;
+        const double w24 = signed_stumpff0(w23);
+        const double w25 = w17 * w20 * z0 + z1 * w19;
+        const double w26 = signed_stumpff1(w23);
+        const double new_z0 = w21 * w24 + x_2_0 * w26 * w25;
+        const double new_z1 = w22 * w26 * w21 + w24 * w25;
+        /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+        if (!isfinite(new_z0 + new_z1)
+            && !((new_z0 - new_z0) + (new_z1 - new_z1) == 0.0)) {
+            status = DUFFING_SL2_CF4_NOT_FINITE;
             break;
         }
+        z0 = new_z0;
+        z1 = new_z1;
         step++;
         if (row != NULL && step % stride == 0) {
             row += 2;
-            memcpy(row, state, 2 * sizeof *state);
+            row[0] = z0;
+            row[1] = z1;
         }
     }
+    state[0] = z0;
+    state[1] = z1;
     if (completed != NULL) {
         *completed = step;
     }

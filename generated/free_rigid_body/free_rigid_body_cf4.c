@@ -132,105 +132,9 @@ static inline void stumpff_12(double z, double *c1, double *c2)
     }
 }
 
-static inline int advance(double state[static 3], double h)
-{
-    if (!isfinite(h)) {
-        return FREE_RIGID_BODY_CF4_BAD_STEP;
-    }
-    const double m0 = state[0];
-    const double m1 = state[1];
-    const double m2 = state[2];
-    const double w1 = -0.125 * h;
-    const double w2 = -0.25 * h;
-    const double w3 = m0 * w2;
-    const double w4 = 0.5 * h;
-    const double w5 = m1 * w4;
-    const double w6 = -0.75 * h;
-    const double w7 = m2 * w6;
-    const double w8 = w3 * w3 + w5 * w5 + w7 * w7;
-    double c1_1, c2_1;
-    stumpff_12(w8, &c1_1, &c2_1);
-    const double w10 = m2 * w5 + m1 * w7;
-    const double w12 = m1 * w3 + m0 * w5;
-    const double w13 = m0 * w7 - m2 * w3;
-    const double w14 = m0 - w10 * c1_1 - (w5 * w12 + w7 * w13) * c2_1;
-    const double w15 = w2 * w14;
-    const double w16 = (w7 * w10 + w3 * w12) * c2_1;
-    const double w17 = m1 + w13 * c1_1;
-    const double w18 = w16 - w17;
-    const double w19 = w4 * w18;
-    const double w20 = m2 + w12 * c1_1 + (w3 * w13 - w5 * w10) * c2_1;
-    const double w21 = w6 * w20;
-    const double w22 = w15 * w15 + w19 * w19 + w21 * w21;
-    double c1_2, c2_2;
-    stumpff_12(w22, &c1_2, &c2_2);
-    const double w24 = m2 * w19 - m1 * w21;
-    const double w26 = m1 * w15 - m0 * w19;
-    const double w27 = m0 * w21 - m2 * w15;
-    const double w28 = m0 + w24 * c1_2 + (w19 * w26 - w21 * w27) * c2_2;
-    const double w29 = 0.16666666666666666 * h;
-    const double w30 = (-0.5 * w14 - 0.5 * w28) * w29;
-    const double w31 = 0.25 * h;
-    const double w32 = -0.5 * h;
-    const double w33 = m0 * w31 + w28 * w32;
-    const double w34 = m1 + w27 * c1_2 + (w21 * w24 - w15 * w26) * c2_2;
-    const double w35 = m1 * w32 + h * w34;
-    const double w36 = m2 + w26 * c1_2 + (w15 * w27 - w19 * w24) * c2_2;
-    const double w37 = 0.75 * h * m2 - 1.5 * h * w36;
-    const double w38 = w33 * w33 + w35 * w35 + w37 * w37;
-    double c1_3, c2_3;
-    stumpff_12(w38, &c1_3, &c2_3);
-    const double w40 = w17 - w16;
-    const double w41 = w20 * w35 + w37 * w40;
-    const double w43 = w14 * w35 + w33 * w40;
-    const double w44 = w14 * w37 - w20 * w33;
-    const double w45 = w14 - w41 * c1_3 - (w35 * w43 + w37 * w44) * c2_3;
-    const double w46 = 0.041666666666666664 * h;
-    const double w47 = m0 * w1 + w30 + w45 * w46;
-    const double w48 = w29 * (w18 - w34);
-    const double w49 = (w37 * w41 + w33 * w43) * c2_3 - (w40 + w44 * c1_3);
-    const double w50 = -0.08333333333333333 * h;
-    const double w51 = w48 - m1 * w31 + w49 * w50;
-    const double w52 = -0.375 * h;
-    const double w53 = w29 * (-1.5 * w20 - 1.5 * w36);
-    const double w54 = w20 + w43 * c1_3 + (w33 * w44 - w35 * w41) * c2_3;
-    const double w55 = 0.125 * h;
-    const double w56 = m2 * w52 + w53 + w54 * w55;
-    const double w57 = w47 * w47 + w51 * w51 + w56 * w56;
-    double c1_4, c2_4;
-    stumpff_12(w57, &c1_4, &c2_4);
-    const double w59 = m2 * w51 - m1 * w56;
-    const double w61 = m1 * w47 - m0 * w51;
-    const double w62 = m0 * w56 - m2 * w47;
-    const double w63 = m0 + w59 * c1_4 + (w51 * w61 - w56 * w62) * c2_4;
-    const double w64 = w30 + m0 * w46 + w1 * w45;
-    const double w65 = w48 - m1 * w50 + w31 * w49;
-    const double w66 = w53 + m2 * w55 + w52 * w54;
-    const double w67 = w64 * w64 + w65 * w65 + w66 * w66;
-    double c1_5, c2_5;
-    stumpff_12(w67, &c1_5, &c2_5);
-    const double w69 = m2 + w61 * c1_4 + (w47 * w62 - w51 * w59) * c2_4;
-    const double w70 = m1 + w62 * c1_4 + (w56 * w59 - w47 * w61) * c2_4;
-    const double w71 = w65 * w69 - w66 * w70;
-    const double w73 = w64 * w70 - w63 * w65;
-    const double w74 = w63 * w66 - w64 * w69;
-    const double new_m0 = w63 + w71 * c1_5 + (w65 * w73 - w66 * w74) * c2_5;
-    const double new_m1 = w70 + w74 * c1_5 + (w66 * w71 - w64 * w73) * c2_5;
-    const double new_m2 = w69 + w73 * c1_5 + (w64 * w74 - w65 * w71) * c2_5;
-    /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
-    if (!isfinite((new_m0 + new_m1) + new_m2)
-        && !(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
-        return FREE_RIGID_BODY_CF4_NOT_FINITE;
-    }
-    state[0] = new_m0;
-    state[1] = new_m1;
-    state[2] = new_m2;
-    return FREE_RIGID_BODY_CF4_OK;
-}
-
 int free_rigid_body_cf4_step(double state[static 3], double h)
 {
-    return advance(state, h);
+    return free_rigid_body_cf4_run(state, h, 1, NULL, 0, NULL);
 }
 
 int free_rigid_body_cf4_run(double state[static 3], double h, size_t steps,
@@ -242,17 +146,111 @@ int free_rigid_body_cf4_run(double state[static 3], double h, size_t steps,
     if (row != NULL) {
         memcpy(row, state, 3 * sizeof *state);
     }
+    if (steps > 0 && !isfinite(h)) {
+        status = FREE_RIGID_BODY_CF4_BAD_STEP;
+        steps = 0;
+    }
+    double m0 = state[0];
+    double m1 = state[1];
+    double m2 = state[2];
     while (step < steps) {
-        status = advance(state, h);
-        if (status != FREE_RIGID_BODY_CF4_OK) {
+        const double w1 = -0.125 * h;
+        const double w2 = -0.25 * h;
+        const double w3 = m0 * w2;
+        const double w4 = 0.5 * h;
+        const double w5 = m1 * w4;
+        const double w6 = -0.75 * h;
+        const double w7 = m2 * w6;
+        const double w8 = w3 * w3 + w5 * w5 + w7 * w7;
+        double c1_1, c2_1;
+        stumpff_12(w8, &c1_1, &c2_1);
+        const double w10 = m2 * w5 + m1 * w7;
+        const double w12 = m1 * w3 + m0 * w5;
+        const double w13 = m0 * w7 - m2 * w3;
+        const double w14 = m0 - w10 * c1_1 - (w5 * w12 + w7 * w13) * c2_1;
+        const double w15 = w2 * w14;
+        const double w16 = (w7 * w10 + w3 * w12) * c2_1;
+        const double w17 = m1 + w13 * c1_1;
+        const double w18 = w16 - w17;
+        const double w19 = w4 * w18;
+        const double w20 = m2 + w12 * c1_1 + (w3 * w13 - w5 * w10) * c2_1;
+        const double w21 = w6 * w20;
+        const double w22 = w15 * w15 + w19 * w19 + w21 * w21;
+        double c1_2, c2_2;
+        stumpff_12(w22, &c1_2, &c2_2);
+        const double w24 = m2 * w19 - m1 * w21;
+        const double w26 = m1 * w15 - m0 * w19;
+        const double w27 = m0 * w21 - m2 * w15;
+        const double w28 = m0 + w24 * c1_2 + (w19 * w26 - w21 * w27) * c2_2;
+        const double w29 = 0.16666666666666666 * h;
+        const double w30 = (-0.5 * w14 - 0.5 * w28) * w29;
+        const double w31 = 0.25 * h;
+        const double w32 = -0.5 * h;
+        const double w33 = m0 * w31 + w28 * w32;
+        const double w34 = m1 + w27 * c1_2 + (w21 * w24 - w15 * w26) * c2_2;
+        const double w35 = m1 * w32 + h * w34;
+        const double w36 = m2 + w26 * c1_2 + (w15 * w27 - w19 * w24) * c2_2;
+        const double w37 = 0.75 * h * m2 - 1.5 * h * w36;
+        const double w38 = w33 * w33 + w35 * w35 + w37 * w37;
+        double c1_3, c2_3;
+        stumpff_12(w38, &c1_3, &c2_3);
+        const double w40 = w17 - w16;
+        const double w41 = w20 * w35 + w37 * w40;
+        const double w43 = w14 * w35 + w33 * w40;
+        const double w44 = w14 * w37 - w20 * w33;
+        const double w45 = w14 - w41 * c1_3 - (w35 * w43 + w37 * w44) * c2_3;
+        const double w46 = 0.041666666666666664 * h;
+        const double w47 = m0 * w1 + w30 + w45 * w46;
+        const double w48 = w29 * (w18 - w34);
+        const double w49 = (w37 * w41 + w33 * w43) * c2_3 - (w40 + w44 * c1_3);
+        const double w50 = -0.08333333333333333 * h;
+        const double w51 = w48 - m1 * w31 + w49 * w50;
+        const double w52 = -0.375 * h;
+        const double w53 = w29 * (-1.5 * w20 - 1.5 * w36);
+        const double w54 = w20 + w43 * c1_3 + (w33 * w44 - w35 * w41) * c2_3;
+        const double w55 = 0.125 * h;
+        const double w56 = m2 * w52 + w53 + w54 * w55;
+        const double w57 = w47 * w47 + w51 * w51 + w56 * w56;
+        double c1_4, c2_4;
+        stumpff_12(w57, &c1_4, &c2_4);
+        const double w59 = m2 * w51 - m1 * w56;
+        const double w61 = m1 * w47 - m0 * w51;
+        const double w62 = m0 * w56 - m2 * w47;
+        const double w63 = m0 + w59 * c1_4 + (w51 * w61 - w56 * w62) * c2_4;
+        const double w64 = w30 + m0 * w46 + w1 * w45;
+        const double w65 = w48 - m1 * w50 + w31 * w49;
+        const double w66 = w53 + m2 * w55 + w52 * w54;
+        const double w67 = w64 * w64 + w65 * w65 + w66 * w66;
+        double c1_5, c2_5;
+        stumpff_12(w67, &c1_5, &c2_5);
+        const double w69 = m2 + w61 * c1_4 + (w47 * w62 - w51 * w59) * c2_4;
+        const double w70 = m1 + w62 * c1_4 + (w56 * w59 - w47 * w61) * c2_4;
+        const double w71 = w65 * w69 - w66 * w70;
+        const double w73 = w64 * w70 - w63 * w65;
+        const double w74 = w63 * w66 - w64 * w69;
+        const double new_m0 = w63 + w71 * c1_5 + (w65 * w73 - w66 * w74) * c2_5;
+        const double new_m1 = w70 + w74 * c1_5 + (w66 * w71 - w64 * w73) * c2_5;
+        const double new_m2 = w69 + w73 * c1_5 + (w64 * w74 - w65 * w71) * c2_5;
+        /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+        if (!isfinite((new_m0 + new_m1) + new_m2)
+            && !(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
+            status = FREE_RIGID_BODY_CF4_NOT_FINITE;
             break;
         }
+        m0 = new_m0;
+        m1 = new_m1;
+        m2 = new_m2;
         step++;
         if (row != NULL && step % stride == 0) {
             row += 3;
-            memcpy(row, state, 3 * sizeof *state);
+            row[0] = m0;
+            row[1] = m1;
+            row[2] = m2;
         }
     }
+    state[0] = m0;
+    state[1] = m1;
+    state[2] = m2;
     if (completed != NULL) {
         *completed = step;
     }

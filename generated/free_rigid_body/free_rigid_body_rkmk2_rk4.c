@@ -135,99 +135,9 @@ static inline void stumpff_12(double z, double *c1, double *c2)
     }
 }
 
-static inline int advance(double state[static 3], double h)
-{
-    if (!isfinite(h)) {
-        return FREE_RIGID_BODY_RKMK2_RK4_BAD_STEP;
-    }
-    const double m0 = state[0];
-    const double m1 = state[1];
-    const double m2 = state[2];
-    const double k0_0 = -0.5 * m0;
-    const double w1 = 0.5 * h;
-    const double u2_0 = k0_0 * w1;
-    const double w2 = m1 * w1;
-    const double k0_2 = -1.5 * m2;
-    const double u2_2 = w1 * k0_2;
-    const double w3 = u2_0 * u2_0 + w2 * w2 + u2_2 * u2_2;
-    double c1_1, c2_1;
-    stumpff_12(w3, &c1_1, &c2_1);
-    const double w5 = m2 * w2 + m1 * u2_2;
-    const double w7 = m1 * u2_0 + m0 * w2;
-    const double w8 = m0 * u2_2 - m2 * u2_0;
-    const double k2_0 = -0.5 * (m0 - w5 * c1_1 - (w2 * w7 + u2_2 * w8) * c2_1);
-    const double k2_2 = -1.5 * (m2 + w7 * c1_1 + (u2_0 * w8 - w2 * w5) * c2_1);
-    const double k2_1 = (u2_2 * w5 + u2_0 * w7) * c2_1 - (m1 + w8 * c1_1);
-    const double w9 = w2 * k2_2 + u2_2 * k2_1;
-    const double w10 = u2_0 * k2_1 + w2 * k2_0;
-    const double w11 = u2_2 * k2_0 - u2_0 * k2_2;
-    const double w2_0 = k2_0 + 0.5 * w9 - 0.08333333333333333 * (w2 * w10 + u2_2 * w11);
-    const double u3_0 = w1 * w2_0;
-    const double w2_1 = k2_1 - 0.5 * w11 - 0.08333333333333333 * (u2_2 * w9 + u2_0 * w10);
-    const double u3_1 = w1 * w2_1;
-    const double w2_2 = k2_2 - 0.5 * w10 + 0.08333333333333333 * (u2_0 * w11 - w2 * w9);
-    const double u3_2 = w1 * w2_2;
-    const double w12 = u3_0 * u3_0 + u3_1 * u3_1 + u3_2 * u3_2;
-    double c1_2, c2_2;
-    stumpff_12(w12, &c1_2, &c2_2);
-    const double w14 = m2 * u3_1 - m1 * u3_2;
-    const double w16 = m1 * u3_0 - m0 * u3_1;
-    const double w17 = m0 * u3_2 - m2 * u3_0;
-    const double k3_0 = -0.5 * (m0 + w14 * c1_2 + (u3_1 * w16 - u3_2 * w17) * c2_2);
-    const double k3_2 = -1.5 * (m2 + w16 * c1_2 + (u3_0 * w17 - u3_1 * w14) * c2_2);
-    const double Y3_1 = m1 + w17 * c1_2 + (u3_2 * w14 - u3_0 * w16) * c2_2;
-    const double w18 = u3_1 * k3_2 + u3_2 * Y3_1;
-    const double w19 = u3_0 * Y3_1 + u3_1 * k3_0;
-    const double w20 = u3_2 * k3_0 - u3_0 * k3_2;
-    const double w3_0 = k3_0 - 0.5 * w18 - 0.08333333333333333 * (u3_1 * w19 + u3_2 * w20);
-    const double u4_0 = h * w3_0;
-    const double w3_1 = -0.5 * w20 - Y3_1 + 0.08333333333333333 * (u3_2 * w18 + u3_0 * w19);
-    const double u4_1 = h * w3_1;
-    const double w3_2 = k3_2 + 0.5 * w19 + 0.08333333333333333 * (u3_0 * w20 - u3_1 * w18);
-    const double u4_2 = h * w3_2;
-    const double w21 = u4_0 * u4_0 + u4_1 * u4_1 + u4_2 * u4_2;
-    double c1_3, c2_3;
-    stumpff_12(w21, &c1_3, &c2_3);
-    const double w23 = m2 * u4_1 - m1 * u4_2;
-    const double w25 = m1 * u4_0 - m0 * u4_1;
-    const double w26 = m0 * u4_2 - m2 * u4_0;
-    const double k4_0 = -0.5 * (m0 + w23 * c1_3 + (u4_1 * w25 - u4_2 * w26) * c2_3);
-    const double k4_2 = -1.5 * (m2 + w25 * c1_3 + (u4_0 * w26 - u4_1 * w23) * c2_3);
-    const double Y4_1 = m1 + w26 * c1_3 + (u4_2 * w23 - u4_0 * w25) * c2_3;
-    const double w27 = u4_1 * k4_2 + u4_2 * Y4_1;
-    const double w28 = u4_0 * Y4_1 + u4_1 * k4_0;
-    const double w29 = u4_2 * k4_0 - u4_0 * k4_2;
-    const double w30 = 0.16666666666666666 * h;
-    const double w31 = 0.3333333333333333 * h;
-    const double u_0 = (k4_0 - 0.5 * w27 - 0.08333333333333333 * (u4_1 * w28 + u4_2 * w29) + k0_0) * w30
-        + (w2_0 + w3_0) * w31;
-    const double u_1 = w30 * (-0.5 * w29 - Y4_1 + 0.08333333333333333 * (u4_2 * w27 + u4_0 * w28) - m1)
-        + w31 * (w2_1 + w3_1);
-    const double u_2 = w30 * (k4_2 + 0.5 * w28 + 0.08333333333333333 * (u4_0 * w29 - u4_1 * w27) + k0_2)
-        + w31 * (w2_2 + w3_2);
-    const double w32 = u_0 * u_0 + u_1 * u_1 + u_2 * u_2;
-    double c1_4, c2_4;
-    stumpff_12(w32, &c1_4, &c2_4);
-    const double w34 = m2 * u_1 - m1 * u_2;
-    const double w36 = m1 * u_0 - m0 * u_1;
-    const double w37 = m0 * u_2 - m2 * u_0;
-    const double new_m0 = m0 + w34 * c1_4 + (u_1 * w36 - u_2 * w37) * c2_4;
-    const double new_m1 = m1 + w37 * c1_4 + (u_2 * w34 - u_0 * w36) * c2_4;
-    const double new_m2 = m2 + w36 * c1_4 + (u_0 * w37 - u_1 * w34) * c2_4;
-    /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
-    if (!isfinite((new_m0 + new_m1) + new_m2)
-        && !(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
-        return FREE_RIGID_BODY_RKMK2_RK4_NOT_FINITE;
-    }
-    state[0] = new_m0;
-    state[1] = new_m1;
-    state[2] = new_m2;
-    return FREE_RIGID_BODY_RKMK2_RK4_OK;
-}
-
 int free_rigid_body_rkmk2_rk4_step(double state[static 3], double h)
 {
-    return advance(state, h);
+    return free_rigid_body_rkmk2_rk4_run(state, h, 1, NULL, 0, NULL);
 }
 
 int free_rigid_body_rkmk2_rk4_run(double state[static 3], double h, size_t steps,
@@ -239,17 +149,105 @@ int free_rigid_body_rkmk2_rk4_run(double state[static 3], double h, size_t steps
     if (row != NULL) {
         memcpy(row, state, 3 * sizeof *state);
     }
+    if (steps > 0 && !isfinite(h)) {
+        status = FREE_RIGID_BODY_RKMK2_RK4_BAD_STEP;
+        steps = 0;
+    }
+    double m0 = state[0];
+    double m1 = state[1];
+    double m2 = state[2];
     while (step < steps) {
-        status = advance(state, h);
-        if (status != FREE_RIGID_BODY_RKMK2_RK4_OK) {
+        const double k0_0 = -0.5 * m0;
+        const double w1 = 0.5 * h;
+        const double u2_0 = k0_0 * w1;
+        const double w2 = m1 * w1;
+        const double k0_2 = -1.5 * m2;
+        const double u2_2 = w1 * k0_2;
+        const double w3 = u2_0 * u2_0 + w2 * w2 + u2_2 * u2_2;
+        double c1_1, c2_1;
+        stumpff_12(w3, &c1_1, &c2_1);
+        const double w5 = m2 * w2 + m1 * u2_2;
+        const double w7 = m1 * u2_0 + m0 * w2;
+        const double w8 = m0 * u2_2 - m2 * u2_0;
+        const double k2_0 = -0.5 * (m0 - w5 * c1_1 - (w2 * w7 + u2_2 * w8) * c2_1);
+        const double k2_2 = -1.5 * (m2 + w7 * c1_1 + (u2_0 * w8 - w2 * w5) * c2_1);
+        const double k2_1 = (u2_2 * w5 + u2_0 * w7) * c2_1 - (m1 + w8 * c1_1);
+        const double w9 = w2 * k2_2 + u2_2 * k2_1;
+        const double w10 = u2_0 * k2_1 + w2 * k2_0;
+        const double w11 = u2_2 * k2_0 - u2_0 * k2_2;
+        const double w2_0 = k2_0 + 0.5 * w9 - 0.08333333333333333 * (w2 * w10 + u2_2 * w11);
+        const double u3_0 = w1 * w2_0;
+        const double w2_1 = k2_1 - 0.5 * w11 - 0.08333333333333333 * (u2_2 * w9 + u2_0 * w10);
+        const double u3_1 = w1 * w2_1;
+        const double w2_2 = k2_2 - 0.5 * w10 + 0.08333333333333333 * (u2_0 * w11 - w2 * w9);
+        const double u3_2 = w1 * w2_2;
+        const double w12 = u3_0 * u3_0 + u3_1 * u3_1 + u3_2 * u3_2;
+        double c1_2, c2_2;
+        stumpff_12(w12, &c1_2, &c2_2);
+        const double w14 = m2 * u3_1 - m1 * u3_2;
+        const double w16 = m1 * u3_0 - m0 * u3_1;
+        const double w17 = m0 * u3_2 - m2 * u3_0;
+        const double k3_0 = -0.5 * (m0 + w14 * c1_2 + (u3_1 * w16 - u3_2 * w17) * c2_2);
+        const double k3_2 = -1.5 * (m2 + w16 * c1_2 + (u3_0 * w17 - u3_1 * w14) * c2_2);
+        const double Y3_1 = m1 + w17 * c1_2 + (u3_2 * w14 - u3_0 * w16) * c2_2;
+        const double w18 = u3_1 * k3_2 + u3_2 * Y3_1;
+        const double w19 = u3_0 * Y3_1 + u3_1 * k3_0;
+        const double w20 = u3_2 * k3_0 - u3_0 * k3_2;
+        const double w3_0 = k3_0 - 0.5 * w18 - 0.08333333333333333 * (u3_1 * w19 + u3_2 * w20);
+        const double u4_0 = h * w3_0;
+        const double w3_1 = -0.5 * w20 - Y3_1 + 0.08333333333333333 * (u3_2 * w18 + u3_0 * w19);
+        const double u4_1 = h * w3_1;
+        const double w3_2 = k3_2 + 0.5 * w19 + 0.08333333333333333 * (u3_0 * w20 - u3_1 * w18);
+        const double u4_2 = h * w3_2;
+        const double w21 = u4_0 * u4_0 + u4_1 * u4_1 + u4_2 * u4_2;
+        double c1_3, c2_3;
+        stumpff_12(w21, &c1_3, &c2_3);
+        const double w23 = m2 * u4_1 - m1 * u4_2;
+        const double w25 = m1 * u4_0 - m0 * u4_1;
+        const double w26 = m0 * u4_2 - m2 * u4_0;
+        const double k4_0 = -0.5 * (m0 + w23 * c1_3 + (u4_1 * w25 - u4_2 * w26) * c2_3);
+        const double k4_2 = -1.5 * (m2 + w25 * c1_3 + (u4_0 * w26 - u4_1 * w23) * c2_3);
+        const double Y4_1 = m1 + w26 * c1_3 + (u4_2 * w23 - u4_0 * w25) * c2_3;
+        const double w27 = u4_1 * k4_2 + u4_2 * Y4_1;
+        const double w28 = u4_0 * Y4_1 + u4_1 * k4_0;
+        const double w29 = u4_2 * k4_0 - u4_0 * k4_2;
+        const double w30 = 0.16666666666666666 * h;
+        const double w31 = 0.3333333333333333 * h;
+        const double u_0 = (k4_0 - 0.5 * w27 - 0.08333333333333333 * (u4_1 * w28 + u4_2 * w29) + k0_0) * w30
+            + (w2_0 + w3_0) * w31;
+        const double u_1 = w30 * (-0.5 * w29 - Y4_1 + 0.08333333333333333 * (u4_2 * w27 + u4_0 * w28) - m1)
+            + w31 * (w2_1 + w3_1);
+        const double u_2 = w30 * (k4_2 + 0.5 * w28 + 0.08333333333333333 * (u4_0 * w29 - u4_1 * w27) + k0_2)
+            + w31 * (w2_2 + w3_2);
+        const double w32 = u_0 * u_0 + u_1 * u_1 + u_2 * u_2;
+        double c1_4, c2_4;
+        stumpff_12(w32, &c1_4, &c2_4);
+        const double w34 = m2 * u_1 - m1 * u_2;
+        const double w36 = m1 * u_0 - m0 * u_1;
+        const double w37 = m0 * u_2 - m2 * u_0;
+        const double new_m0 = m0 + w34 * c1_4 + (u_1 * w36 - u_2 * w37) * c2_4;
+        const double new_m1 = m1 + w37 * c1_4 + (u_2 * w34 - u_0 * w36) * c2_4;
+        const double new_m2 = m2 + w36 * c1_4 + (u_0 * w37 - u_1 * w34) * c2_4;
+        /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+        if (!isfinite((new_m0 + new_m1) + new_m2)
+            && !(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
+            status = FREE_RIGID_BODY_RKMK2_RK4_NOT_FINITE;
             break;
         }
+        m0 = new_m0;
+        m1 = new_m1;
+        m2 = new_m2;
         step++;
         if (row != NULL && step % stride == 0) {
             row += 3;
-            memcpy(row, state, 3 * sizeof *state);
+            row[0] = m0;
+            row[1] = m1;
+            row[2] = m2;
         }
     }
+    state[0] = m0;
+    state[1] = m1;
+    state[2] = m2;
     if (completed != NULL) {
         *completed = step;
     }

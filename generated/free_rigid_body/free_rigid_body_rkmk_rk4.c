@@ -135,94 +135,9 @@ static inline void stumpff_12(double z, double *c1, double *c2)
     }
 }
 
-static inline int advance(double state[static 3], double h)
-{
-    if (!isfinite(h)) {
-        return FREE_RIGID_BODY_RKMK_RK4_BAD_STEP;
-    }
-    const double m0 = state[0];
-    const double m1 = state[1];
-    const double m2 = state[2];
-    const double w1 = -0.5 * h;
-    const double w2 = -0.25 * h;
-    const double w3 = m0 * w2;
-    const double w4 = 0.5 * h;
-    const double w5 = m1 * w4;
-    const double w6 = -0.75 * h;
-    const double w7 = m2 * w6;
-    const double w8 = w3 * w3 + w5 * w5 + w7 * w7;
-    double c1_1, c2_1;
-    stumpff_12(w8, &c1_1, &c2_1);
-    const double w10 = m2 * w5 + m1 * w7;
-    const double w12 = m1 * w3 + m0 * w5;
-    const double w13 = m0 * w7 - m2 * w3;
-    const double w14 = m0 - w10 * c1_1 - (w5 * w12 + w7 * w13) * c2_1;
-    const double w15 = h * m1;
-    const double w16 = m2 + w12 * c1_1 + (w3 * w13 - w5 * w10) * c2_1;
-    const double w17 = 0.1875 * h * w16;
-    const double w18 = -1.5 * h;
-    const double w19 = m2 * w18;
-    const double w20 = (w7 * w10 + w3 * w12) * c2_1 - (m1 + w13 * c1_1);
-    const double w21 = -0.125 * h * w20;
-    const double w22 = w2 * w14 - (w15 * w17 + w19 * w21);
-    const double w23 = 0.0625 * h * w14;
-    const double w24 = m0 * w1;
-    const double w25 = w19 * w23 - w17 * w24 + w4 * w20;
-    const double w26 = w15 * w23 + w21 * w24 + w6 * w16;
-    const double w27 = w22 * w22 + w25 * w25 + w26 * w26;
-    double c1_2, c2_2;
-    stumpff_12(w27, &c1_2, &c2_2);
-    const double w29 = m2 * w25 - m1 * w26;
-    const double w31 = m1 * w22 - m0 * w25;
-    const double w32 = m0 * w26 - m2 * w22;
-    const double w33 = m0 + w29 * c1_2 + (w25 * w31 - w26 * w32) * c2_2;
-    const double w34 = w1 * w33;
-    const double w35 = m1 + w32 * c1_2 + (w26 * w29 - w22 * w31) * c2_2;
-    const double w36 = h * w35;
-    const double w37 = m2 + w31 * c1_2 + (w22 * w32 - w25 * w29) * c2_2;
-    const double w38 = w18 * w37;
-    const double w39 = w34 * w34 + w36 * w36 + w38 * w38;
-    double c1_3, c2_3;
-    stumpff_12(w39, &c1_3, &c2_3);
-    const double w41 = m2 * w36 + m1 * w38;
-    const double w43 = m1 * w34 + m0 * w36;
-    const double w44 = m0 * w38 - m2 * w34;
-    const double w45 = m0 - w41 * c1_3 - (w36 * w43 + w38 * w44) * c2_3;
-    const double w46 = 0.16666666666666666 * h;
-    const double w47 = 0.3333333333333333 * h;
-    const double w48 = m2 + w43 * c1_3 + (w34 * w44 - w36 * w41) * c2_3;
-    const double w49 = 0.125 * h * w48;
-    const double w50 = (w38 * w41 + w34 * w43) * c2_3 - (m1 + w44 * c1_3);
-    const double w51 = -0.08333333333333333 * h * w50;
-    const double w52 = (-0.5 * m0 - 0.5 * w45) * w46 + (-0.5 * w14 - 0.5 * w33) * w47
-        - (w15 * w49 + w19 * w51);
-    const double w53 = 0.041666666666666664 * h * w45;
-    const double w54 = w19 * w53 - w24 * w49 + (w46 * (w50 - m1) + w47 * (w20 - w35));
-    const double w55 = w24 * w51 + w15 * w53
-        + (w46 * (-1.5 * m2 - 1.5 * w48) + w47 * (-1.5 * w16 - 1.5 * w37));
-    const double w56 = w52 * w52 + w54 * w54 + w55 * w55;
-    double c1_4, c2_4;
-    stumpff_12(w56, &c1_4, &c2_4);
-    const double w58 = m2 * w54 - m1 * w55;
-    const double w60 = m1 * w52 - m0 * w54;
-    const double w61 = m0 * w55 - m2 * w52;
-    const double new_m0 = m0 + w58 * c1_4 + (w54 * w60 - w55 * w61) * c2_4;
-    const double new_m1 = m1 + w61 * c1_4 + (w55 * w58 - w52 * w60) * c2_4;
-    const double new_m2 = m2 + w60 * c1_4 + (w52 * w61 - w54 * w58) * c2_4;
-    /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
-    if (!isfinite((new_m0 + new_m1) + new_m2)
-        && !(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
-        return FREE_RIGID_BODY_RKMK_RK4_NOT_FINITE;
-    }
-    state[0] = new_m0;
-    state[1] = new_m1;
-    state[2] = new_m2;
-    return FREE_RIGID_BODY_RKMK_RK4_OK;
-}
-
 int free_rigid_body_rkmk_rk4_step(double state[static 3], double h)
 {
-    return advance(state, h);
+    return free_rigid_body_rkmk_rk4_run(state, h, 1, NULL, 0, NULL);
 }
 
 int free_rigid_body_rkmk_rk4_run(double state[static 3], double h, size_t steps,
@@ -234,17 +149,100 @@ int free_rigid_body_rkmk_rk4_run(double state[static 3], double h, size_t steps,
     if (row != NULL) {
         memcpy(row, state, 3 * sizeof *state);
     }
+    if (steps > 0 && !isfinite(h)) {
+        status = FREE_RIGID_BODY_RKMK_RK4_BAD_STEP;
+        steps = 0;
+    }
+    double m0 = state[0];
+    double m1 = state[1];
+    double m2 = state[2];
     while (step < steps) {
-        status = advance(state, h);
-        if (status != FREE_RIGID_BODY_RKMK_RK4_OK) {
+        const double w1 = -0.5 * h;
+        const double w2 = -0.25 * h;
+        const double w3 = m0 * w2;
+        const double w4 = 0.5 * h;
+        const double w5 = m1 * w4;
+        const double w6 = -0.75 * h;
+        const double w7 = m2 * w6;
+        const double w8 = w3 * w3 + w5 * w5 + w7 * w7;
+        double c1_1, c2_1;
+        stumpff_12(w8, &c1_1, &c2_1);
+        const double w10 = m2 * w5 + m1 * w7;
+        const double w12 = m1 * w3 + m0 * w5;
+        const double w13 = m0 * w7 - m2 * w3;
+        const double w14 = m0 - w10 * c1_1 - (w5 * w12 + w7 * w13) * c2_1;
+        const double w15 = h * m1;
+        const double w16 = m2 + w12 * c1_1 + (w3 * w13 - w5 * w10) * c2_1;
+        const double w17 = 0.1875 * h * w16;
+        const double w18 = -1.5 * h;
+        const double w19 = m2 * w18;
+        const double w20 = (w7 * w10 + w3 * w12) * c2_1 - (m1 + w13 * c1_1);
+        const double w21 = -0.125 * h * w20;
+        const double w22 = w2 * w14 - (w15 * w17 + w19 * w21);
+        const double w23 = 0.0625 * h * w14;
+        const double w24 = m0 * w1;
+        const double w25 = w19 * w23 - w17 * w24 + w4 * w20;
+        const double w26 = w15 * w23 + w21 * w24 + w6 * w16;
+        const double w27 = w22 * w22 + w25 * w25 + w26 * w26;
+        double c1_2, c2_2;
+        stumpff_12(w27, &c1_2, &c2_2);
+        const double w29 = m2 * w25 - m1 * w26;
+        const double w31 = m1 * w22 - m0 * w25;
+        const double w32 = m0 * w26 - m2 * w22;
+        const double w33 = m0 + w29 * c1_2 + (w25 * w31 - w26 * w32) * c2_2;
+        const double w34 = w1 * w33;
+        const double w35 = m1 + w32 * c1_2 + (w26 * w29 - w22 * w31) * c2_2;
+        const double w36 = h * w35;
+        const double w37 = m2 + w31 * c1_2 + (w22 * w32 - w25 * w29) * c2_2;
+        const double w38 = w18 * w37;
+        const double w39 = w34 * w34 + w36 * w36 + w38 * w38;
+        double c1_3, c2_3;
+        stumpff_12(w39, &c1_3, &c2_3);
+        const double w41 = m2 * w36 + m1 * w38;
+        const double w43 = m1 * w34 + m0 * w36;
+        const double w44 = m0 * w38 - m2 * w34;
+        const double w45 = m0 - w41 * c1_3 - (w36 * w43 + w38 * w44) * c2_3;
+        const double w46 = 0.16666666666666666 * h;
+        const double w47 = 0.3333333333333333 * h;
+        const double w48 = m2 + w43 * c1_3 + (w34 * w44 - w36 * w41) * c2_3;
+        const double w49 = 0.125 * h * w48;
+        const double w50 = (w38 * w41 + w34 * w43) * c2_3 - (m1 + w44 * c1_3);
+        const double w51 = -0.08333333333333333 * h * w50;
+        const double w52 = (-0.5 * m0 - 0.5 * w45) * w46 + (-0.5 * w14 - 0.5 * w33) * w47
+            - (w15 * w49 + w19 * w51);
+        const double w53 = 0.041666666666666664 * h * w45;
+        const double w54 = w19 * w53 - w24 * w49 + (w46 * (w50 - m1) + w47 * (w20 - w35));
+        const double w55 = w24 * w51 + w15 * w53
+            + (w46 * (-1.5 * m2 - 1.5 * w48) + w47 * (-1.5 * w16 - 1.5 * w37));
+        const double w56 = w52 * w52 + w54 * w54 + w55 * w55;
+        double c1_4, c2_4;
+        stumpff_12(w56, &c1_4, &c2_4);
+        const double w58 = m2 * w54 - m1 * w55;
+        const double w60 = m1 * w52 - m0 * w54;
+        const double w61 = m0 * w55 - m2 * w52;
+        const double new_m0 = m0 + w58 * c1_4 + (w54 * w60 - w55 * w61) * c2_4;
+        const double new_m1 = m1 + w61 * c1_4 + (w55 * w58 - w52 * w60) * c2_4;
+        const double new_m2 = m2 + w60 * c1_4 + (w52 * w61 - w54 * w58) * c2_4;
+        /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+        if (!isfinite((new_m0 + new_m1) + new_m2)
+            && !(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
+            status = FREE_RIGID_BODY_RKMK_RK4_NOT_FINITE;
             break;
         }
+        m0 = new_m0;
+        m1 = new_m1;
+        m2 = new_m2;
         step++;
         if (row != NULL && step % stride == 0) {
             row += 3;
-            memcpy(row, state, 3 * sizeof *state);
+            row[0] = m0;
+            row[1] = m1;
+            row[2] = m2;
         }
     }
+    state[0] = m0;
+    state[1] = m1;
+    state[2] = m2;
     if (completed != NULL) {
         *completed = step;
     }

@@ -124,40 +124,9 @@ static inline void stumpff_12(double z, double *c1, double *c2)
     }
 }
 
-static inline int advance(double state[static 3], double h)
-{
-    if (!isfinite(h)) {
-        return RIGID_BAD_STEP;
-    }
-    const double m0 = state[0];
-    const double m1 = state[1];
-    const double m2 = state[2];
-    const double w0 = -0.5 * m0 * h;
-    const double w1 = -h * m1;
-    const double w2 = -1.5 * m2 * h;
-    const double z = w0 * w0 + w1 * w1 + w2 * w2;
-    const double v0 = m2 * w1 - m1 * w2;
-    const double v1 = m0 * w2 - m2 * w0;
-    const double v2 = m1 * w0 - m0 * w1;
-    double c1_1, c2_1;
-    stumpff_12(z, &c1_1, &c2_1);
-    const double new_m0 = m0 + v0 * c1_1 + (w1 * v2 - w2 * v1) * c2_1;
-    const double new_m1 = m1 + v1 * c1_1 + (w2 * v0 - w0 * v2) * c2_1;
-    const double new_m2 = m2 + v2 * c1_1 + (w0 * v1 - w1 * v0) * c2_1;
-    /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
-    if (!isfinite((new_m0 + new_m1) + new_m2)
-        && !(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
-        return RIGID_NOT_FINITE;
-    }
-    state[0] = new_m0;
-    state[1] = new_m1;
-    state[2] = new_m2;
-    return RIGID_OK;
-}
-
 int rigid_step(double state[static 3], double h)
 {
-    return advance(state, h);
+    return rigid_run(state, h, 1, NULL, 0, NULL);
 }
 
 int rigid_run(double state[static 3], double h, size_t steps, double *trajectory,
@@ -169,17 +138,46 @@ int rigid_run(double state[static 3], double h, size_t steps, double *trajectory
     if (row != NULL) {
         memcpy(row, state, 3 * sizeof *state);
     }
+    if (steps > 0 && !isfinite(h)) {
+        status = RIGID_BAD_STEP;
+        steps = 0;
+    }
+    double m0 = state[0];
+    double m1 = state[1];
+    double m2 = state[2];
     while (step < steps) {
-        status = advance(state, h);
-        if (status != RIGID_OK) {
+        const double w0 = -0.5 * m0 * h;
+        const double w1 = -h * m1;
+        const double w2 = -1.5 * m2 * h;
+        const double z = w0 * w0 + w1 * w1 + w2 * w2;
+        const double v0 = m2 * w1 - m1 * w2;
+        const double v1 = m0 * w2 - m2 * w0;
+        const double v2 = m1 * w0 - m0 * w1;
+        double c1_1, c2_1;
+        stumpff_12(z, &c1_1, &c2_1);
+        const double new_m0 = m0 + v0 * c1_1 + (w1 * v2 - w2 * v1) * c2_1;
+        const double new_m1 = m1 + v1 * c1_1 + (w2 * v0 - w0 * v2) * c2_1;
+        const double new_m2 = m2 + v2 * c1_1 + (w0 * v1 - w1 * v0) * c2_1;
+        /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+        if (!isfinite((new_m0 + new_m1) + new_m2)
+            && !(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
+            status = RIGID_NOT_FINITE;
             break;
         }
+        m0 = new_m0;
+        m1 = new_m1;
+        m2 = new_m2;
         step++;
         if (row != NULL && step % stride == 0) {
             row += 3;
-            memcpy(row, state, 3 * sizeof *state);
+            row[0] = m0;
+            row[1] = m1;
+            row[2] = m2;
         }
     }
+    state[0] = m0;
+    state[1] = m1;
+    state[2] = m2;
     if (completed != NULL) {
         *completed = step;
     }

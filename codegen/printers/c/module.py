@@ -38,7 +38,9 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     """Return the texts of PREFIX.h and PREFIX.c for one step."""
     arrangement = arrange(kernel)
     names = register(kernel, arrangement, Names(RESERVED | own_names(interface)))
-    variables = declarations(kernel, interface, names) | definition(kernel, arrangement, names, interface)
+    looped = is_looped(kernel, interface)
+    variables = declarations(kernel, interface, names)
+    variables |= definition(kernel, arrangement, names, interface, looped=looped) | {"looped": looped}
     functions = {*arrangement.functions(), "isfinite"}
     if interface.blocks:
         functions |= {"fabs", "largest"}
@@ -100,10 +102,27 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     }
 
 
+REGISTERS = 6
+"""How many numbers of a state stay in registers beside what a step computes with them."""
+
+
+def is_looped(kernel: Kernel, interface: Interface) -> bool:
+    """Whether the step stands in the loop of a run itself: the state then stays in registers.
+
+    It does where nothing else calls it, without equations, time, step control, and what is put off, and where
+    the state is small.
+    """
+    alone = kernel.put_off is None and not kernel.substeps and interface.size <= REGISTERS
+    return alone and not (interface.blocks or interface.time or interface.adaptive)
+
+
 def definition(
-    kernel: Kernel, arrangement: Arrangement, names: Names, interface: Interface
+    kernel: Kernel, arrangement: Arrangement, names: Names, interface: Interface, *, looped: bool = False
 ) -> dict[str, object]:
-    """Return what the body of a function that changes the state is spelled from."""
+    """Return what the body of a function that changes the state is spelled from.
+
+    ``looped`` it reads and changes variables, which are loaded before a loop.
+    """
     symbols = tuple(s for f in kernel.state for s in f.symbols)
     real = interface.format.c_type
     statements = Statements(arrangement, names, interface.prefix, interface.format, blocks(kernel))
@@ -113,13 +132,20 @@ def definition(
     body = list(statements.lines(kept))
     ends, new = statements.outputs(symbols)
     read = arrangement.symbols()
-    loads = [f"const {real} {names.spelled[s]} = state[{i}];" for i, s in enumerate(symbols) if s in read]
+    own = [names.spelled[s] if looped else f"state[{i}]" for i, s in enumerate(symbols)]
+    loads = [
+        f"{'' if looped else 'const '}{real} {names.spelled[s]} = state[{i}];"
+        for i, s in enumerate(symbols)
+        if looped or s in read
+    ]
     # What is not read, as it follows from the rest of the state, must be a number all the same.
-    numbers = [*new, *(f"state[{i}]" for i, s in enumerate(symbols) if s not in read)]
+    numbers = [*new, *(name for name, s in zip(own, symbols, strict=True) if s not in read)]
     differences = paired([f"({n} - {n})" for n in numbers])
     return {
         "errors": statements.errors(),
-        "body": [*samples(kernel, read, names, statements), *loads, *body, *ends],
+        "body": [*samples(kernel, read, names, statements), *([] if looped else loads), *body, *ends],
+        "loads": loads,
+        "own": own,
         "new": new,
         "finite": [
             *fill("if (!isfinite(", paired(numbers), ")", joint=""),
@@ -279,6 +305,7 @@ def declarations(kernel: Kernel, interface: Interface, names: Names) -> dict[str
         "passed_substep": ", ".join(["fraction[number] * h", *passed[1:], *called, *own]),
         "step_source": signature(f"int {interface.prefix}step", state, step, ""),
         "run_source": signature(f"int {interface.prefix}run", state, run, ""),
+        "passed_looped": ", ".join(["state", "h", "1", *passed[1:], "NULL", "0", "NULL"]),
         "passed": ", ".join([*passed, *called, *given, *none]),
         "passed_once": ", ".join([*passed, *still, *given, *none]),
         "continuation_source": signature("static int continued", state, continuing, ""),
