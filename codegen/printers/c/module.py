@@ -88,7 +88,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "recipe": [
             comment(line)
             for line in header(
-                recipe, layout(kernel), costs(kernel), 96, stack(held, interface), times(kernel)
+                recipe, layout(kernel), costs(kernel), 96, stack(held, interface, looped), times(kernel)
             )
         ],
         "usage": usage(interface, recipe),
@@ -221,14 +221,18 @@ FRAMES = 640
 """Bytes for what calls leave on the stack besides numbers, and for the frames of helpers."""
 
 
-def stack(numbers: int, interface: Interface) -> str:
+def stack(numbers: int, interface: Interface, looped: bool) -> str:
     """Say how much of the stack a call takes at most: what holds every number of a step at once.
 
     That is what compilers take who keep all names apart (-O0); tests hold it against ``-fstack-usage``.
     """
     size = {"double": 8, "float": 4}[interface.format.c_type]
     rounded = -(-size * numbers // 64) * 64
-    frames = FRAMES + FRAMES // 2 * (NEWTON in interface.solvers or CHORD in interface.solvers)
+    frames = (
+        FRAMES
+        - FRAMES // 2 * looped
+        + FRAMES // 2 * (NEWTON in interface.solvers or CHORD in interface.solvers)
+    )
     return f"at most {rounded + frames} bytes, without what the mathematical library takes"
 
 
