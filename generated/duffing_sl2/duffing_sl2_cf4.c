@@ -12,7 +12,7 @@
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit here
  * operations: 23 add, 48 mul, 5 signed_stumpff0, 5 signed_stumpff1 a step
- * stack:      at most 960 bytes, without what the mathematical library takes
+ * stack:      at most 640 bytes, without what the mathematical library takes
  * made by:    orderconds emit duffing_sl2 --method cf4 --target c -o .
  * version:    orderconds 0.1.0
  *

@@ -13,7 +13,7 @@
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit here
  * operations: 89 add, 149 mul, 5 stumpff_12 a step
- * stack:      at most 1344 bytes, without what the mathematical library takes
+ * stack:      at most 1024 bytes, without what the mathematical library takes
  * made by:    orderconds emit free_rigid_body --method cf4 --target c -o .
  * version:    orderconds 0.1.0
  *

@@ -13,7 +13,7 @@
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit here
  * operations: 84 add, 161 mul, 6 stumpff_12 a step
- * stack:      at most 1280 bytes, without what the mathematical library takes
+ * stack:      at most 960 bytes, without what the mathematical library takes
  * made by:    orderconds emit free_rigid_body --method cg:cg3 --target c -o .
  * version:    orderconds 0.1.0
  *

@@ -16,7 +16,7 @@
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit here
  * operations: 77 add, 141 mul, 4 stumpff_12 a step
- * stack:      at most 1216 bytes, without what the mathematical library takes
+ * stack:      at most 896 bytes, without what the mathematical library takes
  * made by:    orderconds emit free_rigid_body --method rkmk:rk4 --target c -o .
  * version:    orderconds 0.1.0
  *

@@ -5,7 +5,7 @@
  * order:      1
  * state:      [0..2] m: angular momentum in the body
  * operations: 14 add, 26 mul, 1 stumpff_12 a step
- * stack:      at most 832 bytes, without what the mathematical library takes
+ * stack:      at most 512 bytes, without what the mathematical library takes
  * made by:    none
  * version:    orderconds test
  *
