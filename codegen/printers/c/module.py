@@ -228,11 +228,8 @@ def stack(numbers: int, interface: Interface, looped: bool) -> str:
     """
     size = {"double": 8, "float": 4}[interface.format.c_type]
     rounded = -(-size * numbers // 64) * 64
-    frames = (
-        FRAMES
-        - FRAMES // 2 * looped
-        + FRAMES // 2 * (NEWTON in interface.solvers or CHORD in interface.solvers)
-    )
+    inverting = NEWTON in interface.solvers or CHORD in interface.solvers
+    frames = FRAMES + FRAMES // 2 * (inverting - looped)
     return f"at most {rounded + frames} bytes, without what the mathematical library takes"
 
 
