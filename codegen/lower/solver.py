@@ -171,7 +171,18 @@ class _Tried:
         usual, far = self.usual[FIXED_POINT], self.far[FIXED_POINT]
         sizes = [len(loop.unknowns) for loop in self.kernels[FIXED_POINT].loops]
         lasts = max(far.sweeps) <= SWEEPS or min(sizes) > MANY
-        return sum(sizes) > MANY and usual.good and max(usual.sweeps) <= FEW and far.good and lasts
+        if sum(sizes) <= MANY or not usual.good:
+            return False
+        return (max(usual.sweeps) <= FEW and far.good and lasts) or self._cheapest()
+
+    def _cheapest(self) -> bool:
+        """Whether Newton's method would cost more with two sweeps and one matrix in all steps of a trial."""
+        fixed, least = 0.0, 0.0
+        for k, loop in enumerate(self.kernels[FIXED_POINT].loops):
+            each, n = _weight(self.work[FIXED_POINT][loop.label]), len(loop.unknowns)
+            fixed += self.usual[FIXED_POINT].sweeps[k] * each
+            least += 2 * (each + 2 * n**2) + 2 * n**3 / STEPS
+        return fixed <= least
 
     def reasons_for_fixed_points(self) -> dict[str, str]:
         """Return the reason for each block where nothing else was tried."""
