@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from orderconds.ring.protocol import Element, Ring
+from orderconds.ring.protocol import Ring
 from orderconds.tableau.methods import CommutatorFree, Row
 
 
@@ -60,15 +60,11 @@ def _reduced(rows: Sequence[Row], ring: Ring) -> list[Row]:
 
 
 def _parallel(x: Row, y: Row, ring: Ring) -> bool:
-    # Most coefficients are zero, and then so are most minors.
-    places = [
-        i
-        for i, (u, v) in enumerate(zip(x, y, strict=True))
-        if not (_vanishes(u, ring) and _vanishes(v, ring))
-    ]
+    # Most coefficients are zero, and so are most minors. One that is not, where the other row has zero, and
+    # one the other way round make a minor that is not zero.
+    zeros = [(ring.is_zero(u), ring.is_zero(v)) for u, v in zip(x, y, strict=True)]
+    if (False, True) in zeros and (True, False) in zeros:
+        return False
+    places = [i for i, both in enumerate(zeros) if both != (True, True)]
     pairs = ((i, j) for i in places for j in places if j < i)
     return all(ring.is_zero(x[i] * y[j] - x[j] * y[i]) is True for i, j in pairs)
-
-
-def _vanishes(x: Element, ring: Ring) -> bool:
-    return ring.is_zero(x) is True
