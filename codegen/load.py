@@ -290,7 +290,10 @@ class CompiledIntegrator(Integrator):
             status = run(*arguments, accepted, rejected)
         final = self._ffi.unpack(state, self.interface.size)
         if status != Status.OK:
-            raise begun.failed(status, accepted[0], final, reason(status, self._block(counted), span[2]))
+            why = reason(status, self._block(counted), span[2])
+            if status == Status.BAD_STEP:
+                why = "from {} to {} by {} with rtol = {}, atol = {}".format(*span, *tolerances)
+            raise begun.failed(status, accepted[0], final, why)
         return Arrival(final, t[0], h[0], accepted[0], rejected[0])
 
     @contextmanager

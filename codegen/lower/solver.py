@@ -215,7 +215,9 @@ class _Tried:
                     matrix = _matrix(kernels[solver].loops[k], self.work[solver])
                     made = usual[solver].matrices if solver == NEWTON else 1.0
                     cost[solver] += made * matrix
-                    spelled[solver] += f" and {made:.2f} matrices of {matrix}"
+                    newton = kernels[solver].loops[k].newton
+                    own = f" (in C: {1 / newton.period:.2f})" if newton is not None and newton.period else ""
+                    spelled[solver] += f" and {made:.2f} matrices of {matrix}{own}"
                 if solver not in sure:
                     lasting = (
                         f"takes {max(far[solver].sweeps):.0f} sweeps"

@@ -233,6 +233,8 @@ def run(state, h, steps, *, stride=0):
     h = float(h)
     if len(state) != 2:
         raise ValueError(f"expected 2 numbers in state, found {len(state)}")
+    if steps < 0:
+        raise ValueError(f"expected no negative number of steps, found {steps}")
     rows = [list(state)]
     made = 0
     try:

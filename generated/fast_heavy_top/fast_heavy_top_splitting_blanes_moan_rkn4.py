@@ -359,6 +359,8 @@ def run(state, h, steps, *, stride=0):
     h = float(h)
     if len(state) != 12:
         raise ValueError(f"expected 12 numbers in state, found {len(state)}")
+    if steps < 0:
+        raise ValueError(f"expected no negative number of steps, found {steps}")
     rows = [list(state)]
     made, late, whole = 0, 0, True
     moving = state

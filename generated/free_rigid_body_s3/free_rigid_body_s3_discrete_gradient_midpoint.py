@@ -1101,6 +1101,8 @@ def run(state, h, steps, *, stride=0, statistics=None):
     h = float(h)
     if len(state) != 4:
         raise ValueError(f"expected 4 numbers in state, found {len(state)}")
+    if steps < 0:
+        raise ValueError(f"expected no negative number of steps, found {steps}")
     rows = [list(state)]
     memory = _Memory()
     made = 0

@@ -734,6 +734,8 @@ def run(state, h, steps, *, stride=0, statistics=None):
     h = float(h)
     if len(state) != 12:
         raise ValueError(f"expected 12 numbers in state, found {len(state)}")
+    if steps < 0:
+        raise ValueError(f"expected no negative number of steps, found {steps}")
     rows = [list(state)]
     memory = _Memory()
     made = 0

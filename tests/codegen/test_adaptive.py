@@ -151,10 +151,12 @@ def test_what_the_tolerance_forbids_ends_at_the_last_good_state(target):
         integrator.adaptive(start, 0, 2, rtol=0, atol=0)
     assert failure.value.status == Status.LIMIT
     assert list(failure.value.state) == start
-    for bad in ({"t": math.nan, "end": 1}, {"t": 0, "end": math.inf}, {"t": 0, "end": 1, "h": math.nan}):
-        with pytest.raises(StepFailed) as failure:
-            integrator.adaptive(start, **bad)
+    known = {"t": 0, "end": 1}
+    for bad in ({"t": math.nan}, {"end": math.inf}, {"h": math.nan}, {"rtol": -1}, {"atol": math.nan}):
+        with pytest.raises(StepFailed, match=r"from .* to .* by .* with rtol = .*, atol = ") as failure:
+            integrator.adaptive(start, **{**known, **bad})
         assert failure.value.status == Status.BAD_STEP
+        assert (failure.value.step, list(failure.value.state)) == (0, start)
     with pytest.raises(StepFailed) as failure:
         integrator.adaptive([math.nan, 0, 1], 0, 2)
     assert failure.value.status == Status.NOT_FINITE

@@ -163,6 +163,8 @@ def test_a_negative_number_of_steps_is_refused(kernels):
     for target in ("c", "python"):
         with pytest.raises(ValueError, match="no negative number of steps"):
             load(kernels.emission(kernels.rigid(), target)).run([0.4, -0.3, 0.9], 0.1, -1)
+    with pytest.raises(ValueError, match="no negative number of steps"):
+        load(kernels.emission(kernels.rigid(), "python")).module.run([0.4, -0.3, 0.9], 0.1, -1)
 
 
 def test_statistics_of_c_and_python_are_equal_and_add_up(kernels):
