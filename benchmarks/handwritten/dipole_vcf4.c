@@ -266,7 +266,7 @@ size_t handwritten_run(double state[static 12], double h, size_t steps)
         }
         double before = 0.0;
         for (size_t sweep = 1;; sweep++) {
-            double change = 0.0, scale = 1.0, e[12];
+            double change = 0.0, scale = 0.0, e[12];
             residual(u, q + 6, m, h, r, impulse);
             for (int i = 0; i < 12; i++) {
                 const double e0 = (B[i][0] * r[0] + B[i][1] * r[1]) + (B[i][2] * r[2] + B[i][3] * r[3]);
@@ -282,7 +282,7 @@ size_t handwritten_run(double state[static 12], double h, size_t steps)
                 rate = change / before;
             }
             /* the next correction is below rounding, and what the impulse then lacks, or it stands still */
-            if ((change * (rate + h * h) <= 2e-16 * scale && rate < 0.5) || change <= 4e-16 * scale
+            if ((change * (rate + h * h) <= 8.9e-16 * scale && rate < 0.5) || change <= 4e-16 * scale
                 || (rate >= 0.5 && change <= 6e-14 * scale)) {
                 follow(u, e, h, impulse);
                 break;

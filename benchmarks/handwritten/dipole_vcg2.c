@@ -79,8 +79,8 @@ static inline size_t solve(const double G0[static 3], const double m[static 3], 
         for (int i = 0; i < 3; i++) {
             w[i] -= e[i];
         }
-        const double scale = 1.0 + fabs(w[0]) + fabs(w[1]) + fabs(w[2]);
-        if (change * (*rate + h * h) <= 2e-16 * scale && *rate < 0.5) {
+        const double scale = fabs(w[0]) + fabs(w[1]) + fabs(w[2]);
+        if (change * (*rate + h * h) <= 8.9e-16 * scale && *rate < 0.5) {
             /* the part of N that is quadratic in W is kept exact, the rest moves by h times the correction */
             const double K[3] = {inertia[0] * w[0], w[1], inertia[2] * w[2]};
             double s[3], o[3];

@@ -172,7 +172,7 @@ size_t handwritten_run(double state[static 12], double h, size_t steps)
         }
         double before = 0.0;
         for (size_t sweep = 1;; sweep++) {
-            double change = 0.0, scale = 1.0, e[6];
+            double change = 0.0, scale = 0.0, e[6];
             residual(w, q + 6, m, h, r, impulse);
             #pragma GCC unroll 9
             for (int i = 0; i < 6; i++) {
@@ -187,7 +187,7 @@ size_t handwritten_run(double state[static 12], double h, size_t steps)
                 rate = change / before;
             }
             /* the next correction is below rounding, and what the impulse then lacks, or it stands still */
-            if ((change * (rate + h * h) <= 2e-16 * scale && rate < 0.5) || change <= 4e-16 * scale
+            if ((change * (rate + h * h) <= 8.9e-16 * scale && rate < 0.5) || change <= 4e-16 * scale
                 || (rate >= 0.5 && change <= 6e-14 * scale)) {
                 follow(w, e, h, impulse);
                 break;
