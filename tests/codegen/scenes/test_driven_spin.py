@@ -14,6 +14,7 @@ from codegen.ir.interpret import interpret
 from codegen.lab.converge import converge
 from codegen.lab.reference import reference
 from codegen.lab.runner import Emitted
+from codegen.load import Status, StepFailed
 from codegen.load import load as load_module
 from codegen.passes.rewrite import rewrite
 from codegen.scenes import load
@@ -78,8 +79,19 @@ def test_the_local_error_has_the_order_and_a_time_that_stands_still_order_one(sp
     assert slope(made, still(made.program)) == pytest.approx(1, abs=0.05)
 
 
-@pytest.mark.parametrize("h", [1e-3, 1e-2, 1.0])
-def test_lie_group_methods_stay_on_the_sphere_however_stiff(h):
-    emission = emit_compiled(compile_method("stiff_driven_spin", "cf4"), "c")
+@pytest.mark.parametrize(
+    ("spelling", "h"), [("cf4", 1e-3), ("cf4", 1e-2), ("cf4", 0.1), ("rkmk(0):euler", 1.0)]
+)
+def test_lie_group_methods_stay_on_the_sphere_however_stiff(spelling, h):
+    emission = emit_compiled(compile_method("stiff_driven_spin", spelling), "c")
     m = load_module(emission).run(emission.manifest["initial"], h, 200)
     assert sum(x * x for x in m) == pytest.approx(1, abs=1e-12)
+
+
+def test_a_step_whose_angles_leave_no_digit_is_a_status():
+    """At h = 1 a stage of CF4 turns by 1000 times what rounding did to the one before it, thrice."""
+    emission = emit_compiled(compile_method("stiff_driven_spin", "cf4"), "c")
+    with pytest.raises(StepFailed) as failure:
+        load_module(emission).run(emission.manifest["initial"], 1.0, 200)
+    assert failure.value.status == Status.NOT_FINITE
+    assert failure.value.state == emission.manifest["initial"]
