@@ -110,8 +110,8 @@ class Survey:
 
     @property
     def held(self) -> bool:
-        """Whether observed orders are the computed ones and every extreme case was answered honestly."""
-        return all(m.verdict == "holds" for m in self.orders) and all(s.held for s in self.stability)
+        """Whether observed orders are the computed ones and no extreme case was answered wrongly."""
+        return all(m.verdict == "holds" for m in self.orders) and all(s.honest for s in self.stability)
 
     def as_json(self) -> dict[str, Any]:
         """Return plain data."""

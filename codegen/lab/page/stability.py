@@ -54,7 +54,7 @@ def _row(found: Stability) -> dict[str, Any]:
         "imaginary": "–" if region is None else _length(region.imaginary),
         "accurate": kinds["accurate"],
         "status": kinds["status"],
-        "other": kinds["unverified"],
+        "other": kinds["undetermined"],
         "wrong": kinds["wrong"],
     }
 

@@ -4,9 +4,9 @@ A step is *accurate* when it has :data:`LEAST` digits at least, and differs from
 than rounding explains: rounding the input, the result of every operation of the step's program, and both
 sides of the equations of an implicit step, at the last bit, moves the exact answer by so much, and every
 operation of emitted code may round a few times. The digits that this leaves are *determined*. Where too few
-are (a rotation by 1e20 radians is known to no angle at all) only a status will do. A finite answer that is
-neither is *wrong*. Digits are those of the larger of a block of the state and the same block before the
-step; what lies below the least normal number is zero.
+are (a rotation by 1e20 radians is known to no angle at all) only a status will do, and an answer is told as
+*undetermined*. A finite answer that rounding does not explain is *wrong*. Digits are those of the larger of
+a block of the state and the same block before the step; what lies below the least normal number is zero.
 
 Equations of long implicit steps have several solutions, and the way to any leads past the others. The
 interpreter finds its own where a fixed point leads to it; elsewhere it begins at that of emitted Python,
@@ -47,7 +47,7 @@ SWEEPS, CORRECTIONS = 60, 30
 """Of the interpreter, for a fixed point and Newton's method."""
 
 ACCURATE, WRONG = "accurate", "WRONG"
-SILENT = f"{WRONG}: rounding leaves fewer than {LEAST} digits of it"
+SILENT = f"undetermined: rounding leaves fewer than {LEAST} digits of it"
 UNSOLVED = f"{WRONG}: the equations of this step have no solution there"
 
 ANGLES = (1e-300, 1e-8, math.pi - 1e-9, math.pi, 2 * math.pi, 100.0, 1e3, 1e4, 1e5, 1e6, 1e8, 1e300)
@@ -67,7 +67,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Answer:
-    """How a case was answered: ``accurate``, a status in words, or ``WRONG``.
+    """How a case was answered: ``accurate``, a status in words, ``undetermined`` or ``WRONG``.
 
     ``error`` is the largest relative error of a block of the state, ``determined`` the digits that the input
     determines, None where there was no answer to compare.

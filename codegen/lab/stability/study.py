@@ -12,7 +12,7 @@ from codegen.lab.reference import Reference
 from codegen.lab.remembered import remembered
 from codegen.lab.runner import Emitted
 from codegen.lab.stability.endurance import Endurance, endure
-from codegen.lab.stability.extremes import WRONG, Answer, answer, cases
+from codegen.lab.stability.extremes import SILENT, WRONG, Answer, answer, cases
 from codegen.lab.stability.harsh import VARIANTS, Harsh
 from codegen.lab.stability.limits import Limit, largest_step
 from codegen.lab.stability.regions import Region, region
@@ -38,13 +38,18 @@ class Stability:
 
     @property
     def wrong(self) -> tuple[Answer, ...]:
-        """The answers that are neither accurate nor a status."""
+        """The answers that rounding does not explain."""
         return tuple(a for a in self.answers if a.verdict.startswith(WRONG))
 
     @property
-    def held(self) -> bool:
-        """Whether every answer is accurate or a status, and long runs ended well or with a status."""
+    def honest(self) -> bool:
+        """Whether no answer is wrong, and long runs ended well or with a status."""
         return not self.wrong and all(e.held for e in self.endurance)
+
+    @property
+    def held(self) -> bool:
+        """Whether it is honest and every answer is accurate or a status: none is undetermined."""
+        return self.honest and not any(a.verdict == SILENT for a in self.answers)
 
     def as_json(self) -> dict[str, Any]:
         """Return plain data."""

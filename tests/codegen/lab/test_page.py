@@ -14,7 +14,7 @@ from codegen.lab.needs import NEEDS
 from codegen.lab.page import page_name, render, render_overview
 from codegen.lab.page.orders import agreement
 from codegen.lab.stability.endurance import Endurance
-from codegen.lab.stability.extremes import WRONG
+from codegen.lab.stability.extremes import SILENT, WRONG
 from codegen.lab.stability.stiff import Stiff
 from codegen.lab.survey import Effort, Survey, plan, survey
 from codegen.lab.timing import Timing
@@ -169,3 +169,13 @@ def test_harsh_variants_long_runs_and_wrong_answers_are_told(found: Survey) -> N
         assert text in page
     assert '<td class="num fails">1</td>' in page
     assert '<td class="num fails">1</td>' not in render(found, "x")
+
+
+def test_an_undetermined_answer_is_told_and_fails_what_asks_for_digits_only(found: Survey) -> None:
+    (one, *others) = found.stability
+    lost = replace(one, answers=(replace(one.answers[0], verdict=SILENT), *one.answers[1:]))
+    assert lost.honest
+    assert not lost.held
+    survey = replace(found, stability=(lost, *others))
+    assert survey.held == found.held
+    assert " + 1 undetermined" in render(survey, "x")
