@@ -7,10 +7,10 @@ from fractions import Fraction
 from typing import Any
 
 from codegen.groups.base import LieGroup, Scalars, bernoulli_over_factorial, cross, dot, matmul, matvec
+from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 from codegen.ir.normal_form import Relation
 from codegen.ir.number import Number
-from codegen.ir.program import Factor
 
 
 def word_coefficients(d: Domain, word: Sequence[Factor], z: Any) -> tuple[Any, Any]:

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from codegen.groups import SO3, MatrixGroup, Product
-from codegen.ir.program import Kind
+from codegen.ir.values import Kind
 from codegen.scene.problem import Problem
 
 

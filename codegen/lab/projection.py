@@ -14,7 +14,7 @@ from codegen.errors import SceneError
 from codegen.groups import SO3, Rotation
 from codegen.groups.base import dot, matmul
 from codegen.ir.domain import Domain, ExprDomain, FloatDomain
-from codegen.ir.program import Kind
+from codegen.ir.values import Kind
 from codegen.lab.straight_line_field import StraightLine, straight_line
 from codegen.scene.problem import Problem
 

@@ -19,7 +19,9 @@ from typing import TYPE_CHECKING
 
 from codegen.errors import MethodError
 from codegen.ir.number import Number
-from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
+from codegen.ir.operations import Bivector, Differential, Energy, Secant
+from codegen.ir.program import Program
+from codegen.ir.values import ONE, Coefficient, Kind, Var
 from codegen.lower.base import Objection
 from codegen.lower.field import FieldLowering
 from codegen.lower.stages import Stages
@@ -79,24 +81,24 @@ def _program(scene: Problem, method: Method) -> Program:
     tableau = method.runge_kutta()
     y = Var("y", Kind.POINT)
     stages = Stages(scene, method, (y,))
-    do = stages.builder
-    xi = do.fresh("xi", Kind.ALG)
+    build = stages.builder
+    xi = build.fresh("xi", Kind.ALG)
     shared: dict[str, Var] = {}
 
     def moved(name: str, part: Number, velocity: Var) -> Var:
-        x = do.lin(f"x{name}", Kind.ALG, [(stages.times_h(part), velocity)])
-        return do.do("act", f"Y{name}", do.do("exp", f"g{name}", x), y)
+        x = build.lin(f"x{name}", Kind.ALG, [(stages.times_h(part), velocity)])
+        return build.act(f"Y{name}", build.exp(f"g{name}", x), y)
 
     def images() -> list[Var]:
         slopes = [
-            (Coefficient(stages.number(b)), do.do("differential", f"d{i + 1}", moved(f"{i + 1}", c, xi)))
+            (Coefficient(stages.number(b)), build.add(Differential(), f"d{i + 1}", moved(f"{i + 1}", c, xi)))
             for i, (b, c) in enumerate(zip(tableau.b, map(stages.number, tableau.c), strict=True))
         ]
         middle, end = moved("m", HALF, xi), moved("", ONE.value, xi)
-        energies = [do.do("energy", f"H{k}", point) for k, point in enumerate((y, end))]
-        eta = do.lin("eta", Kind.ALG, [(stages.times_h(ONE.value), xi)])
-        D = do.do("secant", "D", do.lin("g", Kind.DUAL, slopes), eta, *energies)
-        shared["f"] = do.do("bivector", "f", middle, D)
+        energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
+        eta = build.lin("eta", Kind.ALG, [(stages.times_h(ONE.value), xi)])
+        D = build.add(Secant(), "D", build.lin("g", Kind.DUAL, slopes), eta, *energies)
+        shared["f"] = build.add(Bivector(), "f", middle, D)
         return [shared["f"]]
 
     def update() -> dict[str, Var]:

@@ -15,7 +15,8 @@ from codegen.errors import MethodError
 from codegen.flows.flow import Kick
 from codegen.flows.recognise import Part, Piece, recognise, vanish
 from codegen.ir.number import Number
-from codegen.ir.program import Builder, Coefficient, Kind, Program, Var
+from codegen.ir.program import Builder, Program
+from codegen.ir.values import Coefficient, Kind, Var
 from codegen.ir.verify import verify
 from codegen.lower.base import Lowering, Objection
 from codegen.method import Method

@@ -10,19 +10,28 @@ wait for them.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 from codegen.ir.domain import Domain
-from codegen.ir.interpret import coefficient
 from codegen.ir.number import Number
-from codegen.ir.program import ONE, Assign, Coefficient, Factor, Program, Var
+from codegen.ir.operations import AdSeries
+from codegen.ir.program import Assign, Program
+from codegen.ir.values import ONE, Coefficient, Var
 from codegen.passes.functions import ratio
 from codegen.passes.rewrite import uses
 from codegen.scene.problem import Problem
 
-Term = tuple[Coefficient, Assign]
-"""A multiple of a function of ad."""
+
+@dataclass(frozen=True)
+class Term:
+    """A multiple c W(ad_x) v of a function of ad."""
+
+    target: Var
+    coefficient: Coefficient
+    series: AdSeries
+    x: Var
+    v: Var
 
 
 @dataclass
@@ -44,17 +53,13 @@ class SeriesSums:
         """
         for target in assign.targets:
             self.definitions[target] = assign
-        if assign.operation.name != "lin" or not hasattr(self.scene.group, "series_sum"):
+        if not assign.terms or not hasattr(self.scene.group, "series_sum"):
             return None
         groups = self._groups(assign)
         if not groups:
             return None
-        inner = {made.targets[0] for group in groups for _, made in group}
-        total = [
-            (coefficient(domain, c), env[v])
-            for c, v in zip(assign.operation.coefficients, assign.args, strict=True)
-            if v not in inner
-        ]
+        inner = {term.target for group in groups for term in group}
+        total = [(c.evaluate(domain), env[v]) for c, v in assign.terms if v not in inner]
         values = [self._nested(domain, group, env) for group in groups]
         result = values[0]
         for other in values[1:]:
@@ -66,35 +71,34 @@ class SeriesSums:
     def _groups(self, assign: Assign) -> list[list[Term]]:
         """Return the terms that are functions of ad of multiples of one x, where there are two or more."""
         groups: list[list[Term]] = []
-        for c, v in zip(assign.operation.coefficients, assign.args, strict=True):
+        for c, v in assign.terms:
             made = self.definitions.get(v)
-            if made is None or not made.operation.word or self.uses.get(v) != 1:
+            if made is None or not isinstance(made.operation, AdSeries) or self.uses.get(v) != 1:
                 continue
+            term = Term(v, c, made.operation, *made.args)
             for group in groups:
-                if ratio(self.definitions, made.args[0], group[0][1].args[0]) is not None:
-                    group.append((c, made))
+                if ratio(self.definitions, term.x, group[0].x) is not None:
+                    group.append(term)
                     break
             else:
-                groups.append([(c, made)])
+                groups.append([term])
         return [group for group in groups if len(group) > 1]
 
     def _nested(self, domain: Domain, group: list[Term], env: Mapping[Var, Any]) -> tuple[Any, ...]:
         """Return the value of one group, all in terms of the last x."""
-        x, operation = group[-1][1].args[0], group[-1][1].operation
+        x, dual = group[-1].x, group[-1].series.dual
         terms = []
-        for c, made in group:
-            scale = ratio(self.definitions, made.args[0], x)
+        for term in group:
+            scale = ratio(self.definitions, term.x, x)
             assert scale is not None
-            word: tuple[Factor, ...] = tuple(replace(f, scale=f.scale * scale) for f in made.operation.word)
-            terms.append((signed(domain, c), word, env[made.args[1]]))
+            word = tuple(f.scaled(scale) for f in term.series.word)
+            terms.append((signed(domain, term.coefficient), word, env[term.v]))
 
         def total(numbers: tuple[int, ...]) -> tuple[Any, ...]:
-            flat = self._flat([(group[k][0], group[k][1].args[1]) for k in numbers])
+            flat = self._flat([(group[k].coefficient, group[k].v) for k in numbers])
             return combined(domain, [(c, env[v]) for c, v in flat])
 
-        nested: tuple[Any, ...] = self.scene.group.series_sum(
-            domain, terms, operation.name == "seriest", env[x], total
-        )
+        nested: tuple[Any, ...] = self.scene.group.series_sum(domain, terms, dual, env[x], total)
         return nested
 
     def _flat(self, terms: list[tuple[Coefficient, Var]]) -> list[tuple[Coefficient, Var]]:
@@ -103,8 +107,8 @@ class SeriesSums:
         for c, v in terms:
             made = self.definitions.get(v)
             inner = [(ONE, v)]
-            if made is not None and made.operation.name == "lin":
-                inner = list(zip(made.operation.coefficients, made.args, strict=True))
+            if made is not None and made.terms:
+                inner = list(made.terms)
             for d, u in inner:
                 key, more = (u, c.power + d.power), c.value * d.value
                 total[key] = total[key] + more if key in total else more
@@ -115,8 +119,8 @@ class SeriesSums:
 def signed(domain: Domain, c: Coefficient) -> Any:
     """Return a coefficient with its sign in front, so that products with it and its negative are shared."""
     if c.value.is_rational and c.value.fraction() < 0:
-        return -coefficient(domain, Coefficient(-c.value, c.power))
-    return coefficient(domain, c)
+        return -Coefficient(-c.value, c.power).evaluate(domain)
+    return c.evaluate(domain)
 
 
 def combined(domain: Domain, terms: Sequence[tuple[Coefficient, tuple[Any, ...]]]) -> tuple[Any, ...]:

@@ -18,10 +18,11 @@ from codegen.flows.flow import Flow, Stated
 from codegen.groups.actions import LeftMultiplication
 from codegen.groups.cotangent import Cotangent
 from codegen.groups.euclidean import Rn
+from codegen.ir.ad_series import Word
 from codegen.ir.domain import Domain, ExprDomain
 from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.number import Number
-from codegen.ir.program import CUT_OFF, Factor, Kind
+from codegen.ir.values import Kind
 from codegen.scene import energy
 from codegen.scene.body_frame import BodyFrame, applied, body_frame
 from codegen.scene.consistency import Orbit, check_equal, check_invariants, check_start
@@ -202,7 +203,7 @@ class Problem:
 
     def apply(self, domain: Domain, name: str, order: int | None, args: tuple[Any, ...]) -> tuple[Any, ...]:
         """Return the results of a group, action or scene operation of a program."""
-        if name in CUT_OFF:
+        if order is not None:
             return (getattr(self.group, name)(domain, *args, order),)
         if name in GROUP_OPERATIONS:
             return (getattr(self.group, name)(domain, *args),)
@@ -220,7 +221,7 @@ class Problem:
         values = self.values(domain, (*q, *mu), *time)
         return self.flows[part].advance(domain, self.group, values, tau, q, mu)
 
-    def series(self, domain: Domain, word: tuple[Factor, ...], dual: bool, x: Any, v: Any) -> tuple[Any, ...]:
+    def series(self, domain: Domain, word: Word, dual: bool, x: Any, v: Any) -> tuple[Any, ...]:
         """Return the product of a word's functions of ad_x, of ad*_x where ``dual``, applied to v."""
         return tuple(self.group.series(domain, word, dual, x, v))
 

@@ -13,7 +13,7 @@ from codegen.ir.differentiate import gradient
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import is_normal
-from codegen.ir.program import Kind
+from codegen.ir.values import Kind
 from codegen.scene.canonical_equations import force, velocity
 from codegen.scene.consistency import check_flow
 from codegen.scene.formulas import Reader
