@@ -15,7 +15,7 @@ from codegen.lab.typeset import typeset
 from codegen.printers.operations import sentences
 from codegen.setting import Setting
 from orderconds.conditions import OrderCondition
-from orderconds.derive import derive
+from orderconds.derivation import derive
 from orderconds.families import names
 
 DEEPEST = 4
