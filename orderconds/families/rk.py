@@ -95,8 +95,8 @@ def weights_of(tableau: Tableau) -> tuple[Element, ...] | None:
     """Return the weights b_i of a tableau that reads as (A, b), None for other formats.
 
     >>> from orderconds.tableau import find
-    >>> [str(x) for x in weights_of(Tableau.load(find("gauss2")))]
-    ['1/2', '1/2']
+    >>> [str(x) for x in weights_of(Tableau.load(find("rk4")))]
+    ['1/6', '1/3', '1/3', '1/6']
     """
     method = tableau.method
     if isinstance(method, RungeKutta):

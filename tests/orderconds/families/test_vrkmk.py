@@ -6,7 +6,7 @@ import pytest
 from flint import fmpq
 
 from orderconds.errors import InputError
-from orderconds.families import get, residuals
+from orderconds.families import get
 from orderconds.ring import QQ
 from orderconds.series.action_enumeration import velocities
 from orderconds.tableau import Tableau
@@ -20,7 +20,7 @@ METHOD = RungeKutta(A, (fmpq(1, 2), fmpq(-3), fmpq(2, 7)))
 def order_of(name, family, highest):
     tableau, family = Tableau.load(find(name)), get(family)
     for order in range(1, highest + 1):
-        found = residuals(family, tableau.method, tableau.ring, family.decisive_conditions(order))
+        found = family.residuals(tableau.method, tableau.ring, family.decisive_conditions(order))
         if not all(tableau.ring.is_zero(r) for r in found):
             return order - 1
     return highest
