@@ -13,7 +13,7 @@ from codegen.scene.problem import Problem
 
 if TYPE_CHECKING:
     from orderconds.families import Family
-    from orderconds.residuals import Failure
+    from orderconds.checking.residuals import Failure
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,7 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
     For ``rkmk`` without a cut-off and ``vrkmk_pade`` the failing conditions are not named: no index sum
     spells what fails.
     """
-    from orderconds.check import check, family_order
+    from orderconds.checking import check, family_order
 
     classical = CLASSICAL.get(method.family, "") if scene is not None and scene.group.abelian else ""
     if classical:
@@ -112,7 +112,7 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
 
 def _of_parts(method: Method, family: str) -> CertifiedOrder:
     """Return the order of a splitting under the conditions that hold on its scene."""
-    from orderconds.check import check
+    from orderconds.checking import check
 
     (found,) = check(method.tableau, family=family).orders
     if not found.decided:

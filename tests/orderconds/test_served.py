@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from orderconds import Tableau, check
-from orderconds.check import read
-from orderconds.served import served, unclaimed
+from orderconds.checking import read
+from orderconds.checking import claimable_families, unclaimed
 from orderconds.tableau import available
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from orderconds import families
-from orderconds.check import family_order, read
+from orderconds.checking import family_order, read
 from orderconds.proof import reductions as module
 from orderconds.proof.reductions import Reductions, reductions
 from orderconds.ring import QQ

@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from orderconds.check import family_order
+from orderconds.checking import family_order
 from orderconds.errors import InputError, UnknownName
 from orderconds.families import get
-from orderconds.proof.simplifying import simplifying
+from orderconds.tableau.simplifying import simplifying
 from orderconds.tableau import RungeKutta, Tableau, available, dumps, find
 from orderconds.tableau.collocation import KINDS, construct
 from orderconds.tableau.methods import Embedded
