@@ -24,7 +24,6 @@ from codegen.lab.elementary import (
 )
 from codegen.method import Method
 from codegen.scene.problem import Problem
-from orderconds import families
 from orderconds.families.action_family import ActionFamily
 from orderconds.families.ordered_forests import scale
 from orderconds.ring import PowerSeries

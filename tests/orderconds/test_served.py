@@ -5,8 +5,7 @@ from __future__ import annotations
 import pytest
 
 from orderconds import Tableau, check
-from orderconds.checking import read
-from orderconds.checking import claimable_families, unclaimed
+from orderconds.checking import read, unclaimed
 from orderconds.tableau import available
 
 

@@ -16,8 +16,8 @@ from orderconds.ring import QQ, Residues
 from orderconds.ring.rank import pivot_columns
 from orderconds.ring.residues import PRIMES
 from orderconds.series.monomials import products
-from orderconds.tableau import Composition, Magnus
 from orderconds.stage_expansion import expand_stages
+from orderconds.tableau import Composition, Magnus
 
 COUNTS = {
     "composition": (1, 1, 2, 3, 6, 9, 18, 30),

@@ -10,8 +10,8 @@ from orderconds.ring.jets import Jets
 from orderconds.ring.precision import precision
 from orderconds.ring.traces import Traces, evaluate
 from orderconds.solve.problem import find_problem
-from orderconds.solve.tape import Tape
 from orderconds.solve.spec import Spec
+from orderconds.solve.tape import Tape
 
 PROBLEMS = [
     ("rk", 4, Spec(3, explicit=True), "full"),
