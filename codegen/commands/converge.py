@@ -75,15 +75,15 @@ def _on_scene(
     from codegen.scenes import load
 
     prescribed = read_steps(steps)
-    setting = load(scene)
-    chosen = [parse(spelling, families_for(setting)) for spelling in methods]
+    problem = load(scene)
+    chosen = [parse(spelling, families_for(problem)) for spelling in methods]
     with working("order conditions") as tell:
         held = None if stated is None else CertifiedOrder(stated, "stated")
-        pairs = [(method, held or certified_order(method, setting)) for method in chosen]
+        pairs = [(method, held or certified_order(method, problem)) for method in chosen]
         tell("compiling")
-        runners = [(runner(setting, method, target, digits, order), order) for method, order in pairs]
+        runners = [(runner(problem, method, target, digits, order), order) for method, order in pairs]
         tell("reference solution")
-        exact = remembered(setting)
+        exact = remembered(problem)
     found: list[Convergence] = []
     for run, order in runners:
         with working(f"running {run.compiled.method.label}"):
@@ -95,11 +95,11 @@ def _on_scene(
 
 def _by_protocol(methods: tuple[str, ...], stated: int | None, as_json: bool) -> list[Convergence]:
     from codegen.lab.strict import stated_order, strict
-    from codegen.lower import LOWERINGS
+    from codegen.lower import names
     from codegen.method import parse
 
     found: list[Convergence] = []
-    for method in [parse(spelling, tuple(LOWERINGS)) for spelling in methods]:
+    for method in [parse(spelling, names()) for spelling in methods]:
         with counting(f"{method.label}") as tell:
             for result in strict(method, stated_order(method, stated), tell):
                 found.append(result)

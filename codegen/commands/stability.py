@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from orderconds.commands.processes import in_processes
+from orderconds.processes import in_processes
 from orderconds.commands.screen import counting, print_json, print_table
 from orderconds.commands.variadic import Variadic
 
@@ -56,8 +56,8 @@ def _studied(job: tuple[str, tuple[str, ...], bool], tell: Callable[[str], objec
     from codegen.lab.study import methods_for
 
     name, methods, long = job
-    setting = scenes.load(name)
-    return list(study(setting, methods_for(setting, methods), tell, long=long))
+    problem = scenes.load(name)
+    return list(study(problem, methods_for(problem, methods), tell, long=long))
 
 
 def _alone(job: tuple[str, tuple[str, ...], bool]) -> list[Any]:

@@ -14,9 +14,10 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from codegen.errors import SceneError
-from codegen.extended import extended
-from codegen.setting import Setting
+from codegen.scene.extended_phase_space import extended
+from codegen.scene.problem import Problem
 from orderconds.errors import InputError, UnknownName
+from orderconds.input_file import read_bytes
 
 GALLERY = (
     "actuated_rigid_body",
@@ -40,10 +41,11 @@ EXTENDED = "+u"
 """What asks for the extended scene."""
 
 
-def load(name: str) -> Setting:
+def load(name: str) -> Problem:
     """Return a scene of the gallery, or the ``scene`` of the Python file at path ``name``.
 
-    ``NAME+u`` is a Hamiltonian scene extended by the time and its momentum (:mod:`codegen.extended`). A file
+    ``NAME+u`` is a Hamiltonian scene extended by the time and its momentum
+    (:mod:`codegen.scene.extended_phase_space`). A file
     that raises, or defines no scene, is a :class:`SceneError` that names file and line.
     """
     if name.endswith(EXTENDED):
@@ -52,9 +54,9 @@ def load(name: str) -> Setting:
     return _load(name)
 
 
-def _load(name: str) -> Setting:
+def _load(name: str) -> Problem:
     if name in GALLERY:
-        scene: Setting = import_module(f"codegen.scenes.{name}").scene
+        scene: Problem = import_module(f"codegen.scenes.{name}").scene
         return replace(scene, name=name)
     path = Path(name)
     if path.suffix != ".py":
@@ -63,8 +65,7 @@ def _load(name: str) -> Setting:
             expected=f"one of {', '.join(GALLERY)}, or the path of a Python file that defines `scene`",
             hint=f"did you mean {close[0]}?" if (close := get_close_matches(name, GALLERY, n=1)) else "",
         )
-    if not path.is_file():
-        raise SceneError("no such file", where=name, expected="a Python file that defines `scene`")
+    read_bytes(path, "a Python file that defines `scene`", error=SceneError)  # regular and of bounded size
     try:
         # What a scene prints is for its author; stdout is for what the command was asked for.
         with redirect_stdout(sys.stderr):
@@ -77,7 +78,7 @@ def _load(name: str) -> Setting:
     except BaseException as error:  # also what a scene derives from BaseException, and sys.exit
         at = _line(name, path, error)
         raise SceneError(f"the scene raises {type(error).__name__}: {error}", where=at) from error
-    if not isinstance(found, Setting):
+    if not isinstance(found, Problem):
         raise SceneError(
             "no scene is defined", where=name, expected="scene = FieldScene(...) or HamiltonianScene(...)"
         )
@@ -100,7 +101,7 @@ def about(name: str) -> str:
     name = name.removesuffix(EXTENDED)
     spec = find_spec(f"codegen.scenes.{name}") if name in GALLERY else None
     path = Path(spec.origin) if spec is not None and spec.origin else Path(name)
-    return ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+    return ast.get_docstring(ast.parse(read_bytes(path, error=SceneError))) or ""
 
 
 def listing() -> list[dict[str, str]]:

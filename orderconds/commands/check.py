@@ -15,8 +15,9 @@ import click
 from msgspec import Struct
 
 from orderconds.commands import screen
-from orderconds.commands.processes import in_processes
 from orderconds.errors import InputError, TableauError
+from orderconds.input_file import read_text
+from orderconds.processes import in_processes
 
 if TYPE_CHECKING:
     from orderconds.checking import FamilyOrder, Report
@@ -156,8 +157,8 @@ def _excused(arguments: Sequence[str]) -> set[str]:
     names = set[str]()
     for argument in arguments:
         listed = Path(argument) / "DECIMAL"
-        if os.path.isdir(argument) and listed.is_file():
-            lines = listed.read_text(encoding="utf-8").splitlines()
+        if os.path.isdir(argument) and listed.exists():
+            lines = read_text(listed, 'lines "NAME: reason"').splitlines()
             names |= {line.partition(":")[0].strip() for line in lines if not line.startswith("#")}
     return names
 

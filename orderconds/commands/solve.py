@@ -66,11 +66,11 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
     try:
         with screen.working(f"searching {family}") as report:
             outcome = solve(order, report)
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as interrupt:
         path = order.checkpoint
-        kept = f"; what is finished is kept in {path}" if path is not None and path.exists() else ""
-        click.echo(f"orderconds: interrupted{kept}", err=True)
-        return 130
+        if path is not None and path.exists():
+            interrupt.add_note(f"finished starts are kept in {path}; the same command goes on from there")
+        raise
     if outcome.found is not None and output is not None:
         put(output, outcome.found.text.encode())
     if as_json:

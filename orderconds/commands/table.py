@@ -11,6 +11,7 @@ import click
 from orderconds.commands import screen
 from orderconds.commands.place import put
 from orderconds.errors import InputError
+from orderconds.input_file import read_text
 
 if TYPE_CHECKING:
     from orderconds.tableau import OrderClaim
@@ -113,14 +114,7 @@ def _first(claim: OrderClaim) -> tuple[int, bool, int, int]:
 
 def _around(path: str) -> tuple[str, str, str]:
     """Return the text of a file, and what stands in it before and behind the place of the table."""
-    try:
-        text = Path(path).read_text(encoding="utf-8")
-    except OSError as problem:
-        raise InputError(
-            (problem.strerror or "unreadable").lower(), where=path, expected="a text file"
-        ) from None
-    except UnicodeDecodeError:
-        raise InputError("bytes that are no UTF-8", where=path, expected="a text file") from None
+    text = read_text(path)
     start, end = text.find(BEGIN), text.find(END)
     if not 0 <= start < end:
         raise InputError("no place for the table", where=path, expected=f"{BEGIN} and {END}")
