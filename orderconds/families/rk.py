@@ -38,13 +38,13 @@ class RungeKuttaFamily(Family):
     )
     formats = ("rk",)
     trees = "rooted"
-    illustrates = ("rooted",)
+    illustrates: ClassVar[tuple[str, ...]] = ("rooted",)
     search_limit = 12
     over_rationals = True
     implies: ClassVar[Mapping[str, str]] = {"symplectic_rk": "a symplectic method is a Runge-Kutta method"}
     low_order = "rk"
     bounds_others = True
-    low_storage = ("rk", "cf")
+    low_storage: ClassVar[tuple[str, ...]] = ("rk", "cf")
     fixed_stages = True
     unknowns = "rk"
 

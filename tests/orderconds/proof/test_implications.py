@@ -9,7 +9,6 @@ from orderconds.families import get
 from orderconds.proof.implications import least_order, settled
 from orderconds.tableau import RungeKutta, Tableau, find
 from orderconds.tableau.collocation import construct
-from orderconds.tableau.simplifying import simplified_order
 
 
 @pytest.mark.parametrize(
