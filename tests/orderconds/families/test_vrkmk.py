@@ -55,7 +55,9 @@ def test_a_cutoff_too_low_adds_the_condition_that_cannot_be_met():
     assert counts == {0: [1, 1, 4, 8], 1: [1, 1, 3, 9], 2: [1, 1, 3, 8], None: [1, 1, 3, 8]}
 
 
-@pytest.mark.parametrize("family", ["vrkmk(0)", "vrkmk(1)", "vrkmk(2)", "vrkmk"])
+@pytest.mark.parametrize(
+    "family", ["vrkmk(0)", "vrkmk(1)", "vrkmk(2)", "vrkmk", "vrkmk_pade(0)", "vrkmk_pade(1)", "vrkmk_pade(2)"]
+)
 @pytest.mark.parametrize("order", [1, 2, 3, 4])
 def test_printed_sums_are_what_the_engine_computes(family, order):
     family = get(family)
