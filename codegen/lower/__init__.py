@@ -7,12 +7,13 @@ from importlib import import_module
 from typing import Any
 
 from codegen.errors import MethodError
-from codegen.flows.field_by_parts import simplified
+from codegen.flows.field_by_parts import with_field_by_parts
 from codegen.ir.program import Program
 from codegen.lower.discrete_gradient import keeps_energy
 from codegen.lower.splitting import problem_for as with_flows
 from codegen.lower.substeps import substeps as repeated
 from codegen.method import Method
+from codegen.scene.ambient import ambient
 from codegen.scene.problem import Problem
 
 LOWERINGS = {
@@ -70,8 +71,8 @@ def problem_for(scene: Problem, method: Method) -> Problem:
             )
         return with_flows(scene, method) if family in OF_PARTS else scene
     if family == "ambient":
-        return scene.as_ambient()
-    view = simplified(scene).as_field()
+        return ambient(scene)
+    view = with_field_by_parts(scene).as_field()
     if family == "rk" and not view.group.abelian:
         group = view.group.name
         raise MethodError(

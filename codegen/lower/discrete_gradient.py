@@ -20,7 +20,8 @@ from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
 from codegen.lower.stages import Stages
 from codegen.method import Method
 from codegen.scene.energy import ENERGY, bivector, differential, energy_of
-from codegen.scene.problem import Problem, orbit_of
+from codegen.scene.orbit import orbit_of
+from codegen.scene.problem import Problem
 
 HALF = Number.rational(1, 2)
 
