@@ -17,6 +17,7 @@ from codegen.errors import SceneError
 from codegen.scene.extended_phase_space import extended
 from codegen.scene.problem import Problem
 from orderconds.errors import InputError, UnknownName
+from orderconds.input_file import read_bytes
 
 GALLERY = (
     "actuated_rigid_body",
@@ -95,8 +96,7 @@ def _load(name: str) -> Problem:
 
 def _run(name: str, path: Path) -> Problem:
     """Return the scene that a Python file defines."""
-    if not path.is_file():
-        raise SceneError("no such file", where=name, expected="a Python file that defines `scene`")
+    read_bytes(path, "a Python file that defines `scene`", error=SceneError)  # regular and of bounded size
     try:
         # A scene may print for its author; stdout belongs to the result of the command.
         with redirect_stdout(sys.stderr):
@@ -134,7 +134,7 @@ def about(name: str) -> str:
         return _REGISTERED[name][1]
     spec = find_spec(f"codegen.scenes.{name}") if name in GALLERY else None
     path = Path(spec.origin) if spec is not None and spec.origin else Path(name)
-    return ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+    return ast.get_docstring(ast.parse(read_bytes(path, error=SceneError))) or ""
 
 
 def listing() -> list[dict[str, str]]:

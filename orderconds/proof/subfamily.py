@@ -12,19 +12,23 @@ statement stronger.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from random import Random
-from typing import Any
 
 from flint import fmpz
 
 from orderconds.conditions import OrderCondition
 from orderconds.families import Family
+from orderconds.ring.protocol import Ring
 from orderconds.ring.samples import Sample, Samples, pivots
 from orderconds.series.monomials import products
 from orderconds.tableau.indeterminates import radicals
+from orderconds.tableau.products import Method
 from orderconds.tableau.unknowns import Spelled
+
+Reading = Callable[[Method, Ring], Method]
+"""Turns a file's method over a ring into the method that a family evaluates."""
 
 FIRST = 40
 """Members to begin with: a sub-family mostly has few conditions."""
@@ -34,7 +38,7 @@ SPARE = 24
 
 
 def independent_conditions(
-    family: Family, spelled: Spelled, order: int, read: Any = None
+    family: Family, spelled: Spelled, order: int, read: Reading | None = None
 ) -> tuple[OrderCondition, ...]:
     """Return the family's conditions up to ``order`` that do not follow from others for this spelling.
 
@@ -68,7 +72,11 @@ def _primes() -> Iterator[int]:
 
 
 def _independent(
-    family: Family, spelled: Spelled, candidates: Sequence[Sequence[OrderCondition]], prime: int, read: Any
+    family: Family,
+    spelled: Spelled,
+    candidates: Sequence[Sequence[OrderCondition]],
+    prime: int,
+    read: Reading | None,
 ) -> tuple[OrderCondition, ...]:
     everything = [c for of_order in candidates for c in of_order]
     columns = FIRST
@@ -110,12 +118,17 @@ class _Value:
 
 
 def _sampled(
-    family: Family, spelled: Spelled, conditions: Sequence[OrderCondition], prime: int, count: int, read: Any
+    family: Family,
+    spelled: Spelled,
+    conditions: Sequence[OrderCondition],
+    prime: int,
+    count: int,
+    read: Reading | None,
 ) -> list[_Value]:
     """Return the values at so many random members and at the flow."""
     ring = _Members(prime, count, Random(prime), alone=len(radicals(spelled)) == 1)
     known = {u.constant: ring.random(ring.generator) for u in spelled.decimals()}
-    method: Any = spelled.method(ring, known)[0]
+    method = spelled.method(ring, known)[0]
     values = family.evaluate(method if read is None else read(method, ring), ring, conditions)
     flow = [c.rhs.numerator * pow(c.rhs.denominator, -1, prime) % prime for c in conditions]
     return [_Value(x, exact) for x, exact in zip(values, flow, strict=True)]
@@ -143,7 +156,7 @@ class _Members(Samples):
             raise _NoRoot
         return self._roots.setdefault((self.key(x), index), self.random(self.generator))
 
-    def named_root(self, minpoly: Any, near: Any, unit: Any, name: str) -> Sample:
+    def named_root(self, minpoly: object, near: object, unit: object, name: str) -> Sample:
         """Return a random number, the same for the same name."""
         return self._roots.setdefault(((), hash_of(name)), self.random(self.generator))
 
@@ -168,5 +181,4 @@ def decisive_conditions(family: Family, order: int) -> list[tuple[OrderCondition
     >>> [len(of_order) for of_order in decisive_conditions(families.get("vcg"), 3)]
     [1, 2, 10]
     """
-    decisive = getattr(family, "decisive_conditions", family.conditions)
-    return [decisive(n) for n in range(1, order + 1)]
+    return [family.decisive_conditions(n) for n in range(1, order + 1)]
