@@ -11,9 +11,9 @@ from codegen.method import Method
 from codegen.scene.problem import Problem
 
 if TYPE_CHECKING:
-    from orderconds.check import FamilyOrder
+    from orderconds.checking import FamilyOrder
+    from orderconds.checking.residuals import Failure
     from orderconds.families import Family
-    from orderconds.residuals import Failure
 
 
 @dataclass(frozen=True)
@@ -43,13 +43,6 @@ class CertifiedOrder:
         return f"{least}{self.order}, certificate: {self.certificate}{explained}{where}"
 
 
-ON_ABELIAN_GROUPS = {
-    **dict.fromkeys(("rkmk", "cg", "cf"), "rk"),
-    **dict.fromkeys(("vcg", "vrkmk", "vrkmk_pade", "slgi"), "sprk"),
-}
-"""The family that another one is where brackets vanish and exponentials are sums."""
-
-
 def family_of(method: Method) -> Family:
     """Return the family whose order conditions hold for what is compiled."""
     from orderconds import families
@@ -64,10 +57,10 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
 
     On a ``scene`` whose group is abelian it is the order of the classical family that the method is there.
     """
-    from orderconds.check import check
+    from orderconds.checking import check
 
-    classical = ON_ABELIAN_GROUPS.get(method.family, "") if scene is not None and scene.group.abelian else ""
-    if classical:
+    classical = method.kind.abelian if scene is not None and scene.group.abelian else None
+    if classical is not None:
         (found,) = check(method.tableau, family=classical).orders
         if found.decided:
             return _certified(found, classical)

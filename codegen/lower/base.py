@@ -16,7 +16,7 @@ from codegen.method import Method
 from codegen.scene.problem import Problem
 
 if TYPE_CHECKING:
-    from orderconds.check import FamilyOrder
+    from orderconds.checking import FamilyOrder
     from orderconds.families import Family
 
 
@@ -92,7 +92,7 @@ class Lowering(ABC):
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
         """Return the order of a method, computed from :meth:`conditions`; it may be undecided."""
-        from orderconds.check import check
+        from orderconds.checking import check
 
         (found,) = check(method.tableau, family=self.conditions(method, scene).label()).orders
         return found
@@ -100,6 +100,6 @@ class Lowering(ABC):
 
 def order_without_names(method: Method, family: Family) -> FamilyOrder:
     """Return the order in a family whose conditions have no index sums to name those that fail by."""
-    from orderconds.check import family_order
+    from orderconds.checking import family_order
 
     return replace(family_order(method.tableau, family), failing=())

@@ -19,7 +19,7 @@ from codegen.scene.problem import Problem
 from orderconds.ring.protocol import Element
 
 if TYPE_CHECKING:
-    from orderconds.check import FamilyOrder
+    from orderconds.checking import FamilyOrder
     from orderconds.families import Family
 
 
@@ -38,9 +38,9 @@ class MuntheKaas(FieldLowering):
         """Return the conditions; without a cut-off by the series of the very program that is compiled."""
         if method.cutoff is not None:
             return super().conditions(method, scene)
-        from orderconds.families.rkmk_fewest import FewestBrackets
+        from orderconds.families.minimal_brackets import MinimalBrackets
 
-        return FewestBrackets(minimal_brackets.bracket_program(method))
+        return MinimalBrackets(minimal_brackets.bracket_program(method))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
         """Return the order; without a cut-off the conditions that fail have no index sums to name them by."""

@@ -28,7 +28,7 @@ from codegen.method import Method
 from codegen.scene.problem import Problem
 
 if TYPE_CHECKING:
-    from orderconds.check import FamilyOrder
+    from orderconds.checking import FamilyOrder
     from orderconds.families import Family
 
 Terms = list[tuple[Coefficient, Var]]

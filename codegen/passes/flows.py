@@ -16,7 +16,8 @@ from typing import Any
 from codegen.ir.operations import Advance, FlowOf
 from codegen.ir.program import Assign, Program
 from codegen.ir.values import Coefficient, Kind, Var
-from codegen.scene.problem import Problem, orbit_of
+from codegen.scene.orbit import orbit_of
+from codegen.scene.problem import Problem
 
 
 @dataclass(frozen=True)

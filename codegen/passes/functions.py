@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 
+from codegen.groups.capabilities import ClosedFormSeries
 from codegen.ir.ad_series import UNIT, Factor, Word, simplified
 from codegen.ir.expr import walk
 from codegen.ir.number import Number
@@ -33,7 +34,7 @@ from codegen.scene.problem import Problem
 
 def run(program: Program, scene: Problem) -> Program:
     """Return the program with functions of ad combined, where the group knows them in closed form."""
-    return rewrite(program, _rule) if hasattr(scene.group, "series") else program
+    return program if scene.group.offers(ClosedFormSeries) is None else rewrite(program, _rule)
 
 
 def rows(program: Program, scene: Problem) -> Program:
@@ -41,7 +42,7 @@ def rows(program: Program, scene: Problem) -> Program:
 
     Then exp(x) need not be formed for it.
     """
-    if scene.body is None or not hasattr(scene.group, "mulexp"):
+    if scene.body is None:
         return program
     names = scene.state[0].symbols
     read = {n.payload for n in walk([*scene.body.velocity, *scene.body.force]) if n.op == "sym"}

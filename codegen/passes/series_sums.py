@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from codegen.groups.capabilities import ClosedFormSeries
 from codegen.ir.domain import Domain
 from codegen.ir.number import Number
 from codegen.ir.operations import AdSeries
@@ -53,14 +54,15 @@ class SeriesSums:
         """
         for target in assign.targets:
             self.definitions[target] = assign
-        if not assign.terms or not hasattr(self.scene.group, "series_sum"):
+        group = self.scene.group.offers(ClosedFormSeries)
+        if not assign.terms or group is None:
             return None
-        groups = self._groups(assign)
-        if not groups:
+        sums = self._groups(assign)
+        if not sums:
             return None
-        inner = {term.target for group in groups for term in group}
+        inner = {term.target for terms in sums for term in terms}
         total = [(c.evaluate(domain), env[v]) for c, v in assign.terms if v not in inner]
-        values = [self._nested(domain, group, env) for group in groups]
+        values = [self._nested(domain, group, terms, env) for terms in sums]
         result = values[0]
         for other in values[1:]:
             result = tuple(a + b for a, b in zip(result, other, strict=True))
@@ -84,22 +86,23 @@ class SeriesSums:
                 groups.append([term])
         return [group for group in groups if len(group) > 1]
 
-    def _nested(self, domain: Domain, group: list[Term], env: Mapping[Var, Any]) -> tuple[Any, ...]:
-        """Return the value of one group, all in terms of the last x."""
-        x, dual = group[-1].x, group[-1].series.dual
+    def _nested(
+        self, domain: Domain, group: ClosedFormSeries, members: list[Term], env: Mapping[Var, Any]
+    ) -> tuple[Any, ...]:
+        """Return the value of one sum, all in terms of the last x."""
+        x, dual = members[-1].x, members[-1].series.dual
         terms = []
-        for term in group:
+        for term in members:
             scale = ratio(self.definitions, term.x, x)
             assert scale is not None
             word = tuple(f.scaled(scale) for f in term.series.word)
             terms.append((signed(domain, term.coefficient), word, env[term.v]))
 
         def total(numbers: tuple[int, ...]) -> tuple[Any, ...]:
-            flat = self._flat([(group[k].coefficient, group[k].v) for k in numbers])
+            flat = self._flat([(members[k].coefficient, members[k].v) for k in numbers])
             return combined(domain, [(c, env[v]) for c, v in flat])
 
-        nested: tuple[Any, ...] = self.scene.group.series_sum(domain, terms, dual, env[x], total)
-        return nested
+        return group.series_sum(domain, terms, dual, env[x], total)
 
     def _flat(self, terms: list[tuple[Coefficient, Var]]) -> list[tuple[Coefficient, Var]]:
         """Return a sum in terms of what its terms are sums of, where that is no longer."""

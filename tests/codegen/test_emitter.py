@@ -54,7 +54,7 @@ def test_the_gallery_is_emitted_clean_and_agrees_with_the_interpreter(check_code
 
 @pytest.mark.parametrize(("scene", "method"), KEPT)
 def test_what_is_stated_is_what_was_computed(scene, method):
-    from orderconds.check import check
+    from orderconds.checking import check
 
     made = compiled(scene, method)
     manifest = emit_compiled(made, "c").manifest
