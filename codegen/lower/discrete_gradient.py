@@ -14,9 +14,6 @@ tableau; the order is two where sum b_i c_i = 1/2, else one. The unknown is xi.
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING
-
 from codegen.errors import MethodError
 from codegen.ir.number import Number
 from codegen.ir.operations import Bivector, Differential, Energy, Secant
@@ -30,12 +27,7 @@ from codegen.scene.energy import ENERGY, bivector, differential, energy_of
 from codegen.scene.orbit import orbit_of
 from codegen.scene.problem import Problem
 
-if TYPE_CHECKING:
-    from orderconds.checking import FamilyOrder
-    from orderconds.families import Family
-
 HALF = Number.rational(1, 2)
-HIGHEST_ORDER = 2
 
 
 class DiscreteGradient(FieldLowering):
@@ -62,20 +54,6 @@ class DiscreteGradient(FieldLowering):
     def symplectic(self, scene: Problem, method: Method) -> bool:
         """Return False: no method keeps both the energy and the symplectic form."""
         return False
-
-    def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the conditions of Runge-Kutta methods.
-
-        Up to order two they are those of this family: sum b_i = 1 and sum b_i c_i = 1/2.
-        """
-        from orderconds import families
-
-        return families.get("rk")
-
-    def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order, which is two at most."""
-        found = super().order(method, scene)
-        return replace(found, order=min(found.order, HIGHEST_ORDER), failing=(), limit=None)
 
 
 def _program(scene: Problem, method: Method) -> Program:

@@ -6,12 +6,12 @@ y1 = exp(h sum_i b_i v_i).y0. The unknowns are the v_i. On R^n with r = 0 this i
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from codegen.ir.program import EMBEDDED, Program
 from codegen.ir.values import Kind, Var
 from codegen.lower import minimal_brackets
-from codegen.lower.base import order_without_names
 from codegen.lower.field import FieldLowering
 from codegen.lower.stages import Stages
 from codegen.method import Method
@@ -46,7 +46,9 @@ class MuntheKaas(FieldLowering):
         """Return the order; without a cut-off the conditions that fail have no index sums to name them by."""
         if method.cutoff is not None:
             return super().order(method, scene)
-        return order_without_names(method, self.conditions(method, scene))
+        from orderconds.checking import family_order
+
+        return replace(family_order(method.tableau, self.conditions(method, scene)), failing=())
 
 
 def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:

@@ -17,19 +17,13 @@ from __future__ import annotations
 
 from fractions import Fraction
 from math import factorial
-from typing import TYPE_CHECKING
 
 from codegen.ir.number import Number
 from codegen.ir.program import Program
 from codegen.ir.values import ONE, Coefficient, Kind, Var
-from codegen.lower.base import order_without_names
 from codegen.lower.variational import VariationalLowering, begin, brackets
 from codegen.method import Method
 from codegen.scene.problem import Problem
-
-if TYPE_CHECKING:
-    from orderconds.checking import FamilyOrder
-    from orderconds.families import Family
 
 Terms = list[tuple[Coefficient, Var]]
 
@@ -46,16 +40,6 @@ class VariationalMuntheKaasPade(VariationalLowering):
         a cut-off: a program has finitely many brackets.
         """
         return _program(problem, method)
-
-    def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the conditions for the cut-off of the method."""
-        from orderconds.families.vrkmk_pade import VariationalMuntheKaasPade as Conditions
-
-        return Conditions(method.cutoff or 0)
-
-    def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order; the conditions that fail have no index sums to name them by."""
-        return order_without_names(method, self.conditions(method, scene))
 
 
 def _program(scene: Problem, method: Method) -> Program:
