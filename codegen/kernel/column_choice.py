@@ -12,8 +12,8 @@ from dataclasses import replace
 from codegen.groups.cotangent import Cotangent
 from codegen.ir.expr import walk
 from codegen.ir.kernel import Kernel
-from codegen.ir.operations import FLOWS
 from codegen.ir.program import Assign, Program
+from codegen.ir.scene_operations import FLOWS
 from codegen.kernel.critical_path import chain
 from codegen.kernel.deferred_flows import part, with_deferred
 from codegen.kernel.translate import AS_WRITTEN, COMBINED, ORDERED, SHORTENED, to_kernel

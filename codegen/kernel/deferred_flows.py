@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 
 from codegen.ir.kernel import ELAPSED, LEAD, Deferred, Kernel
 from codegen.ir.number import Number
-from codegen.ir.operations import Advance, FlowFor, FlowOf, Operation
+from codegen.ir.operations import Advance, Operation
 from codegen.ir.program import Assign, Program
+from codegen.ir.scene_operations import FlowFor, FlowOf
 from codegen.ir.values import Kind, Var
 from codegen.ir.verify import verify
 from codegen.kernel.translate import AS_WRITTEN, to_kernel

@@ -12,8 +12,9 @@ from dataclasses import dataclass, field
 from codegen.ir.domain import ExprDomain, Value
 from codegen.ir.expr import Expr, walk
 from codegen.ir.interpret import flatten
-from codegen.ir.operations import FLOWS, Advance, Identity, Linear, Zero
+from codegen.ir.operations import Advance, Identity, Linear, Zero
 from codegen.ir.program import Assign, Program
+from codegen.ir.scene_operations import FLOWS
 from codegen.ir.values import Coefficient, Var
 
 NEVER = (Advance, Zero, Identity, *FLOWS)

@@ -42,8 +42,8 @@ from codegen.ir.kernel import (
 )
 from codegen.ir.linearise import FirstOrder, NotLinearised
 from codegen.ir.normal_form import NormalForms
-from codegen.ir.operations import BodyForce
 from codegen.ir.program import EMBEDDED, Assign, Program, Solve
+from codegen.ir.scene_operations import BodyForce
 from codegen.ir.tangent import tangents
 from codegen.ir.values import Kind, Var
 from codegen.kernel import critical_path, newton

@@ -16,8 +16,8 @@ from __future__ import annotations
 
 from codegen.errors import MethodError
 from codegen.ir.number import Number
-from codegen.ir.operations import Bivector, Differential, Energy, Secant
 from codegen.ir.program import Program
+from codegen.ir.scene_operations import Bivector, Differential, Energy, Secant
 from codegen.ir.values import ONE, Coefficient, Kind, Var
 from codegen.lower.base import Objection
 from codegen.lower.field import FieldLowering

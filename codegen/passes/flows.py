@@ -13,8 +13,9 @@ from functools import cache
 from itertools import combinations
 
 from codegen.ir.domain import Value
-from codegen.ir.operations import Advance, FlowOf
+from codegen.ir.operations import Advance
 from codegen.ir.program import Assign, Program
+from codegen.ir.scene_operations import FlowOf
 from codegen.ir.values import Coefficient, Kind, Var
 from codegen.scene.orbit import orbit_of
 from codegen.scene.problem import Problem

@@ -15,18 +15,9 @@ from codegen.groups.capabilities import ClosedFormSeries
 from codegen.ir.ad_series import UNIT, Factor, Word, simplified
 from codegen.ir.expr import walk
 from codegen.ir.number import Number
-from codegen.ir.operations import (
-    Adjoint,
-    AdSeries,
-    BodyForce,
-    BodyVelocity,
-    DualDexp,
-    Exp,
-    InverseDexp,
-    Multiply,
-    MultiplyExp,
-)
+from codegen.ir.operations import Adjoint, AdSeries, DualDexp, Exp, InverseDexp, Multiply, MultiplyExp
 from codegen.ir.program import Assign, Program
+from codegen.ir.scene_operations import BodyForce, BodyVelocity
 from codegen.ir.values import Kind, Var
 from codegen.passes.rewrite import Rewriter, rewrite
 from codegen.scene.problem import Problem

@@ -12,8 +12,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from codegen.ir.number import Number
-from codegen.ir.operations import Adjoint, AdSeries, BodyVelocity, Exp, InverseDexp, Legendre
+from codegen.ir.operations import Adjoint, AdSeries, Exp, InverseDexp
 from codegen.ir.program import Assign, Builder, Program, Solve, Statement
+from codegen.ir.scene_operations import BodyVelocity, Legendre
 from codegen.ir.values import MINUS_ONE, ONE, Coefficient, Kind, Var
 from codegen.passes.functions import ratio
 from codegen.passes.rewrite import defined
