@@ -23,7 +23,7 @@ from orderconds.families.once import Once
 from orderconds.ring import Balls, Element, NumberField, Ring
 from orderconds.ring.decimals import endpoints, rational_decimal
 from orderconds.ring.field import Algebraic
-from orderconds.series.nodal import nodal_algebra
+from orderconds.ring.nodal import nodal_algebra
 
 RESOLUTION = Decimal("1e-3")
 """A ball supports a condition of order n only when its radius is at most this part of 1/n!, the smallest
@@ -37,7 +37,7 @@ DIGITS = 20
 ROUNDED = Context(prec=DIGITS)
 
 OVER_Q = ("rk", "prk", "prk_same_weights", "sprk")
-"""Families that use :mod:`orderconds.series.nodal`."""
+"""Families that use :mod:`orderconds.ring.nodal`."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,13 +7,11 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Any
 
-from flint import fmpq
-
 from orderconds.errors import TableauError
 from orderconds.exchange.arrays import MATRICES, ROWS, TEXTS, Arrays, arrays, coefficient, data_of, table
 from orderconds.exchange.nested import nested
 from orderconds.exchange.spelling import from_python, python
-from orderconds.ring.roots import isolate, real_roots
+from orderconds.ring.roots import place_of_root
 from orderconds.tableau import Tableau
 from orderconds.tableau.file import from_data
 
@@ -59,14 +57,9 @@ def _defined(found: Arrays) -> Iterator[tuple[str, str | tuple[list[str], int]]]
 
 
 def _place(root: Mapping[str, Any]) -> tuple[list[str], int]:
-    near, unit = fmpq(*_ratio(root["near"])), fmpq(1, 10 ** len(root["near"].partition(".")[2]))
-    monic, enclosed = isolate([fmpq(*_ratio(x)) for x in root["minpoly"]], near, unit)
-    place = [x.overlaps(enclosed(256)) for x in real_roots(monic, 256)].index(True)
-    return [str(x) for x in monic.coeffs()][::-1], place
-
-
-def _ratio(x: str | int) -> tuple[int, int]:
-    return Fraction(x).as_integer_ratio()
+    unit = Fraction(1, 10 ** len(root["near"].partition(".")[2]))
+    coefficients, place = place_of_root([Fraction(x) for x in root["minpoly"]], Fraction(root["near"]), unit)
+    return [str(x) for x in coefficients][::-1], place
 
 
 def _root(coefficients: list[str], place: int) -> str:

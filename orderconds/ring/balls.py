@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any
 
 from flint import arb, fmpq, fmpz
 
 from orderconds.ring.decimals import endpoints, rational_decimal, rational_float
 from orderconds.ring.precision import precision
+from orderconds.ring.protocol import Element
 from orderconds.ring.roots import isolate
 
 
@@ -206,12 +206,12 @@ class Ball:
     def __repr__(self) -> str:
         return f"Ball({self.value.str(12)})"
 
-    def _other(self, other: Any) -> Any:
+    def _other(self, other: object) -> Element:
         if isinstance(other, Ball):
             return other.value
         return other if isinstance(other, int | fmpq) else NotImplemented
 
-    def __add__(self, other: Any) -> Ball:
+    def __add__(self, other: object) -> Ball:
         if (y := self._other(other)) is NotImplemented:
             return NotImplemented
         with precision(self.bits):
@@ -219,19 +219,19 @@ class Ball:
 
     __radd__ = __add__
 
-    def __sub__(self, other: Any) -> Ball:
+    def __sub__(self, other: object) -> Ball:
         if (y := self._other(other)) is NotImplemented:
             return NotImplemented
         with precision(self.bits):
             return Ball(self.value - y, self.bits)
 
-    def __rsub__(self, other: Any) -> Ball:
+    def __rsub__(self, other: object) -> Ball:
         if (y := self._other(other)) is NotImplemented:
             return NotImplemented
         with precision(self.bits):
             return Ball(y - self.value, self.bits)
 
-    def __mul__(self, other: Any) -> Ball:
+    def __mul__(self, other: object) -> Ball:
         if (y := self._other(other)) is NotImplemented:
             return NotImplemented
         with precision(self.bits):
@@ -239,13 +239,13 @@ class Ball:
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Any) -> Ball:
+    def __truediv__(self, other: object) -> Ball:
         if (y := self._other(other)) is NotImplemented:
             return NotImplemented
         with precision(self.bits):
             return _finite(self.value / y, self.bits)
 
-    def __rtruediv__(self, other: Any) -> Ball:
+    def __rtruediv__(self, other: object) -> Ball:
         if (y := self._other(other)) is NotImplemented:
             return NotImplemented
         with precision(self.bits):

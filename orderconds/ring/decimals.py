@@ -7,12 +7,12 @@ until both of its ends round to the same answer, so the result never depends on 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from flint import arb, fmpq, fmpz
 
 Rounded = TypeVar("Rounded", str, float)
-Enclosure = Callable[[int], Any]
+Enclosure = Callable[[int], arb]
 """A real number as a function from bits of precision to a ball that contains it."""
 
 

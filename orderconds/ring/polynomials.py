@@ -5,12 +5,12 @@ Elements are flint's fmpq_mpoly, unwrapped; variables and monomials are ordered 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
 from orderconds.ring.decimals import rational_decimal
+from orderconds.ring.protocol import Key
 
 
 class Polynomials:
@@ -59,7 +59,7 @@ class Polynomials:
         """Spell x expanded, leading term first."""
         return self._spell(x, str)
 
-    def key(self, x: fmpq_mpoly) -> tuple[Any, ...]:
+    def key(self, x: fmpq_mpoly) -> Key:
         """Return the terms with integer numerators and denominators."""
         return tuple((exponents, int(c.p), int(c.q)) for exponents, c in self.terms(x))
 
@@ -67,7 +67,7 @@ class Polynomials:
         """Spell x with decimal coefficients."""
         return self._spell(x, lambda c: rational_decimal(c, digits))
 
-    def _spell(self, x: fmpq_mpoly, number: Any) -> str:
+    def _spell(self, x: fmpq_mpoly, number: Callable[[fmpq], str]) -> str:
         spelled = []
         for exponents, c in self.terms(x):
             powers = [n if e == 1 else f"{n}^{e}" for n, e in zip(self.names, exponents, strict=True) if e]

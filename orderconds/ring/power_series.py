@@ -5,10 +5,8 @@ Run over this ring, a step program yields the exact Taylor coefficients of its l
 
 from __future__ import annotations
 
-from typing import Any
-
 from orderconds.ring.power import power
-from orderconds.ring.protocol import Element, Ring
+from orderconds.ring.protocol import Element, Key, Ring
 
 
 class PowerSeries:
@@ -70,7 +68,7 @@ class PowerSeries:
             terms.append({"1": h, "-1": f"-{h}"}.get(spelled, f"{spelled}*{h}"))
         return " + ".join(terms).replace("+ -", "- ") if terms else "0"
 
-    def key(self, x: Series) -> tuple[Any, ...]:
+    def key(self, x: Series) -> Key:
         """Return the keys of the coefficients."""
         return tuple(self.base.key(c) for c in x.coefficients)
 
@@ -102,7 +100,7 @@ class Series:
     def __repr__(self) -> str:
         return f"Series({self.ring.text(self)})"
 
-    def _constant(self, other: Any) -> Element:
+    def _constant(self, other: Element) -> Element:
         """Return an operand that is no series as an element of the base ring."""
         return self.ring.base.rational(other) if isinstance(other, int) else other
 
@@ -111,7 +109,7 @@ class Series:
             raise TypeError(f"series of different rings: {self.ring} and {other.ring}")
         return other.coefficients
 
-    def __add__(self, other: Any) -> Series:
+    def __add__(self, other: Element) -> Series:
         if isinstance(other, Series):
             pairs = zip(self.coefficients, self._same(other), strict=True)
             return Series(self.ring, tuple(x + y for x, y in pairs))
@@ -122,16 +120,16 @@ class Series:
     def __neg__(self) -> Series:
         return Series(self.ring, tuple(-x for x in self.coefficients))
 
-    def __sub__(self, other: Any) -> Series:
+    def __sub__(self, other: Element) -> Series:
         if isinstance(other, Series):
             pairs = zip(self.coefficients, self._same(other), strict=True)
             return Series(self.ring, tuple(x - y for x, y in pairs))
         return Series(self.ring, (self.coefficients[0] - self._constant(other), *self.coefficients[1:]))
 
-    def __rsub__(self, other: Any) -> Series:
+    def __rsub__(self, other: Element) -> Series:
         return (-self).__add__(other)
 
-    def __mul__(self, other: Any) -> Series:
+    def __mul__(self, other: Element) -> Series:
         if not isinstance(other, Series):
             factor = self._constant(other)
             return Series(self.ring, tuple(x * factor for x in self.coefficients))
@@ -163,14 +161,14 @@ class Series:
             result.append(-first * total)
         return Series(self.ring, tuple(result))
 
-    def __truediv__(self, other: Any) -> Series:
+    def __truediv__(self, other: Element) -> Series:
         if isinstance(other, Series):
             self._same(other)
             return self * other.reciprocal()
         divisor = self._constant(other)
         return Series(self.ring, tuple(x / divisor for x in self.coefficients))
 
-    def __rtruediv__(self, other: Any) -> Series:
+    def __rtruediv__(self, other: Element) -> Series:
         return self.reciprocal().__mul__(other)
 
     def __pow__(self, n: int) -> Series:

@@ -9,7 +9,11 @@ from __future__ import annotations
 from typing import Any, Protocol
 
 Element = Any
-"""An element of some ring; rings are duck-typed so that flint, mpmath and numpy objects serve unwrapped."""
+"""An element of some ring, or a second operand: rings are duck-typed, so that objects of flint, mpmath and
+NumPy serve unwrapped. This and :data:`Key` are the only places where a ring's types are left open."""
+
+Key = tuple[Any, ...]
+"""What tells elements of one ring apart: hashable, and totally ordered within the ring."""
 
 
 class Ring(Protocol):
@@ -28,8 +32,15 @@ class Ring(Protocol):
     def text(self, x: Element) -> str:
         """Spell x exactly, in the grammar that tableau files use where one exists."""
 
-    def key(self, x: Element) -> tuple[Any, ...]:
+    def key(self, x: Element) -> Key:
         """Return a hashable, totally ordered key; equal elements of this ring have equal keys."""
 
     def approximate(self, x: Element, digits: int = 20) -> str:
         """Return x as a decimal with that many significant digits, correctly rounded."""
+
+
+class RingWithRoots(Ring, Protocol):
+    """A ring in which real roots of elements can be taken."""
+
+    def root(self, x: Element, index: int) -> Element:
+        """Return the real root of x of that index."""

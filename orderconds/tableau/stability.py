@@ -61,7 +61,7 @@ def stability(method: RungeKutta, ring: Ring) -> dict[str, bool | None]:
 def _decided(method: RungeKutta, ring: Any) -> tuple[bool, bool]:
     if _largest_block(method, ring) > LARGEST:
         raise _Undecided
-    from orderconds.series.nodal import nodal_algebra
+    from orderconds.ring.nodal import nodal_algebra
     from orderconds.tableau.rational_stability import determinant, stable
 
     if ring is QQ:

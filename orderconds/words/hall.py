@@ -9,10 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from fractions import Fraction
-from typing import Any
 
 from orderconds.words.lie import Bracket, lyndon_coordinates, standard_bracketing
-from orderconds.words.shuffle import Word
+from orderconds.words.shuffle import Letter, Word
 
 Coordinates = dict[Bracket, Fraction]
 
@@ -29,7 +28,7 @@ class HallBasis:
     """
 
     def __init__(
-        self, letters: Sequence[Hashable], weight: int, weigh: Callable[[Any], int] = lambda letter: 1
+        self, letters: Sequence[Hashable], weight: int, weigh: Callable[[Letter], int] = lambda letter: 1
     ) -> None:
         if any(weigh(letter) < 1 for letter in letters):
             raise ValueError("letters need positive weights")

@@ -12,7 +12,7 @@ from orderconds.families.elementary_weights import conjugate
 from orderconds.ring import QQ
 from orderconds.ring.precision import precision
 from orderconds.series.b_series import ElementaryWeights, StageVectors
-from orderconds.series.nodal import nodal_algebra, simplest
+from orderconds.ring.nodal import nodal_algebra, simplest
 from orderconds.tableau import RungeKutta, Tableau
 from orderconds.trees.directed import branches, directed_rooted_trees
 

@@ -15,7 +15,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
-from typing import Any
 
 from flint import arb, arb_mat, fmpq, fmpq_poly
 
@@ -177,7 +176,7 @@ def simplest(x: arb) -> fmpq:
     22/7
     """
     low, high = endpoints(x)
-    terms: list[Any] = []
+    terms: list[fmpq] = []
     while True:
         whole = low.floor()
         if whole == low or whole + 1 <= high:
