@@ -42,8 +42,8 @@ class Kind:
     def conditions(self, order: int) -> dict[Any, OrderCondition]:
         """Return the family's condition of each member."""
         family = families.get(self.family)
-        found = family.conditions(order) if self.independent else family.all_conditions(order)
-        return {condition.key: condition for condition in found}
+        members = family.conditions(order) if self.independent else family.all_conditions(order)
+        return {condition.key: condition for condition in members}
 
     def entry(self, member: Any, condition: OrderCondition | None, style: Style | None) -> list[str]:
         r"""Return the lines that explain a member: its text, a drawing, what it names, its condition.

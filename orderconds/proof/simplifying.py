@@ -7,8 +7,8 @@ from typing import Any
 
 from flint import fmpq_poly
 
-from orderconds.ring.protocol import Element, Ring
 from orderconds.ring.nodal import NodalAlgebra, nodal_algebra
+from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.methods import RungeKutta
 from orderconds.tableau.properties import symplectic
 

@@ -164,8 +164,8 @@ class _Guess:
 
     def __call__(self, values: Sequence[Algebraic]) -> list[fmpq]:
         with precision(BITS):
-            found = self.inverse * arb_mat(self.size, 1, [self.ring.ball(x, BITS) for x in values])
-        return [simplest(found[k, 0]) for k in range(self.size)]
+            coefficients = self.inverse * arb_mat(self.size, 1, [self.ring.ball(x, BITS) for x in values])
+        return [simplest(coefficients[k, 0]) for k in range(self.size)]
 
 
 def simplest(x: arb) -> fmpq:
@@ -196,8 +196,8 @@ def _rational_polynomial(
     """Return the rational polynomial with these values at the nodes, None where there is none."""
     coefficients = guess(values)
     for i, value in enumerate(values):
-        found = sum((power[i] * c for power, c in zip(powers, coefficients, strict=True)), ring.zero)
-        if found != value:
+        at_node = sum((power[i] * c for power, c in zip(powers, coefficients, strict=True)), ring.zero)
+        if at_node != value:
             return None
     return fmpq_poly(coefficients)
 

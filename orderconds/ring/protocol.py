@@ -44,3 +44,10 @@ class RingWithRoots(Ring, Protocol):
 
     def root(self, x: Element, index: int) -> Element:
         """Return the real root of x of that index."""
+
+
+class RealRing(Ring, Protocol):
+    """A ring of real numbers, each of which has a nearest double."""
+
+    def nearest_float(self, x: Element) -> float:
+        """Return the double nearest to x."""

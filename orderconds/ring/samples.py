@@ -63,8 +63,8 @@ class Samples:
 
     def coordinates(self, x: Sample) -> list[int]:
         """Return as many residues as there are samples, a linear image of them that determines them."""
-        found = [int(c) for c in x.polynomial.coeffs()]
-        return found + [0] * (self.count - len(found))
+        coefficients = [int(c) for c in x.polynomial.coeffs()]
+        return coefficients + [0] * (self.count - len(coefficients))
 
     def text(self, x: Sample) -> str:
         """Spell the samples."""
@@ -105,8 +105,10 @@ class Sample:
         return Sample(self.ring, -self.polynomial)
 
     def __mul__(self, other: Element) -> Sample:
-        found = self.polynomial * _plain(other)
-        return Sample(self.ring, found if found.degree() < self.ring.count else found % self.ring.modulus)
+        product = self.polynomial * _plain(other)
+        return Sample(
+            self.ring, product if product.degree() < self.ring.count else product % self.ring.modulus
+        )
 
     __rmul__ = __mul__
 
@@ -149,8 +151,8 @@ def pivots(columns: Sequence[Sequence[int]], prime: int) -> tuple[int, ...]:
     height = len(columns[0])
     matrix = nmod_mat(height, len(columns), [column[i] for i in range(height) for column in columns], prime)
     reduced, rank = matrix.rref()
-    found: list[int] = []
+    places: list[int] = []
     for column in range(len(columns)):
-        if len(found) < rank and int(reduced[len(found), column]):
-            found.append(column)
-    return tuple(found)
+        if len(places) < rank and int(reduced[len(places), column]):
+            places.append(column)
+    return tuple(places)

@@ -238,13 +238,13 @@ def _in_powers_of(a: fmpq_poly, b: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
 
 def _factors(n: fmpz) -> list[tuple[fmpz, int]]:
     """Factor a positive integer, the part beyond 128 bits left whole once small primes are out."""
-    found = []
+    factors = []
     if n.bit_length() > 128:
         for prime in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37):
             exponent = 0
             while n % prime == 0:
                 n, exponent = n // prime, exponent + 1
             if exponent:
-                found.append((fmpz(prime), exponent))
-        return [*found, (n, 1)] if n > 1 else found
+                factors.append((fmpz(prime), exponent))
+        return [*factors, (n, 1)] if n > 1 else factors
     return [(prime, int(exponent)) for prime, exponent in n.factor()]

@@ -154,7 +154,9 @@ class Trace:
         return power(self, n, self.ring.one)
 
 
-def evaluate(operations: Sequence[Operation], inputs: Sequence[Element], ring: RingWithRoots) -> list[Element]:
+def evaluate(
+    operations: Sequence[Operation], inputs: Sequence[Element], ring: RingWithRoots
+) -> list[Element]:
     """Return the value of every operation, for inputs in any ring that divides.
 
     >>> from orderconds.ring import QQ

@@ -131,26 +131,26 @@ class ActionFields:
 
     def velocity(self, tree: Velocity) -> Coordinates:
         """Return xi_t."""
-        found = self._velocity.get(tree)
-        if found is None:
+        components = self._velocity.get(tree)
+        if components is None:
             fields = [self.velocity(t) for t in tree.word]
             covectors = [self.covector(p) for p in tree.momenta]
-            found = tuple(self.derivative(fields, [*covectors, unit]) for unit in self.units)
-            self._velocity[tree] = found
-        return found
+            components = tuple(self.derivative(fields, [*covectors, unit]) for unit in self.units)
+            self._velocity[tree] = components
+        return components
 
     def covector(self, tree: Momentum) -> Coordinates:
         """Return m_p."""
-        found = self._covector.get(tree)
-        if found is None:
+        components = self._covector.get(tree)
+        if components is None:
             if isinstance(tree, Force):
                 before, after = ([self.velocity(t) for t in word] for word in (tree.before, tree.after))
                 covectors = [self.covector(p) for p in tree.momenta]
-                found = tuple(self.derivative([*before, unit, *after], covectors) for unit in self.units)
+                components = tuple(self.derivative([*before, unit, *after], covectors) for unit in self.units)
             else:
-                found = self.transported(tree.word)
-            self._covector[tree] = found
-        return found
+                components = self.transported(tree.word)
+            self._covector[tree] = components
+        return components
 
     def transported(self, word: Word) -> Coordinates:
         """Return the covector ``x -> <mu, ad t_1 ... ad t_k x>``."""

@@ -70,18 +70,18 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _stage_insertions(self, before: Word, after: Word) -> list[Stages]:
         zero, every = self.ring.zero, range(self.stages)
-        found = self._varied_exponential(0, before, after)
-        return [[row.get(i, zero) for i in every] for row in found]
+        rows = self._varied_exponential(0, before, after)
+        return [[row.get(i, zero) for i in every] for row in rows]
 
     def _exponential(self, update: int, word: Word) -> Stages:
-        found = self._exponentials.get((update, word))
-        if found is None:
-            found = self._power(update, 1, word)
+        values = self._exponentials.get((update, word))
+        if values is None:
+            values = self._power(update, 1, word)
             for n in range(2, len(word) + 1):
                 q = self._inverse_factorial(n)
-                found = [x + y * q for x, y in zip(found, self._power(update, n, word), strict=True)]
-            self._exponentials[update, word] = found
-        return found
+                values = [x + y * q for x, y in zip(values, self._power(update, n, word), strict=True)]
+            self._exponentials[update, word] = values
+        return values
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
         """Return the coefficient of the word u x v, x a variation, in every exp(X_i), or in exp(Y)."""
@@ -98,17 +98,17 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _power(self, update: int, n: int, word: Word) -> Stages:
         """Return the coefficient of a word, of n letters at least, in every X_i^n, or in Y^n."""
-        found = self._powers.get((update, n, word))
-        if found is None:
+        values = self._powers.get((update, n, word))
+        if values is None:
             if n == 1:
-                found = self._sums[update](self._summand(word))
+                values = self._sums[update](self._summand(word))
             else:
-                found = [self.ring.zero] * len(self._rows[update])
+                values = [self.ring.zero] * len(self._rows[update])
                 for cut in range(1, len(word) - n + 2):
                     heads, tails = self._power(update, 1, word[:cut]), self._power(update, n - 1, word[cut:])
-                    found = [total + x * y for total, x, y in zip(found, heads, tails, strict=True)]
-            self._powers[update, n, word] = found
-        return found
+                    values = [total + x * y for total, x, y in zip(values, heads, tails, strict=True)]
+            self._powers[update, n, word] = values
+        return values
 
     def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
         """Return the coefficient of u x v, x a variation, in every X_i^n, or in Y^n."""
@@ -141,17 +141,17 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _summand(self, word: Word) -> Stages:
         """Return the coefficient of a word in every dexpinv_{(r),X_j} xi_j."""
-        found = self._summands.get(word)
-        if found is None:
-            found = [self.ring.zero] * self.stages
+        values = self._summands.get(word)
+        if values is None:
+            values = [self.ring.zero] * self.stages
             for place, letter in enumerate(word):
                 inner = self._around(word[:place], word[place + 1 :])
                 if inner is not None:
-                    found = [
-                        total + x * y for total, x, y in zip(found, inner, self.tau(letter), strict=True)
+                    values = [
+                        total + x * y for total, x, y in zip(values, inner, self.tau(letter), strict=True)
                     ]
-            self._summands[word] = found
-        return found
+            self._summands[word] = values
+        return values
 
     def _varied_summand(self, before: Word, after: Word) -> list[Varied]:
         """Return the coefficient of u x v, x a variation, in every dexpinv_{(r),X_j} xi_j."""
@@ -175,7 +175,7 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
         """Return what dexpinv_{(r),X_j} adds to a letter between two words, None where that is zero."""
-        found = None
+        values = None
         for q, m, n in self._present(len(before), len(behind)):
             if m and n:
                 around = zip(self._power(0, m, before), self._power(0, n, behind), strict=True)
@@ -185,8 +185,8 @@ class MuntheKaasActionSeries(ActionSeries):
                 term = [q * x for x in powers]
             else:
                 term = [q] * self.stages
-            found = term if found is None else [x + y for x, y in zip(found, term, strict=True)]
-        return found
+            values = term if values is None else [x + y for x, y in zip(values, term, strict=True)]
+        return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
         """Return what dexpinv_{(r),X_j} adds to a letter between the words u x v and ``behind``."""

@@ -47,8 +47,8 @@ def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity,
     >>> independent_trees(partial(get("vcg").random_series, order=2), 2)
     ((o,), (o(o),))
     """
-    found = [_independent(family, order, prime) for prime in PRIMES]
-    return max(found, key=lambda trees: [len(of_order) for of_order in trees])
+    by_prime = [_independent(family, order, prime) for prime in PRIMES]
+    return max(by_prime, key=lambda trees: [len(of_order) for of_order in trees])
 
 
 def _independent(family: RandomSeries, order: int, prime: int) -> tuple[tuple[Velocity, ...], ...]:

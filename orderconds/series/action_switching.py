@@ -45,15 +45,15 @@ def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
     >>> next(classes_in_turn(7))[0]
     o(o o o o o o)
     """
-    made, more = _listing(vertices)
+    listed, more = _listing(vertices)
     place = 0
     while True:
-        if place == len(made):
+        if place == len(listed):
             of_class = next(more, None)
             if of_class is None:
                 return
-            made.append(of_class)
-        yield made[place]
+            listed.append(of_class)
+        yield listed[place]
         place += 1
 
 

@@ -11,8 +11,8 @@ from collections.abc import Callable, Hashable, Sequence
 from functools import lru_cache
 from typing import Generic, Protocol, TypeVar
 
-from orderconds.ring.protocol import Element, Ring
 from orderconds.ring.nodal import Matrix, NodalAlgebra, nodal_algebra
+from orderconds.ring.protocol import Element, Ring
 from orderconds.trees.levels import Tree, children
 
 TreeT = TypeVar("TreeT", bound=Hashable)
@@ -64,8 +64,8 @@ class ElementaryWeights(Generic[TreeT]):
 
     def __call__(self, tree: TreeT) -> Element:
         """Return the elementary weight of a tree."""
-        found = self._stages.weigh(self._vector(tree))
-        return self._ring.rational(found.p, found.q) if self._rational else found
+        weight = self._stages.weigh(self._vector(tree))
+        return self._ring.rational(weight.p, weight.q) if self._rational else weight
 
     def _vector(self, tree: TreeT) -> Element:
         """Return tau_tree(i) for each stage i."""
@@ -108,8 +108,8 @@ class StageVectors:
 
     def weigh(self, x: Sequence[Element]) -> Element:
         """Return b.x."""
-        found: Element = self._b(x)[0]
-        return found
+        weight: Element = self._b(x)[0]
+        return weight
 
 
 class Sums:
@@ -145,10 +145,10 @@ class Sums:
 
     def __call__(self, x: Sequence[Element]) -> list[Element]:
         """Return the sum of each row."""
-        found = [self._zero]
+        values = [self._zero]
         for before, place, weight in self._steps:
-            found.append(found[before] + weight * x[place])
-        return [found[end] for end in self._ends]
+            values.append(values[before] + weight * x[place])
+        return [values[end] for end in self._ends]
 
 
 def runge_kutta_series(

@@ -27,11 +27,11 @@ def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomia
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}
     """
-    found = dict[int, Polynomial]()
+    factors = dict[int, Polynomial]()
     for word, value in x.items():
         if len(word) > 1 and word[-1] >= first and all(letter < first for letter in word[:-1]):
-            found.setdefault(word[-1], {})[word[:-1]] = value
-    return found
+            factors.setdefault(word[-1], {})[word[:-1]] = value
+    return factors
 
 
 def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:

@@ -89,10 +89,10 @@ def solve(
     pivots: list[int] = []
     for n in range(width):
         done = len(pivots)
-        found = next((r for r in range(done, len(rows)) if ring.is_zero(rows[r][n]) is not True), None)
-        if found is None:
+        pivot_row = next((r for r in range(done, len(rows)) if ring.is_zero(rows[r][n]) is not True), None)
+        if pivot_row is None:
             continue
-        rows[done], rows[found] = rows[found], rows[done]
+        rows[done], rows[pivot_row] = rows[pivot_row], rows[done]
         pivot = rows[done][n]
         rows[done] = [x if ring.is_zero(x) is True else x / pivot for x in rows[done]]
         for r, row in enumerate(rows):

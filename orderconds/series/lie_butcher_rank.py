@@ -42,8 +42,8 @@ def independent_forests(
     >>> independent_forests(random_series, [[*ordered_forests(1)], [*ordered_forests(2)]])
     ((b'\\x00',), (b'\\x00\\x01',))
     """
-    found = [_independent(family, candidates, prime, with_exact_flow) for prime in PRIMES]
-    return max(found, key=lambda forests: [len(of_order) for of_order in forests])
+    by_prime = [_independent(family, candidates, prime, with_exact_flow) for prime in PRIMES]
+    return max(by_prime, key=lambda forests: [len(of_order) for of_order in forests])
 
 
 def _independent(

@@ -103,13 +103,13 @@ def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, El
     """
     if field.algebra is not ROOTED:
         raise InputError("a Lie-Butcher series", where="modified Hamiltonian", expected="a B-series")
-    found = []
+    terms = []
     for vertices in range(1, order + 1):
         _require_hamiltonian(field, vertices)
         for tree in essential_free_trees(vertices):
             if field.ring.is_zero(field(tree)) is not True:
-                found.append((tree, field(tree) * field.ring.rational(1, symmetry(tree))))
-    return tuple(found)
+                terms.append((tree, field(tree) * field.ring.rational(1, symmetry(tree))))
+    return tuple(terms)
 
 
 def _require_hamiltonian(field: VectorField, vertices: int) -> None:

@@ -68,16 +68,16 @@ def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
     >>> partitions(b"\0\1")
     (((b'\x00\x01',), b'\x00'), ((b'\x00', b'\x00'), b'\x00\x01'))
     """
-    found = []
+    parts = []
     for choice in product((False, True), repeat=len(tree) - 1):
         root, pieces, skeleton, _ = _parted(tree, choice)
-        found.append(((root, *pieces), skeleton))
-    return tuple(found)
+        parts.append(((root, *pieces), skeleton))
+    return tuple(parts)
 
 
 def _parted(tree: Tree, cut: tuple[bool, ...]) -> tuple[Tree, list[Tree], Tree, tuple[bool, ...]]:
     """Return the root's piece, the others and the skeleton; one flag of ``cut`` for each edge in preorder."""
-    joined: list[Tree] = []
+    attached: list[Tree] = []
     pieces: list[Tree] = []
     skeletons: list[Tree] = []
     for child in children(tree):
@@ -88,9 +88,9 @@ def _parted(tree: Tree, cut: tuple[bool, ...]) -> tuple[Tree, list[Tree], Tree, 
             pieces.append(root)
             skeletons.append(skeleton)
         else:
-            joined.append(root)
+            attached.append(root)
             skeletons += children(skeleton)
-    return _tree(joined), pieces, _tree(skeletons), cut
+    return _tree(attached), pieces, _tree(skeletons), cut
 
 
 def _tree(below: list[Tree]) -> Tree:

@@ -38,12 +38,12 @@ def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
     >>> [text(tree) for n in (1, 2, 3) for tree in alternating_free_trees(n)]
     ['.', 'o', '[o]', '[oo]', '(..)']
     """
-    found: dict[BicolouredTree, BicolouredTree] = {}
+    chosen: dict[BicolouredTree, BicolouredTree] = {}
     for tree in free_trees(vertices):
         for colour in (0, 1):
             every = sorted(bicoloured_rootings(alternating(colour, tree)), key=lambda t: (max(t) >> 1, t))
-            found.setdefault(min(every), every[0])
-    return tuple(found.values())
+            chosen.setdefault(min(every), every[0])
+    return tuple(chosen.values())
 
 
 def alternating(colour: int, tree: Tree) -> BicolouredTree:

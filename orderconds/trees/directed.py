@@ -31,11 +31,11 @@ def branches(tree: DirectedTree) -> tuple[Branch, ...]:
     ((0, b'\x00'), (1, b'\x00'))
     """
     starts = [place for place in range(1, len(tree)) if tree[place] >> 1 == 1]
-    found = []
+    pairs = []
     for start, end in pairwise([*starts, len(tree)]):
         child = tree[start:end].translate(_LOWERED)
-        found.append((child[0], b"\0" + child[1:]))
-    return tuple(found)
+        pairs.append((child[0], b"\0" + child[1:]))
+    return tuple(pairs)
 
 
 def joined(below: tuple[Branch, ...] | list[Branch]) -> DirectedTree:

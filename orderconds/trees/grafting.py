@@ -60,19 +60,19 @@ def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
     if not onto:
         return ()
     first, rest = trees_of(onto)[0], onto[len(trees_of(onto)[0]) :]
-    found = []
+    grafted = []
     for here, there in deshuffles(word):
         for front in _left_graft_tree(here, first):
-            found += [front + behind for behind in left_graft(there, rest)]
-    return tuple(found)
+            grafted += [front + behind for behind in left_graft(there, rest)]
+    return tuple(grafted)
 
 
 def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
     """Hang a word from one tree: part of it from the root, in front, the rest from what is above."""
-    found = []
+    grafted = []
     for root, above in deshuffles(word):
-        found += [rooted_at_new_vertex(root + grown) for grown in left_graft(above, branches(tree))]
-    return found
+        grafted += [rooted_at_new_vertex(root + grown) for grown in left_graft(above, branches(tree))]
+    return grafted
 
 
 def deshuffles(word: Forest) -> tuple[tuple[Forest, Forest], ...]:

@@ -79,17 +79,17 @@ def _run_polynomial(s: int) -> UnivariatePolynomial:
 
 def _coordinates(words: list[str], expansions: dict[str, Expansion]) -> dict[str, Fraction]:
     """Return the coordinates of the degree of ``words``, its Lyndon words in rising order."""
-    found: dict[str, Fraction] = {}
+    coordinates: dict[str, Fraction] = {}
     of_multidegree: dict[int, list[str]] = {}
     for word in words:
         lower = of_multidegree.setdefault(word.count("A"), [])
         value = goldberg(word)
         for smaller in lower:
-            if found[smaller]:
-                value -= found[smaller] * _coefficient(smaller, word, expansions)
-        found[word] = value
+            if coordinates[smaller]:
+                value -= coordinates[smaller] * _coefficient(smaller, word, expansions)
+        coordinates[word] = value
         lower.append(word)
-    return found
+    return coordinates
 
 
 def _coefficient(bracketed: str, word: str, expansions: dict[str, Expansion]) -> int:

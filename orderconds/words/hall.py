@@ -36,11 +36,11 @@ class HallBasis:
         self._place: dict[Bracket, int] = {}
         self._of_weight: list[tuple[Bracket, ...]] = [()]
         for n in range(1, weight + 1):
-            found = [letter for letter in letters if weigh(letter) == n]
+            candidates = [letter for letter in letters if weigh(letter) == n]
             for m in range(1, n // 2 + 1):
                 pairs = ((x, y) for x in self._of_weight[m] for y in self._of_weight[n - m])
-                found += [pair for pair in pairs if self._place[pair[0]] < self._place[pair[1]]]
-            kept = tuple(x for x in found if self._belongs(x))
+                candidates += [pair for pair in pairs if self._place[pair[0]] < self._place[pair[1]]]
+            kept = tuple(x for x in candidates if self._belongs(x))
             self._place |= {x: len(self._place) + k for k, x in enumerate(kept)}
             self._of_weight.append(kept)
         self._known: dict[tuple[Bracket, Bracket], Coordinates] = {}

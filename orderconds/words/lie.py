@@ -68,9 +68,7 @@ def backwards(series: Mapping[Word, Fraction]) -> Series:
     return {word[::-1]: value for word, value in series.items()}
 
 
-def lyndon_coordinates(
-    element: Mapping[Word, Fraction], key: Key | None = None
-) -> dict[Word, Fraction]:
+def lyndon_coordinates(element: Mapping[Word, Fraction], key: Key | None = None) -> dict[Word, Fraction]:
     """Return the coordinates of a Lie element in the basis of bracketed Lyndon words (Reutenauer, Thm 5.1).
 
     ``key`` orders the letters where they do not order themselves. Raises :class:`ValueError` for a series

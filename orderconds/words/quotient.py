@@ -30,13 +30,13 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     >>> orthogonal([commuting], (0, 1), 2)
     ((((0, 0), 1),), (((0, 1), 1), ((1, 0), 1)), (((1, 1), 1),))
     """
-    found: list[Functional] = []
+    functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
         # Pivots are taken from the left: what stands at the right stays free, and names a functional.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
-        found += _kernel(rows, columns)
-    return tuple(sorted(found))
+        functionals += _kernel(rows, columns)
+    return tuple(sorted(functionals))
 
 
 def independent_on_lie(functionals: Sequence[Functional], length: int) -> tuple[Functional, ...]:
@@ -69,10 +69,10 @@ def _lyndon(content: Word, length: int) -> Iterator[Word]:
 
 
 def _by_content(letters: Sequence[int], length: int) -> dict[Word, list[Word]]:
-    found: dict[Word, list[Word]] = {}
+    groups: dict[Word, list[Word]] = {}
     for word in tuples(letters, repeat=length):
-        found.setdefault(tuple(sorted(word)), []).append(word)
-    return found
+        groups.setdefault(tuple(sorted(word)), []).append(word)
+    return groups
 
 
 def _ideal(

@@ -69,7 +69,9 @@ def concatenate(
     return {word: value for word, value in result.items() if value}
 
 
-def exponential(x: Mapping[Word, Fraction], weight: int, weigh: Callable[[Letter], int] = lambda a: 1) -> Series:
+def exponential(
+    x: Mapping[Word, Fraction], weight: int, weigh: Callable[[Letter], int] = lambda a: 1
+) -> Series:
     """Return exp(x) to a weight, for a series without constant term.
 
     >>> {"".join(word): str(value) for word, value in exponential({("A",): Fraction(1)}, 2).items()}
@@ -83,7 +85,9 @@ def exponential(x: Mapping[Word, Fraction], weight: int, weigh: Callable[[Letter
     return result
 
 
-def logarithm(x: Mapping[Word, Fraction], weight: int, weigh: Callable[[Letter], int] = lambda a: 1) -> Series:
+def logarithm(
+    x: Mapping[Word, Fraction], weight: int, weigh: Callable[[Letter], int] = lambda a: 1
+) -> Series:
     """Return log(x) to a weight, for a series with constant term 1.
 
     >>> logarithm(exponential({("A",): Fraction(2)}, 3), 3)

@@ -21,12 +21,13 @@ from hypothesis import strategies as st
 from orderconds import Tableau
 from orderconds.cli import program
 from orderconds.errors import InputError, TableauError
-from orderconds.exchange import FORMATS, convert, export, read_data
-from orderconds.exchange.spelling import from_latex, from_python, latex, python
+from orderconds.exchange import FORMATS, export, read_data
+from orderconds.exchange.notation import from_latex, from_python, to_latex, to_python
 from orderconds.exchange.sympy_source import from_sympy, to_sympy
 from orderconds.proof.certificate import certify
 from orderconds.tableau import Claims, available, dumps, find
 from orderconds.tableau.file import from_data
+from orderconds.tableau.write import as_data
 
 ARRAYS = [name for name in FORMATS if name not in ("toml", "json")]
 
@@ -50,7 +51,7 @@ def numbers(tableau: Tableau) -> list:
 def test_every_tableau_of_the_library_reads_back_the_same(of: str) -> None:
     for name in available():
         tableau = Tableau.load(find(name))
-        data = convert(tableau)
+        data = as_data(tableau)
         if not carries(name, of):
             with pytest.raises(InputError, match="format json"):
                 export(data, of)
@@ -76,7 +77,7 @@ def test_nothing_of_a_file_is_lost(of: str) -> None:
     for name in available():
         data = data_of(name)
         assert read_data(export(data, of), of, "back") == data
-        assert read_data(export(convert(Tableau.load(find(name))), of), of, "back") == data
+        assert read_data(export(as_data(Tableau.load(find(name))), of), of, "back") == data
 
 
 def test_a_proof_survives_and_certifies_again() -> None:
@@ -103,7 +104,7 @@ def test_json_keeps_names_claims_and_proofs() -> None:
 
 @pytest.mark.parametrize("of", FORMATS)
 def test_writing_twice_gives_the_same_bytes(of: str) -> None:
-    data = convert(Tableau.load(find("gauss2")))
+    data = as_data(Tableau.load(find("gauss2")))
     assert export(data, of) == export(data, of)
 
 
@@ -137,7 +138,7 @@ def test_any_coefficient_reads_back_the_same(spelled: list[str], of: str) -> Non
     data = {"name": "t", "family": "rk", "A": [["0", "0"], [spelled[0], "0"]], "b": spelled}
     back = from_data(read_data(export(data, of), of, "back"))
     assert back.method == tableau.method
-    assert ["~" in x for x in convert(back)["b"]] == ["~" in x for x in spelled]
+    assert ["~" in x for x in as_data(back)["b"]] == ["~" in x for x in spelled]
 
 
 @given(SPELLED)
@@ -145,11 +146,11 @@ def test_notations_translate_back_to_the_same_number(spelled: str) -> None:
     def weight(text: str) -> object:
         return from_data({"name": "t", "family": "rk", "A": [[]], "b": [text]}).method.b  # type: ignore[union-attr]
 
-    assert weight(from_python(python(spelled))) == weight(spelled)
-    assert weight(from_latex(latex(spelled))) == weight(spelled)
+    assert weight(from_python(to_python(spelled))) == weight(spelled)
+    assert weight(from_latex(to_latex(spelled))) == weight(spelled)
     if "~" not in spelled:
         names = {"Rational": sympy.Rational, "Integer": sympy.Integer, "sqrt": sympy.sqrt}
-        value = eval(python(spelled), names)
+        value = eval(to_python(spelled), names)
         assert sympy.simplify(value - sympy.sympify(spelled.replace("^", "**"), rational=True)) == 0
 
 
@@ -191,7 +192,7 @@ class TestForeignFiles:
 
     def test_the_order_of_embedded_weights_is_computed_where_a_table_states_none(self) -> None:
         source = Tableau.load(find("bogacki_shampine3"))
-        lines = export(convert(source), "csv").decode().splitlines()
+        lines = export(as_data(source), "csv").decode().splitlines()
         rows = [line.partition(",")[2] for line in lines if line.startswith("A,")]
         weights = [
             line.partition(",")[2] for key in ("b,", "embedded_b,") for line in lines if line.startswith(key)
@@ -311,7 +312,7 @@ SOURCES = ("cf43", "gauss2", "radau2a2", "carpenter_kennedy4", "suzuki4", "storm
 
 @lru_cache(maxsize=64)
 def exported(name: str, of: str) -> bytes:
-    return export(convert(Tableau.load(find(name))), of)
+    return export(as_data(Tableau.load(find(name))), of)
 
 
 BAD = [
@@ -348,7 +349,7 @@ def test_a_good_file_with_a_piece_changed_is_read_or_refused(
         (content[:i] + content[j:], content[:i] + content[i:j] * 2 + content[j:], content[:i] + bad + near)
     )
     with suppress(InputError):
-        data = convert(from_data(read_data(changed, of, "file", "name")))
+        data = as_data(from_data(read_data(changed, of, "file", "name")))
         for to in FORMATS:
             with suppress(InputError):
                 export(data, to)
@@ -356,7 +357,7 @@ def test_a_good_file_with_a_piece_changed_is_read_or_refused(
 
 @pytest.mark.parametrize("content", [b"A,0\nb,1" + b"0" * 400, b"A,0\nb,1/1" + b"0" * 400])
 def test_a_number_beyond_doubles_has_no_place_among_them(content: bytes) -> None:
-    data = convert(from_data(read_data(content, "csv", "x.csv")))
+    data = as_data(from_data(read_data(content, "csv", "x.csv")))
     for to in FORMATS:
         if b"/" in content or to not in ("numpy", "c"):
             assert from_data(read_data(export(data, to), to, "back")).method == from_data(data).method

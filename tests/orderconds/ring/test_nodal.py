@@ -10,9 +10,9 @@ from flint import arb, fmpq
 from orderconds.check import read
 from orderconds.families.elementary_weights import conjugate
 from orderconds.ring import QQ
+from orderconds.ring.nodal import nodal_algebra, simplest
 from orderconds.ring.precision import precision
 from orderconds.series.b_series import ElementaryWeights, StageVectors
-from orderconds.ring.nodal import nodal_algebra, simplest
 from orderconds.tableau import RungeKutta, Tableau
 from orderconds.trees.directed import branches, directed_rooted_trees
 

@@ -1,15 +1,18 @@
-"""The value of a formula by brute force, straight from its definition: the oracle of the engines' tests."""
+"""The value of an index sum, summed straight from its definition.
+
+The engines of the families never evaluate the formulas that they print. These functions do, so that tests can
+prove that a printed condition has the value that the engine computes.
+"""
 
 from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
 
 from orderconds.formula.nodes import Coefficient, Formula, IndexSum, Power, Product, Total, coefficients
 from orderconds.ring.protocol import Element, Ring
 
-Table = Any
+Table = Sequence
 """A nested sequence of ring elements: one axis an index."""
 
 
@@ -44,12 +47,22 @@ class RungeKuttaTables(Mapping[str, Table]):
         raise KeyError(name)
 
 
+def runge_kutta_value(
+    formula: Formula, ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element]
+) -> Element:
+    """Return the value of a formula for the Runge-Kutta tableau (A, b) over ``ring``.
+
+    Derived are ``c_i = sum_j a_ij``, ``ahat_ij = b_j - b_j a_ji / b_i``, ``chat_i = sum_j ahat_ij``.
+    """
+    return value(formula, ring, RungeKuttaTables(ring, A, b))
+
+
 def value(
     formula: Formula, ring: Ring, tables: Mapping[str, Table], at: Mapping[str, int] | None = None
 ) -> Element:
     """Sum a formula over coefficient ``tables``, its free indices fixed ``at`` values counted from 0.
 
-    An index runs along the axis of the table at which it first stands.
+    An index runs along the axis of the first table that has this index.
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> from orderconds.ring import QQ
@@ -91,13 +104,13 @@ def value(
 
 
 def _length(body: Formula, index: str, tables: Mapping[str, Table]) -> int:
-    for found in coefficients(body):
-        if index in found.indices:
-            table = tables[found.name]
-            for _ in range(found.indices.index(index)):
+    for entry in coefficients(body):
+        if index in entry.indices:
+            table = tables[entry.name]
+            for _ in range(entry.indices.index(index)):
                 table = table[0]
             return len(table)
-    raise ValueError(f"index {index} stands nowhere in {body.text()}")
+    raise ValueError(f"index {index} does not occur in {body.text()}")
 
 
 def _holds(x: int, sign: str, y: int) -> bool:

@@ -13,7 +13,7 @@ HATS = {"ahat": r"\hat{a}", "bhat": r"\hat{b}", "chat": r"\hat{c}", "alpha": r"\
 HATS |= {name: f"\\{name}" for name in ("gamma", "omega", "phi")}
 
 
-class Alphabet(Struct, frozen=True):
+class Notation(Struct, frozen=True):
     """The signs of one way of writing."""
 
     names: Mapping[str, str]
@@ -26,41 +26,41 @@ class Alphabet(Struct, frozen=True):
     latex_fractions: bool
 
 
-TEXT = Alphabet({}, "sum", "(", ")", {"<": "<", "<=": "<="}, {"<": ">", "<=": ">="}, False, False)
-LATEX = Alphabet(
+TEXT = Notation({}, "sum", "(", ")", {"<": "<", "<=": "<="}, {"<": ">", "<=": ">="}, False, False)
+LATEX = Notation(
     HATS, r"\sum", r"\Bigl(", r"\Bigr)", {"<": "<", "<=": r"\le "}, {"<": ">", "<=": r"\ge "}, True, True
 )
 
 
-def spell(formula: Formula, alphabet: Alphabet) -> str:
-    r"""Write a formula in an alphabet.
+def render(formula: Formula, notation: Notation) -> str:
+    r"""Write a formula in an notation.
 
-    >>> print(spell(Power(Coefficient("ahat", ("i", "j")), 2), LATEX))
+    >>> print(render(Power(Coefficient("ahat", ("i", "j")), 2), LATEX))
     \hat{a}_{ij}^{2}
     """
     match formula:
         case Coefficient(name, indices):
-            return alphabet.names.get(name, name) + _subscript(_indices(indices), alphabet)
+            return notation.names.get(name, name) + _subscript(_indices(indices), notation)
         case Product(factors):
-            return " ".join(_grouped(factor, alphabet) for factor in factors) or "1"
+            return " ".join(_grouped(factor, notation) for factor in factors) or "1"
         case Power(base, exponent):
-            raised = f"{{{exponent}}}" if alphabet.always_braces else str(exponent)
+            raised = f"{{{exponent}}}" if notation.always_braces else str(exponent)
             compound = isinstance(base, Product | Power) or (isinstance(base, Total) and len(base.terms) == 1)
-            inner = f"{alphabet.opening}{spell(base, alphabet)}{alphabet.closing}"
-            return f"{inner if compound else _grouped(base, alphabet)}^{raised}"
+            inner = f"{notation.opening}{render(base, notation)}{notation.closing}"
+            return f"{inner if compound else _grouped(base, notation)}^{raised}"
         case Total(terms):
-            return _terms(terms, alphabet)
+            return _terms(terms, notation)
         case IndexSum(indices, relations, body):
-            below = _subscript(_chains(indices, relations, alphabet), alphabet)
-            summand = _bracketed(body, alphabet) if isinstance(body, Total) else spell(body, alphabet)
-            return f"{alphabet.total}{below} {summand}"
+            below = _subscript(_chains(indices, relations, notation), notation)
+            summand = _bracketed(body, notation) if isinstance(body, Total) else render(body, notation)
+            return f"{notation.total}{below} {summand}"
     raise TypeError(f"not a formula: {formula!r}")
 
 
-def fraction_latex(q: Fraction) -> str:
+def latex_fraction(q: Fraction) -> str:
     r"""Spell a rational number in LaTeX.
 
-    >>> print(fraction_latex(Fraction(-1, 6)))
+    >>> print(latex_fraction(Fraction(-1, 6)))
     -\tfrac{1}{6}
     """
     if q.denominator == 1:
@@ -68,46 +68,46 @@ def fraction_latex(q: Fraction) -> str:
     return rf"{'-' if q < 0 else ''}\tfrac{{{abs(q.numerator)}}}{{{q.denominator}}}"
 
 
-def _bracketed(formula: Formula, alphabet: Alphabet) -> str:
-    return f"{alphabet.opening}{spell(formula, alphabet)}{alphabet.closing}"
+def _bracketed(formula: Formula, notation: Notation) -> str:
+    return f"{notation.opening}{render(formula, notation)}{notation.closing}"
 
 
-def _grouped(formula: Formula, alphabet: Alphabet) -> str:
+def _grouped(formula: Formula, notation: Notation) -> str:
     is_sum = isinstance(formula, IndexSum | Total)
-    return _bracketed(formula, alphabet) if is_sum else spell(formula, alphabet)
+    return _bracketed(formula, notation) if is_sum else render(formula, notation)
 
 
 def _indices(indices: Sequence[str]) -> str:
     return ("" if all(len(index) == 1 for index in indices) else ",").join(indices)
 
 
-def _subscript(written: str, alphabet: Alphabet) -> str:
-    plain = not alphabet.always_braces and written.isalnum()
+def _subscript(written: str, notation: Notation) -> str:
+    plain = not notation.always_braces and written.isalnum()
     return f"_{written}" if plain else f"_{{{written}}}"
 
 
-def _terms(terms: Sequence[tuple[Fraction, Formula]], alphabet: Alphabet) -> str:
+def _terms(terms: Sequence[tuple[Fraction, Formula]], notation: Notation) -> str:
     written = ""
     for scale, term in terms:
         sign = (" - " if scale < 0 else " + ") if written else ("-" if scale < 0 else "")
         magnitude = abs(scale)
-        size = fraction_latex(magnitude) if alphabet.latex_fractions else str(magnitude)
+        size = latex_fraction(magnitude) if notation.latex_fractions else str(magnitude)
         if isinstance(term, Product) and not term.factors:
             spelled = size
         else:
-            body = _bracketed(term, alphabet) if isinstance(term, Total) else spell(term, alphabet)
+            body = _bracketed(term, notation) if isinstance(term, Total) else render(term, notation)
             spelled = body if size == "1" else f"{size} {body}"
         written += sign + spelled
     return written or "0"
 
 
-def _chains(indices: Sequence[str], relations: Sequence[Relation], alphabet: Alphabet) -> str:
+def _chains(indices: Sequence[str], relations: Sequence[Relation], notation: Notation) -> str:
     """Write indices below a summation sign, relations joined in chains where they can be: ``i<j<k,l``.
 
     A chain above an index that this sum does not bind is written downwards, ``k>j>i``, so that a summed index
     always stands first.
     """
-    waiting = list(relations)
+    remaining = list(relations)
     drawn: list[str] = []
     chains = []
     for start in sorted(
@@ -118,22 +118,22 @@ def _chains(indices: Sequence[str], relations: Sequence[Relation], alphabet: Alp
         links: list[Relation] = []
         last = start
         drawn.append(start)
-        while link := next((r for r in waiting if r[0] == last), None):
-            waiting.remove(link)
+        while link := next((r for r in remaining if r[0] == last), None):
+            remaining.remove(link)
             links.append(link)
             last = link[2]
             drawn.append(last)
-        below = next((r for r in waiting if r[2] == start and r[0] not in indices), None)
+        below = next((r for r in remaining if r[2] == start and r[0] not in indices), None)
         if below and last in indices:
-            waiting.remove(below)
+            remaining.remove(below)
             downwards = [below, *links][::-1]
-            chain = last + "".join(alphabet.reversed_signs[sign] + low for low, sign, _ in downwards)
+            chain = last + "".join(notation.reversed_signs[sign] + low for low, sign, _ in downwards)
         else:
-            chain = start + "".join(alphabet.signs[sign] + high for _, sign, high in links)
+            chain = start + "".join(notation.signs[sign] + high for _, sign, high in links)
         chains.append(chain)
-    for low, sign, high in waiting:
+    for low, sign, high in remaining:
         upwards = low in indices
         chains.append(
-            low + alphabet.signs[sign] + high if upwards else high + alphabet.reversed_signs[sign] + low
+            low + notation.signs[sign] + high if upwards else high + notation.reversed_signs[sign] + low
         )
     return ",".join(chains)

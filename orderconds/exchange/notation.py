@@ -1,4 +1,4 @@
-"""Spelled coefficients in other notations, from the parsed expression: Python with SymPy's names, LaTeX."""
+"""Coefficients of tableau files in two other notations: Python with SymPy's names, and LaTeX."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from orderconds.errors import TableauError
 from orderconds.tableau.grammar import Chain, Constant, Expression, Name, Power, parse
 
 
-def python(spelled: str) -> str:
+def to_python(text: str) -> str:
     """Return a coefficient as SymPy source, exact.
 
-    >>> python("1/4 - sqrt(3)/6"), python("2^(1/3)"), python("-0.5")
+    >>> to_python("1/4 - sqrt(3)/6"), to_python("2^(1/3)"), to_python("-0.5")
     ('Rational(1, 4) - sqrt(3)/6', 'Integer(2)**Rational(1, 3)', 'Rational(-1, 2)')
     """
-    return _python(_rational(parse(spelled)), 0)
+    return _python(_rational(parse(text)), 0)
 
 
 def _rational(x: Expression) -> Expression:
@@ -29,9 +29,9 @@ def _rational(x: Expression) -> Expression:
         if x.operators[0] == "/" and isinstance(first, Constant) and isinstance(operands[1], Constant):
             divisor = operands[1]
             if not first.unit and not divisor.unit and divisor.value:
-                joined = Constant(first.value / divisor.value)
-                rest = Chain(x.operators[1:], (joined, *operands[2:]))
-                return rest if rest.operators else joined
+                quotient = Constant(first.value / divisor.value)
+                rest = Chain(x.operators[1:], (quotient, *operands[2:]))
+                return rest if rest.operators else quotient
         return Chain(x.operators, operands)
     return Power(_rational(x.base), x.exponent) if isinstance(x, Power) else x
 
@@ -41,7 +41,7 @@ def _number(x: Fraction) -> str:
 
 
 def _python(x: Expression, tight: int) -> str:
-    """Spell x; ``tight`` is 1 within a product, 2 as a divisor or base."""
+    """Return x as Python source; ``tight`` is 1 within a product, 2 as a divisor or base."""
     if isinstance(x, Constant):
         if x.unit:
             places = len(str(x.unit.denominator)) - 1
@@ -74,7 +74,7 @@ def _decimal(x: Fraction, places: int) -> str:
 
 
 def from_python(text: str) -> str:
-    """Return SymPy source, or what SymPy prints, as a coefficient; it is translated, not run.
+    """Translate SymPy source, or the text that SymPy prints, into a coefficient; nothing is executed.
 
     >>> from_python("Rational(1, 4) - sqrt(3)/6"), from_python("2**(2/3)/3"), from_python("Float('0.57735')")
     ('(1/4) - sqrt(3)/6', '2^(2/3)/3', '0.57735~')
@@ -86,13 +86,13 @@ def from_python(text: str) -> str:
     return re.sub(r"\^\(\((-?\d+(?:/\d+)?)\)\)", r"^(\1)", text)
 
 
-def latex(spelled: str) -> str:
+def to_latex(text: str) -> str:
     r"""Return a coefficient in LaTeX.
 
-    >>> print(latex("1/4 - sqrt(3)/6"), latex("2^(1/3)"), latex("-1/2"), latex("0.5773~"))
+    >>> print(to_latex("1/4 - sqrt(3)/6"), to_latex("2^(1/3)"), to_latex("-1/2"), to_latex("0.5773~"))
     \frac{1}{4} - \frac{\sqrt{3}}{6} \sqrt[3]{2} -\frac{1}{2} 0.5773\ldots
     """
-    return _latex(_rational(parse(spelled)), 0)
+    return _latex(_rational(parse(text)), 0)
 
 
 def _latex(x: Expression, tight: int) -> str:
@@ -128,7 +128,7 @@ def _latex(x: Expression, tight: int) -> str:
 
 
 def _ends_in_a_factor(x: Expression) -> bool:
-    """Whether x prints as a product, not as one fraction: factors are not regrouped, as balls would tell."""
+    """Say whether x prints as a product and not as one fraction; regrouped factors would change balls."""
     return isinstance(x, Chain) and x.operators[-1] == "*"
 
 
