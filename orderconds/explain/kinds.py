@@ -16,6 +16,9 @@ from orderconds.errors import UnknownName
 from orderconds.explain.diagram import Diagram
 from orderconds.explain.lines import Style, draw
 
+Member = Any
+"""A tree, forest or word, in the encoding of its kind."""
+
 
 @dataclass(frozen=True)
 class Kind:
@@ -31,21 +34,21 @@ class Kind:
     [('[[.]]', "f'(f'(f))"), ('[..]', "f''(f, f)")]
     """
 
-    members: Callable[[int], Iterable[Any]]
+    members: Callable[[int], Iterable[Member]]
     count: Callable[[int], int]
-    text: Callable[[Any], str]
-    diagram: Callable[[Any], Diagram]
-    names: Callable[[Any], str]
+    text: Callable[[Member], str]
+    diagram: Callable[[Member], Diagram]
+    names: Callable[[Member], str]
     family: str
     independent: bool = False
 
-    def conditions(self, order: int) -> dict[Any, OrderCondition]:
+    def conditions(self, order: int) -> dict[Member, OrderCondition]:
         """Return the family's condition of each member."""
         family = families.get(self.family)
         members = family.conditions(order) if self.independent else family.all_conditions(order)
         return {condition.key: condition for condition in members}
 
-    def entry(self, member: Any, condition: OrderCondition | None, style: Style | None) -> list[str]:
+    def entry(self, member: Member, condition: OrderCondition | None, style: Style | None) -> list[str]:
         r"""Return the lines that explain a member: its text, a drawing, what it names, its condition.
 
         Without a style there is no drawing.
