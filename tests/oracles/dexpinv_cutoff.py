@@ -1,12 +1,12 @@
-"""How much of dexpinv VRKMK needs: the order rule, computed from the series.
+"""The largest order of VRKMK(r), whose dexpinv is cut after the power r, computed from the action series.
 
-Uncut, VRKMK is the symplectic partitioned Runge-Kutta method (SPRK) in canonical coordinates, and has its
-order p. Cut after the power r it has the same values on all trees with few vertices; the first tree on which
-it differs ends the order, for every tableau: the values of either are polynomials in those of SPRK, so that
-the difference is a constant once p is high enough. The order is therefore min(p, R + 2), where the
-computation gives R = r for r = 0 and odd r, R = r + 1 for even r >= 2: odd Bernoulli numbers from B_3 on
-vanish.
-Theorem 3.5.3 of Bogfjellmo and Marthinsen, which asks for r >= p - 2, gives even r one order less.
+An oracle for the rule min(p, R + 2) that the proofs of orderconds use. Without a cut, VRKMK is the symplectic
+partitioned Runge-Kutta method (SPRK) in canonical coordinates, and has its order p. With a cut it has the same
+values on all trees with few vertices. The first tree on which the values differ ends the order, for every
+tableau: all values are polynomials in those of SPRK, so the difference is a constant once p is high enough.
+The computation gives R = r for r = 0 and odd r, and R = r + 1 for even r >= 2, because the odd Bernoulli
+numbers from B_3 on vanish. Theorem 3.5.3 of Bogfjellmo and Marthinsen asks for r >= p - 2, which gives even r
+one order less.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def highest_order(cutoff: int, limit: int = 7) -> int:
 
 
 def witness(vertices: int) -> Velocity:
-    """Return the tree ``o(o|L(o ... o))``, on which a cut of dexpinv shows first.
+    """Return the tree ``o(o|L(o ... o))``, the first on which a cut of dexpinv changes a value.
 
     >>> witness(4)
     o(o|L(o o))
@@ -53,7 +53,7 @@ def witness(vertices: int) -> Velocity:
 
 
 def _likeliest_first(vertices: int) -> Iterator[Velocity]:
-    """Yield one tree of each class, but before all the witness, so that the rest need not be made."""
+    """Yield the witness, then one tree of each class, which need not be enumerated if the witness decides."""
     if vertices > 2:
         yield witness(vertices)
     yield from representatives(vertices)

@@ -11,12 +11,12 @@ from orderconds.ring import Residues
 from orderconds.ring.rank import pivot_columns
 from orderconds.ring.residues import PRIMES
 from orderconds.series import action_exact
-from orderconds.series.action_cutoff import highest_order, witness
 from orderconds.series.action_lie import MuntheKaasActionSeries
 from orderconds.series.action_switching import representatives
 from orderconds.series.monomials import products
 from orderconds.tableau import Tableau, find
 from orderconds.tableau.methods import RungeKutta
+from tests.oracles.dexpinv_cutoff import highest_order, witness
 
 
 def rule(cutoff):
