@@ -284,7 +284,7 @@ def _lyndon_words(
     family: str,
     weigh: Callable[[int], int],
     letters: Callable[[int], Iterable[int]],
-    spell: Callable[[int], str],
+    name: Callable[[int], str],
     between: str,
 ) -> Kind:
     from orderconds.explain import diagram, differentials
@@ -294,9 +294,9 @@ def _lyndon_words(
     return Kind(
         lambda order: lyndon_words(list(letters(order)), order, weigh),
         lambda order: lyndon_word_count(order, lambda k: sum(weigh(x) == k for x in letters(order))),
-        lambda word: between.join(map(spell, word)),
-        lambda word: diagram.word(word, spell),
-        lambda word: differentials.bracket(word, spell),
+        lambda word: between.join(map(name, word)),
+        lambda word: diagram.word(word, name),
+        lambda word: differentials.bracket(word, name),
         family,
         independent=True,
     )

@@ -8,10 +8,11 @@ follow from the coefficients of Lyndon words by forward substitution (Reutenauer
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import TypeVar
 
+from orderconds.ring.protocol import Element
 from orderconds.words.lyndon import is_lyndon
 from orderconds.words.shuffle import Letter, Series, Word, add, concatenate
 
@@ -66,6 +67,30 @@ def backwards(series: Mapping[Word, Fraction]) -> Series:
     {('B', 'A'): Fraction(1, 1)}
     """
     return {word[::-1]: value for word, value in series.items()}
+
+
+def coordinates_from_values(
+    value: Callable[[Word], Element], words: Iterable[Word], key: Key | None = None
+) -> dict[Word, Element]:
+    """Return the coordinates of a Lie element over any ring, from its values at Lyndon words alone.
+
+    ``words`` are all Lyndon words of one weight, or of one content, in rising order; ``value`` gives the
+    coefficient of a product. The series must be a Lie element, which is not checked.
+
+    >>> element = expand(("A", ("A", "B")))
+    >>> coordinates_from_values(lambda word: element.get(word, Fraction(0)), [tuple("AAB"), tuple("ABB")])
+    {('A', 'A', 'B'): Fraction(1, 1), ('A', 'B', 'B'): Fraction(0, 1)}
+    """
+    coordinates: dict[Word, Element] = {}
+    expanded: dict[Word, Series] = {}
+    for word in words:
+        x = value(word)
+        for smaller, series in expanded.items():
+            if word in series:
+                x = x - coordinates[smaller] * int(series[word])
+        coordinates[word] = x
+        expanded[word] = expand(standard_bracketing(word, key))
+    return coordinates
 
 
 def lyndon_coordinates(element: Mapping[Word, Fraction], key: Key | None = None) -> dict[Word, Fraction]:

@@ -11,7 +11,7 @@ from orderconds.ring import QQ, PowerSeries
 from orderconds.ring.polynomials import Polynomials
 from orderconds.series.b_series import runge_kutta_series
 from orderconds.series.characters import ORDERED, ROOTED, Character, exact_flow
-from orderconds.series.modified import VectorField, modified_field, modified_hamiltonian
+from orderconds.series.modified_equations import VectorField, modified_field, modified_hamiltonian
 from orderconds.series.substitution import partitions, substituted
 from orderconds.tableau import CommutatorFree, RungeKutta, Stage
 from orderconds.trees.levels import children, parse, symmetry, trees_of

@@ -10,7 +10,7 @@ from orderconds.ring.polynomials import Polynomials
 from orderconds.series.characters import ORDERED, Character
 from orderconds.series.dexpinv import DexpinvSeries, bernoulli
 from orderconds.series.lie_butcher import ExponentialsSeries, exact_value, forest_residuals, forest_values
-from orderconds.series.modified import modified_field
+from orderconds.series.modified_equations import modified_field
 from orderconds.tableau import RungeKutta
 from orderconds.trees.levels import parse, text, trees_of
 from orderconds.trees.ordered import ordered_forests, ordered_trees

@@ -35,6 +35,10 @@ class VectorField:
         self._known: dict[bytes, Element] = {b"": ring.zero}
         self._powers: dict[tuple[int, bytes], Element] = {}
 
+    def define(self, value: Callable[[bytes], Element]) -> None:
+        """Set the function that gives the values, which may ask for values on smaller trees."""
+        self._value = value
+
     def __call__(self, forest: bytes) -> Element:
         """Return the value on a tree or forest."""
         if forest not in self._known:
@@ -83,7 +87,7 @@ def modified_field(step: Character) -> VectorField:
     ['1', '-1/2', '1/6', '1/3']
     """
     field = VectorField(step.ring, step.algebra, lambda forest: step.ring.zero)
-    field._value = lambda forest: step(forest) - field.beyond_first(forest)
+    field.define(lambda forest: step(forest) - field.beyond_first(forest))
     return field
 
 
@@ -92,8 +96,8 @@ def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, El
 
     H(t) for t = [t_1 ... t_m] is the elementary Hamiltonian H^(m)(F(t_1), ..., F(t_m)); the sum is over free
     trees with at most ``order`` vertices that are not superfluous (HLW IX.9.2). Raises
-    :class:`~orderconds.errors.InputError` where b(u o v) + b(v o u) = 0 does not hold, so that the field is
-    not Hamiltonian, and for a Lie-Butcher series.
+    :class:`~orderconds.errors.InputError` where b(u o v) + b(v o u) = 0 is not known to hold, so that the
+    field may not be Hamiltonian, and for a Lie-Butcher series.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.trees.levels import text
@@ -115,9 +119,11 @@ def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, El
 def _require_hamiltonian(field: VectorField, vertices: int) -> None:
     for tree in rooted_trees(vertices):
         for _, _, moved in moves(tree):
-            if field.ring.is_zero(field(tree) + field(moved)) is False:
+            vanishes = field.ring.is_zero(field(tree) + field(moved))
+            if vanishes is not True:
+                verb = "may not be" if vanishes is None else "is not"
                 raise InputError(
-                    f"b({text(tree)}) + b({text(moved)}) is not 0",
+                    f"b({text(tree)}) + b({text(moved)}) {verb} 0",
                     where="modified Hamiltonian",
                     expected="the modified field of a symplectic method",
                 )
