@@ -1,12 +1,12 @@
 """The largest order of VRKMK(r), whose dexpinv is cut after the power r, computed from the action series.
 
-An oracle for the rule min(p, R + 2) that the proofs of orderconds use. Without a cut, VRKMK is the
-symplectic partitioned Runge-Kutta method (SPRK) in canonical coordinates, and has its order p. With a cut it
-has the same values on all trees with few vertices. The first tree on which the values differ ends the order, for every
-tableau: all values are polynomials in those of SPRK, so the difference is a constant once p is high enough.
-The computation gives R = r for r = 0 and odd r, and R = r + 1 for even r >= 2, because the odd Bernoulli
-numbers from B_3 on vanish. Theorem 3.5.3 of Bogfjellmo and Marthinsen asks for r >= p - 2, which gives even r
-one order less.
+An oracle for the rule min(p, R + 2) that the proofs of orderconds use. Without a cut, VRKMK is the symplectic
+partitioned Runge-Kutta method (SPRK) in canonical coordinates, and has its order p. With a cut it has the
+same values on all trees with few vertices. The first tree on which the values differ ends the order, for
+every tableau: all values are polynomials in those of SPRK, so the difference is a constant once p is high
+enough. The computation gives R = r for r = 0 and odd r, and R = r + 1 for even r >= 2, because the odd
+Bernoulli numbers from B_3 on vanish. Theorem 3.5.3 of Bogfjellmo and Marthinsen asks for r >= p - 2, which
+gives even r one order less.
 """
 
 from __future__ import annotations
