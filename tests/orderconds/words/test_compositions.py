@@ -1,0 +1,10 @@
+"""Compositions of an integer."""
+
+from orderconds.words.compositions import compositions
+
+
+def test_compositions_number_powers_of_two():
+    for n in range(1, 8):
+        found = list(compositions(n))
+        assert len(set(found)) == len(found) == 2 ** (n - 1)
+        assert all(sum(parts) == n for parts in found)

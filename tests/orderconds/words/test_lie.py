@@ -1,0 +1,37 @@
+"""Free Lie elements and their coordinates in the Lyndon basis."""
+
+from fractions import Fraction
+
+import pytest
+
+from orderconds.words.lie import backwards, expand, lyndon_coordinates, standard_bracketing
+from orderconds.words.lyndon import lyndon_words
+from orderconds.words.shuffle import add
+
+
+def test_bracketed_lyndon_words_are_the_word_and_greater_ones():
+    for word in lyndon_words("AB", 6):
+        expanded = expand(standard_bracketing(word))
+        assert expanded[word] == 1
+        assert min(expanded) == word
+
+
+def test_coordinates_reproduce_a_lie_element():
+    element = add(
+        *(
+            (Fraction(n, 3), expand(standard_bracketing(word)))
+            for n, word in enumerate(lyndon_words("AB", 5), 1)
+        )
+    )
+    assert list(lyndon_coordinates(element).values()) == [Fraction(n, 3) for n in range(1, 7)]
+
+
+def test_what_is_no_lie_element_has_no_coordinates():
+    with pytest.raises(ValueError, match="not a Lie element"):
+        lyndon_coordinates({("A", "A"): Fraction(1)})
+
+
+def test_reading_backwards_changes_the_sign_of_brackets_of_even_length():
+    for word in [*lyndon_words("AB", 4), *lyndon_words("AB", 5)]:
+        bracket = expand(standard_bracketing(word))
+        assert backwards(bracket) == add(((-1) ** (len(word) + 1), bracket))
