@@ -7,6 +7,7 @@ from hypothesis import given
 
 from orderconds.exchange.notation import from_latex, from_python, to_latex, to_python
 from orderconds.tableau.file import from_data
+from tests.orderconds.exchange.coefficients import COEFFICIENTS
 
 
 @given(COEFFICIENTS)

@@ -6,8 +6,9 @@ from math import factorial
 import pytest
 
 from orderconds.trees import bicoloured
-from orderconds.trees.counts import rooted_tree_count
+from orderconds.trees.counts import alternating_free_tree_count, rooted_tree_count
 from orderconds.trees.directed import density as directed_density
+from orderconds.trees.levels import symmetry
 from orderconds.trees.rooted import rooted_trees
 
 
@@ -33,3 +34,35 @@ def test_alternating_trees_are_the_classes_of_coloured_rootings(vertices):
     ]
     assert sum(map(len, classes)) == len(everything)
     assert set().union(*classes) == everything
+
+
+@pytest.mark.parametrize("vertices", range(1, 9))
+def test_alternating_trees_are_as_many_as_their_generating_function_says(vertices):
+    trees = bicoloured.alternating_free_trees(vertices)
+    assert len(set(trees)) == len(trees) == alternating_free_tree_count(vertices)
+
+
+@pytest.mark.parametrize("vertices", range(1, 6))
+def test_different_coloured_trees_have_different_texts(vertices):
+    trees = list(bicoloured.bicoloured_rooted_trees(vertices))
+    texts = [bicoloured.text(tree) for tree in trees]
+    assert len(set(texts)) == len(trees)
+    for tree, text in zip(trees, texts, strict=True):
+        # Black vertices are dots and square brackets, white ones circles and round brackets.
+        assert text.count(".") + text.count("[") == sum(1 for level in tree if level % 2 == 0)
+        assert text.count("o") + text.count("(") == sum(1 for level in tree if level % 2 == 1)
+
+
+@pytest.mark.parametrize("vertices", range(1, 6))
+def test_rootings_keep_the_number_of_each_colour(vertices):
+    for tree in bicoloured.bicoloured_rooted_trees(vertices):
+        rootings = list(bicoloured.bicoloured_rootings(tree))
+        assert len(rootings) == vertices
+        assert {sum(level % 2 for level in rooting) for rooting in rootings} == {sum(x % 2 for x in tree)}
+        assert all(bicoloured.canonical(rooting) == rooting for rooting in rootings)
+
+
+def test_trees_of_one_colour_have_the_symmetries_of_uncoloured_trees():
+    for tree in rooted_trees(6):
+        black = bytes(2 * level for level in tree)
+        assert bicoloured.symmetry(black) == symmetry(tree)

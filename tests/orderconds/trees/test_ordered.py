@@ -10,6 +10,7 @@ from orderconds.trees.directed import (
     directed_free_trees,
     directed_rooted_trees,
 )
+from orderconds.trees.levels import branches
 from orderconds.trees.ordered import ordered_forests, ordered_trees
 from orderconds.trees.rooted import rooted_trees
 
@@ -33,3 +34,13 @@ def test_there_are_no_trees_without_vertices():
     assert list(rooted_trees(0)) == list(ordered_trees(0)) == []
     assert directed_free_trees(0) == directed_rooted_trees(0) == ()
     assert list(ordered_forests(0)) == [b""]
+
+
+@pytest.mark.parametrize("vertices", range(1, 8))
+def test_forests_are_the_branches_of_trees_with_one_vertex_more(vertices):
+    assert list(ordered_forests(vertices)) == [branches(tree) for tree in ordered_trees(vertices + 1)]
+
+
+@pytest.mark.parametrize("vertices", range(1, 8))
+def test_trees_are_the_forests_that_return_to_level_zero_nowhere(vertices):
+    assert list(ordered_trees(vertices)) == [f for f in ordered_forests(vertices) if f.count(0) == 1]

@@ -41,3 +41,12 @@ def test_orderings_of_a_rooted_tree_times_its_symmetries_are_all_permutations_of
     for tree in rooted_trees(vertices):
         drawings = sum(1 for ordered in ordered_trees(vertices) if canonical(ordered) == tree)
         assert drawings * symmetry(tree) == arrangements(tree)
+
+
+@pytest.mark.parametrize("vertices", range(1, 9))
+def test_rooted_trees_are_canonical_and_fall_in_lexicographic_order(vertices):
+    trees = list(rooted_trees(vertices))
+    assert all(canonical(tree) == tree for tree in trees)
+    assert trees == sorted(trees, reverse=True)
+    assert trees[0] == bytes(range(vertices))
+    assert trees[-1] == bytes([0] + [1] * (vertices - 1))
