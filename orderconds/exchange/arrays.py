@@ -159,14 +159,15 @@ def _stages(entries: Arrays, where: str) -> Data:
     if missing:
         raise TableauError(f"no array {missing[0]}", where=where, expected="count, start and exponentials")
     rows, products = list(entries["exponentials"]), []
-    for count, start in zip(entries["count"], entries["start"], strict=False):
-        many, begin = _integer(count, where), _integer(start, where)
-        product: Data = {"exp": rows[:many]} if many else {}
-        rows = rows[many:]
-        products.append(product | ({"from": begin} if begin else {}))
+    counts, starts = ([_integer(x, where) for x in entries[key]] for key in ("count", "start"))
     pair = "embedded_order" in entries
-    if rows or len(products) <= pair:
+    sound = len(counts) == len(starts) > pair and min(counts) >= 0 and sum(counts) == len(rows)
+    if not sound:
         raise TableauError("count that does not add up", where=where, expected="one row for each exponential")
+    for count, start in zip(counts, starts, strict=True):
+        product: Data = {"exp": rows[:count]} if count else {}
+        rows = rows[count:]
+        products.append(product | ({"from": start} if start else {}))
     if pair:
         lower = products.pop() | {"order": _integer(entries["embedded_order"], where)}
         return {"stage": products[:-1], "update": products[-1], "embedded": lower}

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import pytest
+
 from orderconds import Tableau
-from orderconds.exchange import read_data
+from orderconds.errors import TableauError
+from orderconds.exchange import export, read_data
 from orderconds.tableau.file import from_data
 
 
@@ -23,3 +26,19 @@ def test_long_decimals_are_rounded_numbers() -> None:
     text = b"static double A[1][1] = {{0.5}}; static double b[1] = {0.3333333333333333};"
     tableau = from_data(read_data(text, "c", "x.c"))
     assert tableau.ring.text(tableau.method.b[0]) == "0.333333333333333~"  # type: ignore[union-attr]
+
+
+def test_rounded_doubles_have_their_exact_value_beside_them() -> None:
+    source = export({"name": "t", "family": "rk", "A": [[]], "b": ["1/3", "0.5", "2"]}, "c").decode()
+    assert "t_b[3] = {0.3333333333333333 /* 1/3 */, 0.5, 2.0};" in source
+
+
+def test_two_arrays_of_one_name_are_refused() -> None:
+    with pytest.raises(TableauError, match="two arrays b"):
+        read_data(b"double x_b[1] = {1}; double y_b[1] = {1};", "c", "x.c")
+
+
+def test_the_longest_name_that_fits_is_taken() -> None:
+    source = b"double A[2][2] = {{0, 0}, {1, 0}}; double b[2] = {0, 1}; double m_embedded_b[2] = {1, 0};"
+    data = read_data(source, "c", "x.c")
+    assert (data["b"], data["embedded"]["b"]) == (["0", "1"], ["1", "0"])

@@ -46,3 +46,18 @@ def test_a_plain_table_whose_nodes_are_not_row_sums_is_refused() -> None:
 def test_a_number_beyond_the_last_stage_is_no_blank() -> None:
     with pytest.raises(TableauError, match="3 entries"):
         from_data(read_data(b"0,0\n1/2,1/2,,1\n,0,1\n", "csv", "x.csv"))
+
+
+def test_a_matrix_takes_a_line_a_row_and_names_may_come_in_any_order() -> None:
+    text = b"b,1/2,1/2\nname,heun\nA,0,0\nA,1,0\n"
+    assert read_data(text, "csv", "x.csv") == {
+        "name": "heun",
+        "family": "rk",
+        "A": [["0", "0"], ["1", "0"]],
+        "b": ["1/2", "1/2"],
+    }
+
+
+def test_three_rows_of_weights_are_refused() -> None:
+    with pytest.raises(InputError, match="3 rows of weights"):
+        read_data(b"0,0\n,1\n,1\n,1\n", "csv", "x.csv")

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import pytest
+
 from orderconds import Tableau
-from orderconds.exchange import read_data
+from orderconds.errors import InputError
+from orderconds.exchange import export, read_data
 from orderconds.tableau import find
 from orderconds.tableau.file import from_data
 
@@ -33,3 +36,23 @@ def test_blank_cells_of_a_printed_tableau_are_zeros() -> None:
     assert found.method == rk4
     assert found.embedded is not None
     assert found.embedded.b == (1, 0, 0, 0)
+
+
+def test_other_methods_are_matrices_by_name() -> None:
+    text = export(
+        {"name": "t", "family": "composition", "base": "symmetric-2", "gamma": ["1/2", "1/2"]}, "latex"
+    )
+    assert b"gamma = \\begin{pmatrix}\n\\frac{1}{2} & \\frac{1}{2}\n\\end{pmatrix}" in text
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (r"\begin{array}{c|c} 0 & 0 \\ \hline 1 \\ 2 & 1 \end{array}", "rules that part no tableau"),
+        (r"x = 1", "no tableau"),
+        (r"A = \begin{pmatrix} \unknown{1} \end{pmatrix}", "expected numbers"),
+    ],
+)
+def test_latex_that_is_no_tableau_is_refused(text: str, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        from_data(read_data(text.encode(), "latex", "x.tex"))

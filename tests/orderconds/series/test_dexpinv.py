@@ -1,7 +1,9 @@
 """Bernoulli numbers, and the series of steps with dexpinv."""
 
 from itertools import product
-from math import prod
+from math import factorial, prod
+
+import pytest
 
 from orderconds.ring import QQ
 from orderconds.series.dexpinv import DexpinvSeries, bernoulli
@@ -41,3 +43,27 @@ def test_arguments_of_munthe_kaas_steps_are_lie_series(random_tableau):
             for i in range(3):
                 value = sum((n * series.argument(i, b"".join(word)) for word, n in words.items()), QQ.zero)
                 assert value == 0
+
+
+@pytest.mark.parametrize("cutoff", [0, 1, 2, None])
+def test_steps_are_group_like_whatever_the_cut(cutoff, random_tableau):
+    method = random_tableau(2)
+    assert is_group_like(DexpinvSeries(QQ, method.A, method.b, cutoff), 5)
+
+
+def test_a_cut_after_the_third_power_is_one_after_the_second(random_tableau):
+    method = random_tableau(2)
+    second, third, fourth = (DexpinvSeries(QQ, method.A, method.b, cutoff) for cutoff in (2, 3, 4))
+    forests = [forest for n in range(1, 7) for forest in ordered_forests(n)]
+    assert all(second(forest) == third(forest) for forest in forests)
+    assert any(fourth(forest) != third(forest) for forest in forests)
+
+
+def test_without_a_cut_trees_without_order_have_the_elementary_weights(random_tableau):
+    # On commuting fields RKMK is the Runge-Kutta method: shuffles of one letter are powers of sum b_i c_i^k.
+    method = random_tableau(3)
+    series = DexpinvSeries(QQ, method.A, method.b)
+    for n in range(1, 6):
+        forest = b"\0" * n
+        total = sum(method.b, QQ.zero)
+        assert series(forest) * factorial(n) == total**n
