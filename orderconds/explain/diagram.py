@@ -1,4 +1,4 @@
-"""Diagrams: vertices, edges and ordered branches, what every kind of tree becomes before it is drawn.
+"""Diagrams: vertices, edges and ordered branches, the form in which every kind of tree is drawn.
 
 A vertex is a *dot* (trees of one colour), *black* or *white*, or a *transport* (the L of the action trees,
 which is no copy of the Hamiltonian); in words, a *letter* or the *bracket* of two. An edge is *plain*, or it
@@ -38,9 +38,9 @@ class Branch:
 class Vertex:
     """A vertex with its branches from left to right.
 
-    ``legs`` = (before, letters) says that the first so many branches are letters of one word, and that the
-    edge to the parent stands behind ``before`` of them; None where there is no such choice. ``label`` is what
-    a letter looks like.
+    ``legs`` = (before, letters) says that the first ``letters`` branches are letters of one word, and that
+    the edge to the parent comes after ``before`` of them; None where there is no choice. ``label`` is the
+    text of a letter.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2

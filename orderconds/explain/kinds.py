@@ -1,6 +1,6 @@
 """The kinds of trees: their members, numbers, texts, drawings, and what they name.
 
-A kind is put together when it is asked for, so that listing rooted trees loads nothing about words.
+A kind is assembled on demand, so that listing rooted trees loads nothing about words.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class Kind:
     """One kind of trees, words or forests.
 
     ``members`` enumerates those of an order and ``count`` finds their number another way, from generating
-    functions; ``text`` spells a member, ``diagram`` makes it drawable, ``names`` spells the elementary
+    functions; ``text`` is the text of a member, ``diagram`` its drawing, ``names`` that of the elementary
     differential or Hamiltonian it names. ``family`` is a family whose conditions belong to these trees: all
     of them, or with ``independent`` an independent set.
 
@@ -91,7 +91,7 @@ def get(name: str) -> Kind:
 
 
 def of_family(label: str) -> Kind | None:
-    r"""Return the kind of trees of a family's conditions; None for words, which speak for themselves.
+    r"""Return the kind of trees of a family's conditions; None for words, which need no drawing.
 
     >>> of_family("rkmk(1)").text(b"\0\1\0")
     '[.] .'

@@ -226,7 +226,7 @@ def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
 def named(formula: Formula, names: Mapping[str, str] | None = None) -> Formula:
     """Name bound indices in reading order: i, j, k ... for stages, I, J, K ... for exponentials.
 
-    Free indices are renamed by ``names``, if they stand there. Sums that differ by the names of bound
+    Free indices are renamed by ``names``, if they occur there. Sums that differ by the names of bound
     indices only become identical.
 
     >>> i = fresh()

@@ -1,4 +1,4 @@
-"""How a formula is spelled: in ASCII for the terminal, in LaTeX for a paper; one walk, two alphabets."""
+"""Formulas as text: in ASCII for the terminal, in LaTeX for a paper, by one walk with two notations."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ HATS |= {name: f"\\{name}" for name in ("gamma", "omega", "phi")}
 
 
 class Notation(Struct, frozen=True):
-    """The signs of one way of writing."""
+    """The signs and brackets of one notation."""
 
     names: Mapping[str, str]
     total: str
@@ -33,7 +33,7 @@ LATEX = Notation(
 
 
 def render(formula: Formula, notation: Notation) -> str:
-    r"""Write a formula in an notation.
+    r"""Return a formula in a notation.
 
     >>> print(render(Power(Coefficient("ahat", ("i", "j")), 2), LATEX))
     \hat{a}_{ij}^{2}
@@ -58,7 +58,7 @@ def render(formula: Formula, notation: Notation) -> str:
 
 
 def latex_fraction(q: Fraction) -> str:
-    r"""Spell a rational number in LaTeX.
+    r"""Return a rational number in LaTeX.
 
     >>> print(latex_fraction(Fraction(-1, 6)))
     -\tfrac{1}{6}
@@ -93,11 +93,11 @@ def _terms(terms: Sequence[tuple[Fraction, Formula]], notation: Notation) -> str
         magnitude = abs(scale)
         size = latex_fraction(magnitude) if notation.latex_fractions else str(magnitude)
         if isinstance(term, Product) and not term.factors:
-            spelled = size
+            factor = size
         else:
             body = _bracketed(term, notation) if isinstance(term, Total) else render(term, notation)
-            spelled = body if size == "1" else f"{size} {body}"
-        written += sign + spelled
+            factor = body if size == "1" else f"{size} {body}"
+        written += sign + factor
     return written or "0"
 
 
@@ -105,7 +105,7 @@ def _chains(indices: Sequence[str], relations: Sequence[Relation], notation: Not
     """Write indices below a summation sign, relations joined in chains where they can be: ``i<j<k,l``.
 
     A chain above an index that this sum does not bind is written downwards, ``k>j>i``, so that a summed index
-    always stands first.
+    always comes first.
     """
     remaining = list(relations)
     drawn: list[str] = []

@@ -1,7 +1,7 @@
 """Certified real balls (Arb) of a fixed working precision.
 
 A ball encloses one unknown real number. It can prove that number different from zero, never equal to it,
-unless the ball is the single point zero, which is how structural zeros of a tableau survive.
+unless the ball is the single point zero: so structural zeros of a tableau stay zeros.
 """
 
 from __future__ import annotations
@@ -94,7 +94,7 @@ class Balls:
         return 1 if x.value > 0 else -1
 
     def text(self, x: Ball) -> str:
-        """Spell x as a tableau coefficient: points exactly, others with ``~`` (one unit in the last digit).
+        """Return x as a tableau coefficient: points exactly, others with ``~`` (one unit in the last digit).
 
         >>> R = Balls(64)
         >>> R.text(R.rational(-3, 8)), R.text(R.around(fmpq(81772, 100000), fmpq(1, 100000)))
@@ -118,7 +118,7 @@ class Balls:
         return int(low.p), int(low.q), int(high.p), int(high.q)
 
     def approximate(self, x: Ball, digits: int = 20) -> str:
-        """Return the midpoint as a decimal; how many of its digits hold is what :meth:`radius` says."""
+        """Return the midpoint as a decimal; :meth:`radius` bounds its error."""
         low, high = endpoints(x.value)
         return rational_decimal((low + high) / 2, digits)
 
@@ -168,7 +168,7 @@ class Enclosures:
         return None if x.contains(0) else False
 
     def text(self, x: arb) -> str:
-        """Spell x as :meth:`Balls.text` does."""
+        """Return the text of :meth:`Balls.text`."""
         return Balls(self.bits).text(Ball(x, self.bits))
 
     def key(self, x: arb) -> tuple[int, ...]:
@@ -188,7 +188,7 @@ def _magnitude(x: arb) -> int:
 
 def _supported_places(radius: fmpq) -> int:
     """Return the most decimal places d with radius + half a unit <= one unit, that is 10^-d >= 2 radius."""
-    places = len(str(radius.q)) - len(str(radius.p))  # by flint: Python spells 4300 digits at most
+    places = len(str(radius.q)) - len(str(radius.p))  # by flint: Python converts 4300 digits at most
     while fmpq(10) ** -places < 2 * radius:
         places -= 1
     return places

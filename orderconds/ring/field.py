@@ -28,26 +28,26 @@ REMEMBERED = 1000
 
 
 class Generator(Struct, frozen=True):
-    """A root adjoined to a field: its spelling, the index n of a radical (0 for a named root), its enclosure.
+    """A root adjoined to a field: its symbol, the index n of a radical (0 for a named root), its enclosure.
 
-    A radical is spelled by its radicand, ``radicand^(1/index)``; a named root by its name. ``degree`` is
-    the degree of the field over the one before. ``minpoly`` is kept for named roots, so that a file can be
+    The symbol of a radical ``radicand^(1/index)`` is its radicand, that of a named root its name. ``degree``
+    is the degree of the field over the one before. ``minpoly`` is kept for named roots, so that a file can be
     written.
     """
 
-    spelling: str
+    symbol: str
     index: int
     degree: int
     enclosure: Enclosure
     minpoly: fmpq_poly | None = None
 
     def power(self, n: int) -> str:
-        """Spell the n-th power, n > 0."""
+        """Return the n-th power as text, n > 0."""
         if self.index == 0:
-            return self.spelling if n == 1 else f"{self.spelling}^{n}"
+            return self.symbol if n == 1 else f"{self.symbol}^{n}"
         if self.index == 2 and n == 1:
-            return f"sqrt({self.spelling})"
-        base = self.spelling if self.spelling.isdigit() else f"({self.spelling})"
+            return f"sqrt({self.symbol})"
+        base = self.symbol if self.symbol.isdigit() else f"({self.symbol})"
         return f"{base}^({n}/{self.index})"
 
 
@@ -85,7 +85,7 @@ class NumberField:
 
     @cached_property
     def _identity(self) -> Key:
-        """What makes two fields one: the same generators with the same enclosed roots, adjoined alike."""
+        """A key that equal fields share: their generators with the enclosed roots, in order."""
         return self.name, str(self.modulus), self.named_roots
 
     def __eq__(self, other: object) -> bool:
@@ -145,7 +145,7 @@ class NumberField:
     def named_roots(self) -> tuple[tuple[str, tuple[str, ...], str], ...]:
         """(name, minimal polynomial, isolating decimal) of the generators that have a name."""
         return tuple(
-            (g.spelling, tuple(str(c) for c in g.minpoly.coeffs()), isolating(g.minpoly, g.enclosure))
+            (g.symbol, tuple(str(c) for c in g.minpoly.coeffs()), isolating(g.minpoly, g.enclosure))
             for g in self.generators
             if g.minpoly is not None
         )
@@ -173,7 +173,7 @@ class NumberField:
         return tuple((self._to_monomials * _columns([polynomial], self.degree)).entries())
 
     def text(self, x: Algebraic) -> str:
-        """Spell x in the generators, in the grammar of tableau files.
+        """Return x as text in the generators, in the grammar of tableau files.
 
         >>> from orderconds.ring.tower import Tower
         >>> tower = Tower()
@@ -368,7 +368,7 @@ class Algebraic:
 
 
 def _term(c: fmpq, monomial: str) -> str:
-    """Spell the positive rational c times a monomial: ``5*sqrt(3)/6``."""
+    """Return the positive rational c times a monomial as text: ``5*sqrt(3)/6``."""
     if not monomial:
         return str(c)
     top = monomial if c.p == 1 else f"{c.p}*{monomial}"

@@ -69,7 +69,7 @@ class Jets:
         return True if x.value.is_zero() and flat else None
 
     def text(self, x: Jet) -> str:
-        """Spell the value with what is known of it."""
+        """Return the value as text, with its radius."""
         return str(x.value.str(15))
 
     def key(self, x: Jet) -> tuple[str, ...]:
@@ -82,7 +82,7 @@ class Jets:
 
 
 class Jet:
-    """A value and its gradient, all flint balls; ``slopes`` None stands for a gradient that is zero.
+    """A value and its gradient, all flint balls; ``slopes`` None means that the gradient is zero.
 
     The gradient is a matrix of one row, on which flint computes at once.
     """

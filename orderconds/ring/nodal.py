@@ -1,4 +1,4 @@
-"""Vectors over the stages as polynomials in the nodes, where that makes everything rational.
+"""Vectors over the stages as polynomials in the nodes, for methods where these polynomials are rational.
 
 Let the nodes c_i of a method be the simple roots of one polynomial M over Q, as those of Gauss, Radau and
 Lobatto methods are. A vector x over the stages is then p(c) for one polynomial p modulo M, componentwise
@@ -32,8 +32,8 @@ Matrix = Sequence[Sequence[Element]]
 class NodalAlgebra:
     """Q[z]/M for the nodes of a method, with its matrices and weights as maps.
 
-    ``corrections[kind]`` are pairs (k, polynomial): what A z^k is beyond its integral; ``moments`` pairs (k,
-    number), what b.c^k is beyond 1/(k + 1). Vectors are ``fmpq_poly`` of degree below the number of stages.
+    ``corrections[kind]`` are pairs (k, polynomial): A z^k minus its integral; ``moments`` are pairs (k,
+    number): b.c^k minus 1/(k + 1). Vectors are ``fmpq_poly`` of degree below the number of stages.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss3 = Tableau.load(find("gauss3"))

@@ -48,24 +48,24 @@ class PowerSeries:
         return Series(self, (*kept, *((self.base.zero,) * (self.order + 1 - len(kept)))))
 
     def is_zero(self, x: Series) -> bool | None:
-        """Decide that every kept coefficient vanishes; None where the base ring cannot tell."""
+        """Decide that every kept coefficient vanishes; None if the base ring cannot decide."""
         verdicts = [self.base.is_zero(c) for c in x.coefficients]
         return False if False in verdicts else None if None in verdicts else True
 
     def text(self, x: Series) -> str:
-        """Spell x by ascending powers of h; coefficients that are sums stand in parentheses."""
+        """Return x as text by ascending powers of h; coefficients that are sums are put in parentheses."""
         terms = []
         for k, c in enumerate(x.coefficients):
             if self.base.is_zero(c) is True:
                 continue
-            spelled = self.base.text(c)
+            text = self.base.text(c)
             if k == 0:
-                terms.append(spelled)
+                terms.append(text)
                 continue
-            if " " in spelled:
-                spelled = f"({spelled})"
+            if " " in text:
+                text = f"({text})"
             h = "h" if k == 1 else f"h^{k}"
-            terms.append({"1": h, "-1": f"-{h}"}.get(spelled, f"{spelled}*{h}"))
+            terms.append({"1": h, "-1": f"-{h}"}.get(text, f"{text}*{h}"))
         return " + ".join(terms).replace("+ -", "- ") if terms else "0"
 
     def key(self, x: Series) -> Key:
@@ -73,9 +73,8 @@ class PowerSeries:
         return tuple(self.base.key(c) for c in x.coefficients)
 
     def approximate(self, x: Series, digits: int = 20) -> str:
-        """Spell x with decimal coefficients."""
-        spelled = [self.base.approximate(c, digits) for c in x.coefficients]
-        return "[" + ", ".join(spelled) + "]"
+        """Return x as text with decimal coefficients."""
+        return "[" + ", ".join(self.base.approximate(c, digits) for c in x.coefficients) + "]"
 
     def valuation(self, x: Series) -> int:
         """Return the lowest power of h whose coefficient is not proved zero; order + 1 for zero."""

@@ -13,7 +13,7 @@ Element = Any
 NumPy serve unwrapped. This and :data:`Key` are the only places where a ring's types are left open."""
 
 Key = tuple[Any, ...]
-"""What tells elements of one ring apart: hashable, and totally ordered within the ring."""
+"""A key by which elements of one ring are compared: hashable, and totally ordered within the ring."""
 
 
 class Ring(Protocol):
@@ -27,10 +27,10 @@ class Ring(Protocol):
         """Return p/q in this ring."""
 
     def is_zero(self, x: Element) -> bool | None:
-        """Decide x = 0; None where the ring cannot tell (a ball that contains zero never proves zero)."""
+        """Decide x = 0; None if the ring cannot decide (a ball that contains zero never proves zero)."""
 
     def text(self, x: Element) -> str:
-        """Spell x exactly, in the grammar that tableau files use where one exists."""
+        """Return x as exact text, in the grammar of tableau files where that has a form for it."""
 
     def key(self, x: Element) -> Key:
         """Return a hashable, totally ordered key; equal elements of this ring have equal keys."""

@@ -1,7 +1,7 @@
 """Residues modulo a prime, many samples at once: the ring in which ranks of conditions are computed.
 
-An element is a vector of independent residues; a random vector stands for as many random tableaux. The prime
-is below 2^31, so that products fit in 64 bits.
+An element is a vector of independent residues; a random vector represents one random tableau per entry. The
+prime is below 2^31, so that products fit in 64 bits.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ class Residues:
         return not x.values.any()
 
     def text(self, x: Residue) -> str:
-        """Spell the vector of residues."""
+        """Return the vector of residues as text."""
         return str(x.values)
 
     def key(self, x: Residue) -> tuple[int, ...]:

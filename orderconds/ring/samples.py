@@ -67,7 +67,7 @@ class Samples:
         return coefficients + [0] * (self.count - len(coefficients))
 
     def text(self, x: Sample) -> str:
-        """Spell the samples."""
+        """Return the samples as text."""
         return str([int(x.polynomial(k)) for k in range(self.count)])
 
     def key(self, x: Sample) -> tuple[int, ...]:

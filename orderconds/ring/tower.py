@@ -32,7 +32,7 @@ class DegreeError(ArithmeticError):
 
 
 class Tower:
-    """A growing number field; numbers made earlier stay valid, since they lift to the later fields.
+    """A growing number field; earlier numbers stay valid, because they lift to the later fields.
 
     >>> tower = Tower()
     >>> r = tower.root(tower.rational(2), 2)
@@ -49,7 +49,7 @@ class Tower:
         return self.field.rational(p, q)
 
     def constant(self, value: Fraction, unit: Fraction) -> Algebraic:
-        """Return an exact rational; a positive ``unit`` (a ball) does not belong here."""
+        """Return an exact rational; raise TypeError for a positive ``unit``, which means a ball."""
         if unit:
             raise TypeError("a ball has no place in a number field")
         return self.field.rational(value.numerator, value.denominator)
@@ -110,13 +110,13 @@ class Tower:
                 return inside.root(index)
 
         powers = [x] + [self.field.zero] * (index - 1)
-        spelling = x.field.text(x)
-        root = self._adjoin(powers, enclosure, lambda n: Generator(spelling, index, n, enclosure))
+        symbol = x.field.text(x)
+        root = self._adjoin(powers, enclosure, lambda n: Generator(symbol, index, n, enclosure))
         self._radicals.append((x, index, root))
         return root
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Algebraic:
-        """Return the one real root of ``minpoly`` (ascending) within ``unit`` of ``near``, spelled ``name``.
+        """Return the one real root of ``minpoly`` (ascending) within ``unit`` of ``near``, with symbol ``name``.
 
         Raises ValueError where there is not exactly one, :class:`DegreeError`.
         """

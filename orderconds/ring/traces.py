@@ -1,7 +1,7 @@
-"""Recorded arithmetic: elements are places in a straight-line program, whatever numbers run through it later.
+"""Recorded arithmetic: elements are places in a straight-line program, to be run later on any numbers.
 
-An engine that is run once over this ring leaves the list of its operations. Equal operations are recorded
-once, operations with constants 0 and 1 not at all.
+An engine that runs once over this ring records the list of its operations. Equal operations are recorded
+once, operations with the constants 0 and 1 not at all.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ class Traces:
         return str(x.constant) if x.constant is not None else f"%{x.place}"
 
     def key(self, x: Trace) -> tuple[str]:
-        """Return what tells elements apart."""
+        """Return the text, which identifies an element."""
         return (self.text(x),)
 
     def approximate(self, x: Trace, digits: int = 20) -> str:

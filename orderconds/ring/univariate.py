@@ -1,4 +1,4 @@
-"""Polynomials over Q in one variable, the time s: what iterated integrals over [0, 1] are made of.
+"""Polynomials over Q in one variable, the time s: the integrands of iterated integrals over [0, 1].
 
 Elements are flint's ``fmpq_poly``, unwrapped; they carry ``+ - *`` themselves.
 """

@@ -7,10 +7,10 @@ Expanding the step about (q0, mu1) gives each stage velocity and momentum as a s
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [u x v in stage j's group element]``,
 - ``psi_{L(w)}(i) = (1/b_i) [x reverse(w) in the update's]``,
 
-where Phi_w(i) is the coefficient of the word w in stage i's group element, and x stands once for a
+where Phi_w(i) is the coefficient of the word w in stage i's group element, and x is, once, a
 variation of the velocity of stage i. The method has order p iff ``sum_i b_i tau_t(i)`` has the exact flow's
-value for every tree with at most p vertices. How a family turns velocities into group elements is all that
-differs: products of exponentials here (VCG, VCF), one exponential of a Lie series in
+value for every tree with at most p vertices. Families differ only in the way in which velocities become group
+elements: products of exponentials here (VCG, VCF), one exponential of a Lie series in
 :mod:`orderconds.series.action_lie`.
 """
 

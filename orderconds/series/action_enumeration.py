@@ -1,8 +1,8 @@
-"""Every action tree with so many vertices once, simplest to read first, without making the costlier ones.
+"""Every action tree with a number of vertices once, simplest to read first, enumerated on demand.
 
 The cost of a tree is a sum of non-negative parts of its subtrees, so that all trees up to a limit consist
 of subtrees up to that limit; where the parts are tried in order of cost, the first one beyond the limit ends
-the search. A long list is made in bands of rising limits, and only as far as somebody reads it: of the 6331
+the search. A long list is enumerated in bands of rising limits, and only as far as it is read: of the 6331
 trees with six vertices, those that decide most methods are among the simplest few hundred.
 """
 

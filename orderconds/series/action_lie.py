@@ -1,7 +1,7 @@
 """The action series of VRKMK: group elements are single exponentials of a Lie series in the stage velocities.
 
 ``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j``, the update ``Y`` alike with b_j (3.16). A variation of one
-stage's velocity is one more letter: it stands for that stage alone and occurs once, so the coefficient of
+stage's velocity is one more letter, which belongs to that stage alone and occurs once. So the coefficient of
 ``u x v`` is that of a word in which the letter x is written between u and v.
 """
 

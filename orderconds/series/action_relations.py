@@ -25,7 +25,7 @@ Polynomial = tuple[tuple[Fraction, tuple[Velocity, ...]], ...]
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
-    """Return what the value of each dependent tree of the last order equals.
+    """Return the polynomial that each dependent tree of the last order equals.
 
     ``independent`` are the independent trees of each order 1, 2, ..., by
     :func:`orderconds.series.action_rank.independent_trees`. Exact unless chance, about one in 10^8, hides a

@@ -67,7 +67,7 @@ def fewest_brackets(
     """Return arguments with few brackets that keep ``order`` of an explicit tableau (A, b).
 
     ``ring`` must decide zero and divide. The order is kept where the tableau has it. Coefficients that the
-    order leaves free are zero at first, then, in so many ``attempts``, small random values, always the same;
+    order leaves free are zero at first, then, ``attempts`` times, small random values, always the same;
     if all take more than ``least`` brackets, one more is granted, and so on. Raises
     :class:`~orderconds.errors.InputError` for an implicit tableau.
 
@@ -110,7 +110,7 @@ def fewest_brackets(
 def _graded_bases(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int
 ) -> list[tuple[int, list[Element]]]:
-    """Return for each j the grade of q_j and its row over k_1, ..., k_j, in which k_j stands once."""
+    """Return for each j the grade of q_j and its row over k_1, ..., k_j, in which k_j occurs once."""
     series, bases = DexpinvSeries(ring, A, b), list[tuple[int, list[Element]]]()
     trees = [[*ordered_trees(n)] for n in range(1, order)]
     values = [{t: series.stage(j, branches(t)) for of_size in trees for t in of_size} for j in range(len(b))]

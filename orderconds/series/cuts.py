@@ -1,8 +1,8 @@
-"""Admissible cuts: how a step that follows another meets the trees that the first one grew.
+"""Admissible cuts of trees and forests, over which the series of two steps in sequence is a sum.
 
 A cut of a tree or forest leaves a rest, which holds the roots, and pieces above it. Unordered trees may be
 cut at any edges of which no two lie on one path (Connes and Kreimer 1998; HLW III.1.4, ordered subtrees).
-Ordered forests are cut so that at every vertex, and among the roots, the branches cut off stand leftmost and
+Ordered forests are cut so that at every vertex, and among the roots, the branches cut off are leftmost and
 form one piece (left admissible cuts: Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 """
 

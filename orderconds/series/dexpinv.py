@@ -101,7 +101,7 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return what dexpinv makes of a letter k_j between two words of so many letters, None for zero."""
+        """Return the coefficient that dexpinv gives a letter k_j between two words, None for zero."""
         values = None
         for q, m, n in self._present(before, behind):
             if m and n:
@@ -115,7 +115,7 @@ class DexpinvSeries:
         return values
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms u^n k u^m of dexpinv that see a letter between words of so many letters.
+        """Return the terms u^n k u^m of dexpinv that contribute to a letter between words of these lengths.
 
         ad_u^k x = sum comb(k, m) (-1)^m u^(k-m) x u^m, and u^m, rightmost, acts first. A word is in u^m only
         if it has m letters at least, and the empty one in u^0 alone.

@@ -19,7 +19,7 @@ from orderconds.words.shuffle import Word
 class ProductOfExponentials:
     """Values on words of ``count`` exponentials; ``letter(J, k)`` is the coefficient of letter k in X_J.
 
-    None stands for a coefficient that is zero by construction.
+    None means a coefficient that is zero by construction.
 
     >>> from orderconds.ring import QQ
     >>> strang = [(1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))]

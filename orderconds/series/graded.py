@@ -68,7 +68,7 @@ class GradedAlgebra:
         return result
 
     def cut(self, x: Mapping[Word, Element], limit: int) -> Polynomial:
-        """Return x without what is above a grade."""
+        """Return x without the words above a grade."""
         return {word: value for word, value in x.items() if self.grade(word) <= limit}
 
 

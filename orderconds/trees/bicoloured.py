@@ -1,6 +1,6 @@
 """Rooted trees with vertices of two colours: the trees of P-series (HLW III.2.1).
 
-Colour 0 (black) stands for the first part y of a partitioned system, colour 1 (white) for the second, z.
+Colour 0 (black) belongs to the first part y of a partitioned system, colour 1 (white) to the second, z.
 Encoding: bytes in preorder, ``2 level + colour``, branches in falling order. Apart from the colour of
 the root this is that of :mod:`orderconds.trees.directed`: an edge that leads to a white vertex carries
 the second method's coefficient.
@@ -57,7 +57,7 @@ def alternating(colour: int, tree: Tree) -> BicolouredTree:
 
 
 def canonical(tree: BicolouredTree) -> BicolouredTree:
-    """Return the encoding whose branches stand in falling order at every vertex.
+    """Return the encoding whose branches are in falling order at every vertex.
 
     >>> canonical(bytes((0, 2, 3))) == canonical(bytes((0, 3, 2)))
     True

@@ -25,7 +25,7 @@ def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
 
 
 def rooted_tree_count(vertices: int, kinds: int = 1) -> int:
-    """Count rooted trees whose edges are of so many kinds (A000081; A000151 for two kinds).
+    """Count rooted trees whose edges are of ``kinds`` kinds (A000081; A000151 for two kinds).
 
     >>> [rooted_tree_count(n) for n in range(1, 9)], [rooted_tree_count(n, kinds=2) for n in range(1, 7)]
     ([1, 1, 2, 4, 9, 20, 48, 115], [1, 2, 7, 26, 107, 458])

@@ -1,8 +1,9 @@
 """Hall bases of free Lie algebras with any grading, and the rewriting of brackets in them.
 
-Brackets are ordered by weight, then as they are found. A bracket [x, y] of basis elements belongs to the
-basis iff x < y, and y is a letter or y = [y', y''] with y' <= x (M. Hall, Proc. AMS 1 (1950) 575; Bourbaki,
-Lie Groups and Lie Algebras, II.2.11). Other brackets are rewritten by antisymmetry and Jacobi's identity.
+Brackets are ordered by weight, then by the order of their construction. A bracket [x, y] of basis elements
+belongs to the basis iff x < y, and y is a letter or y = [y', y''] with y' <= x (M. Hall, Proc. AMS 1 (1950)
+575; Bourbaki, Lie Groups and Lie Algebras, II.2.11). Other brackets are rewritten by antisymmetry and
+Jacobi's identity.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ Coordinates = dict[Bracket, Fraction]
 class HallBasis:
     """The Hall basis of the free Lie algebra on ``letters``, to a weight.
 
-    ``letters`` stand in rising order; ``weigh`` gives each its weight, a positive integer.
+    ``letters`` are in rising order; ``weigh`` gives each its weight, a positive integer.
 
     >>> HallBasis("AB", 4).of_weight(4)
     (('A', ('A', ('A', 'B'))), ('B', ('A', ('A', 'B'))), ('B', ('B', ('A', 'B'))))

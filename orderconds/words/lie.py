@@ -2,7 +2,7 @@
 
 The standard bracketing of a Lyndon word w is w plus greater words of the same letters, so that coordinates
 follow from the coefficients of Lyndon words by forward substitution (Reutenauer, Free Lie Algebras, Thm
-5.1). Here a product xy is the word xy; words in the order of action are products read backwards
+5.1). In this module a product xy is the word xy; words in the order of action are products read backwards
 (:func:`backwards`).
 """
 

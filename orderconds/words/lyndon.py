@@ -20,7 +20,7 @@ def lyndon_words(
 ) -> Iterator[tuple[Letter, ...]]:
     """Yield the Lyndon words of exactly this weight, in lexicographic order.
 
-    ``letters`` stand in rising order; ``weigh`` gives each its weight, a positive integer, in any order.
+    ``letters`` are in rising order; ``weigh`` gives each its weight, a positive integer, in any order.
 
     >>> ["".join(word) for word in lyndon_words("AB", 4)]
     ['AAAB', 'AABB', 'ABBB']
@@ -73,7 +73,7 @@ def lyndon_factors(
 
 
 def is_lyndon(word: Sequence[Letter], key: Callable[[Letter], Ordered] | None = None) -> bool:
-    """Tell whether a word is a Lyndon word; the empty word is none.
+    """Say whether a word is a Lyndon word; the empty word is none.
 
     >>> is_lyndon("AAB"), is_lyndon("ABAB")
     (True, False)

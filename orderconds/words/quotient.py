@@ -32,7 +32,7 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # Pivots are taken from the left: what stands at the right stays free, and names a functional.
+        # Pivots are taken from the left, so that the words at the right stay free and name functionals.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)
