@@ -98,7 +98,7 @@ def modified_equation(
     Raises :class:`~orderconds.errors.InputError` for another family, for a tableau that the family does not
     read, for an order below 1, and for a modifying equation of a Lie-Butcher series.
 
-    >>> from orderconds.check import read
+    >>> from orderconds.checking import read
     >>> for term in modified_equation(read("euler"), 3).terms:
     ...     print(term.order, term.coefficient, term.name)
     1 1 f

@@ -42,7 +42,7 @@ def command(tableau: str, order: int, family: str | None, modifying: bool, as_js
         orderconds modified euler --order 4 --modifying
     """
     from orderconds.backward_error import modified_equation
-    from orderconds.check import read
+    from orderconds.checking import read
 
     method = read(tableau)
     with screen.working(f"expanding {method.name} to order {order}"):

@@ -65,7 +65,7 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Da
 
 def _computed_order(tableau: Tableau) -> int:
     """Return the order of the embedded weights on vector spaces, at least 1 as files require."""
-    from orderconds.check import family_order
+    from orderconds.checking import family_order
     from orderconds.families import get
 
     lower = tableau.lower()

@@ -116,7 +116,7 @@ class Tower:
         return root
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Algebraic:
-        """Return the one real root of ``minpoly`` (ascending) within ``unit`` of ``near``, with symbol ``name``.
+        """Return the one real root of ``minpoly`` (ascending) within ``unit`` of ``near``.
 
         Raises ValueError where there is not exactly one, :class:`DegreeError`.
         """

@@ -8,7 +8,7 @@ import pytest
 
 from orderconds import families
 from orderconds.backward_error import ModifiedEquation, modified_equation
-from orderconds.check import read
+from orderconds.checking import read
 from orderconds.errors import InputError
 from orderconds.series.characters import ORDERED, Character
 from orderconds.series.modified_equations import modified_field
