@@ -16,18 +16,13 @@ from msgspec import Struct
 from orderconds.errors import InputError, TableauError
 from orderconds.input_file import read_bytes
 from orderconds.tableau.evaluate import Definition, NamedRoot, evaluate
+from orderconds.tableau.file_format import Claim, CutoffClaim, Format, Number, ProofEntry, RootEntry
 from orderconds.tableau.formats import (
     FORMATS,
-    Claim,
     CommutatorFreeFile,
-    CutoffClaim,
     EmbeddedEntry,
     EmbeddedProduct,
-    Format,
     LowStorage,
-    Number,
-    ProofEntry,
-    RootEntry,
     StageEntry,
 )
 from orderconds.tableau.grammar import Chain, Constant, Expression, parse
