@@ -10,7 +10,7 @@ from typing import Any
 from codegen.artifact import MANIFEST, Artifact, entries_of, manifest_text, write_text
 from codegen.emitter import compile_method, emit_compiled
 from orderconds.errors import InputError
-from orderconds.input_file import MAX_WRITTEN_BYTES, content_of, read_text
+from orderconds.input_file import read_text
 
 LIST = Path(__file__).with_name("regenerate.toml")
 KEYS = ("scene", "method", "targets")
