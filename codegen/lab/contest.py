@@ -20,6 +20,7 @@ from typing import Any, Protocol
 from codegen.build import compile_files, find_compiler
 from codegen.certify import certified_order
 from codegen.emitter import Compiled, compile_method
+from codegen.ir.operations import Operation
 from codegen.ir.program import Assign
 from codegen.lab.distance import distance
 from codegen.lab.peers import TOLERANCES, Peer, PeerFailed
@@ -40,12 +41,6 @@ COUNTED = 1e-3
 
 NEAR_ROUNDING = 1e-9
 """Errors below this, relative to the state, may stand still because of rounding."""
-
-EVALUATIONS = frozenset({"field", "fieldt", "hamilton", "hamiltont", "force", "forcet", "differential"})
-"""Operations that evaluate a scene; in the body frame a velocity and a force make one evaluation."""
-
-EXPONENTIALS = frozenset({"exp", "actexp", "flow", "flowt", "flowfor", "flowtfor"})
-
 
 @dataclass(frozen=True)
 class Row:
@@ -212,23 +207,23 @@ class EmittedContestant:
             seconds=times[0] if times else None,
             spread=times[-1] / times[0] - 1 if times and times[0] else None,
             ns_per_step=1e9 * times[0] / steps if times else None,
-            evaluations=None if failure else self._count(EVALUATIONS, steps, sweeps),
-            exponentials=None if failure else self._count(EXPONENTIALS, steps, sweeps),
+            evaluations=None if failure else self._count(lambda o: o.evaluates_scene, steps, sweeps),
+            exponentials=None if failure else self._count(lambda o: o.exponentials, steps, sweeps),
             iterations=None if failure else sum(sweeps),
             emission_seconds=self.emission_seconds,
             compile_seconds=self.compile_seconds,
             failure=failure,
         )
 
-    def _count(self, names: frozenset[str], steps: int, sweeps: Sequence[int]) -> int:
+    def _count(self, cost: Callable[[Operation], int], steps: int, sweeps: Sequence[int]) -> int:
         """Return how often operations are executed: once a step outside blocks, once a sweep inside."""
         total, block = 0, 0
         parts = steps * max(1, len(self.compiled.program.substeps))
         for statement in self.compiled.program.body:
             if isinstance(statement, Assign):
-                total += parts * (statement.operation.name in names)
+                total += parts * cost(statement.operation)
                 continue
-            inside = sum(a.operation.name in names for a in statement.body)
+            inside = sum(cost(a.operation) for a in statement.body)
             total += inside * sweeps[block]
             block += 1
         return total

@@ -13,7 +13,7 @@ from typing import Any
 
 from codegen.groups import LieGroup, Product
 from codegen.groups.capabilities import MatrixElements
-from codegen.ir.program import Kind
+from codegen.ir.values import Kind
 from codegen.scene.problem import Problem
 
 

@@ -9,7 +9,7 @@ from typing import Any
 from codegen.groups import LeftMultiplication
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr
-from codegen.ir.program import Kind
+from codegen.ir.values import Kind
 from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import Problem
 

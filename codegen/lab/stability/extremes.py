@@ -25,7 +25,7 @@ from typing import Any
 from codegen.emitter import Compiled
 from codegen.ir.domain import FloatDomain, NotConverged, PreciseDomain
 from codegen.ir.interpret import flatten, interpret
-from codegen.ir.program import Kind
+from codegen.ir.values import Kind
 from codegen.lab.runner import Emitted
 from codegen.loader import InterpretedIntegrator, StepFailed
 from codegen.lower import problem_for
