@@ -99,11 +99,13 @@ def long_run(
             reversals = _reversals(runner, found, h)
         except StepFailed as failed:
             failure = f"in the run back, {failed}"
+    middle = len(found.states) // 2
     symplectic = None
     if scene.is_hamiltonian and not failure:
         with suppress(NotConverged):
-            symplectic = symplectic_defect(compiled, found.states[len(found.states) // 2], h)
-    conserved = tuple(exactly_conserved(compiled, runner.initial, first, h))
+            symplectic = symplectic_defect(compiled, found.states[middle], h)
+    starts = [(first, runner.initial), (found.times[middle], found.states[middle])]
+    conserved = tuple(exactly_conserved(compiled, starts, h))
     growth: tuple[Growth, ...] = ()
     if rounding and not failure:
         growth = rounding_growth(compiled, h, min(steps, ROUNDING_STEPS))

@@ -1,4 +1,4 @@
-"""Advice follows needs: what a method has is derived, and the fastest that has it is named."""
+"""Recommendations: properties are derived, and the fastest method that meets a requirement is named."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import pytest
 from codegen.emitter import compile_method, emit_compiled
 from codegen.lab.efficiency.work_precision import Row
 from codegen.lab.efficiency.requirements import DECADES, NEEDS, Features, advise, features, is_symplectic
-from codegen.lab.survey import OF_FIELDS, usual
+from codegen.lab.default_methods import REPORT_FIELDS, report_methods
 from codegen.scenes import load
 
 
@@ -25,9 +25,11 @@ def run(label: str, error: float, seconds: float, target: str = "c") -> Row:
         ("linear_oscillator", "rk:rk4", False),
         ("linear_oscillator", "splitting:strang", True),
         ("free_rigid_body", "cf:cf4", False),
+        ("duffing", "rk:gauss1", False),
+        ("duffing", "discrete_gradient:midpoint", False),
     ],
 )
-def test_what_is_symplectic_follows_from_family_group_and_tableau(scene, method, expected):
+def test_symplecticity_follows_from_family_group_and_tableau(scene, method, expected):
     assert is_symplectic(compile_method(scene, method)) is expected
 
 
@@ -44,7 +46,7 @@ def test_features_are_those_of_the_emitted_step(method, on_manifold, explicit):
     assert found.lines == emission.files[f"{emission.manifest['module']}.c"].count("\n")
 
 
-def test_the_fastest_that_has_what_is_needed_is_named():
+def test_the_fastest_method_that_meets_a_requirement_is_named():
     flat = Features("flat", False, False, True, False, 100, 10)
     kept = Features("kept", True, True, False, False, 100, 10)
     entries = {
@@ -60,11 +62,11 @@ def test_the_fastest_that_has_what_is_needed_is_named():
     assert found["explicit"] == (("flat", 1.0), ("flat", 1.0), None, None)
     assert found["embedded target"] == found["explicit"]
     assert found["adaptive"] == nothing
-    assert found["a peer, to compare"] == (("peer", 0.1),) * 4
+    assert found["a peer, for comparison"] == (("peer", 0.1),) * 4
     assert [a.need for a in advise({}, ())] == [need.name for need in NEEDS]
 
 
-def test_what_is_usual_has_its_order_on_the_scene():
-    methods, choosing = usual(load("free_rigid_body"))
-    assert [m.label for m in methods] == list(OF_FIELDS)
-    assert all(m.adaptive and m.embedded() is not None for m in choosing)
+def test_default_methods_have_their_order_on_the_scene():
+    methods, controlled = report_methods(load("free_rigid_body"))
+    assert [m.label for m in methods] == list(REPORT_FIELDS)
+    assert all(m.adaptive and m.embedded() is not None for m in controlled)

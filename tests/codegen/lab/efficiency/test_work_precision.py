@@ -1,4 +1,4 @@
-"""Benches: rows tell what was run, counts follow from the program, failures are rows, refinements end."""
+"""Benches: rows describe the runs, counts follow from the program, failures are rows, refinement ends."""
 
 from __future__ import annotations
 
@@ -15,16 +15,18 @@ from click.testing import CliRunner
 
 from codegen import scenes
 from codegen.commands.bench import command
-from codegen.lab import adaptive, contest, timing
+from codegen.lab import timing
+from codegen.lab.efficiency import adaptive_candidate, emitted_candidate, peer_candidate
 from codegen.lab.efficiency.adaptive_candidate import AdaptiveCandidate
 from codegen.lab.efficiency.bench import Bench, bench, table
-from codegen.lab.efficiency.work_precision import Candidate, EmittedCandidate, Row
-from codegen.lab.journal import Journal
+from codegen.lab.efficiency.emitted_candidate import EmittedCandidate
+from codegen.lab.efficiency.work_precision import Candidate, Row, measure_rows
+from codegen.lab.measurement_cache import MeasurementCache
 from codegen.lab.peers import PeerFailed, Prepared, find
 from codegen.lab.efficiency.ranking import places, seconds_to
 from codegen.lab.reference import Reference
 from codegen.lab.reference import cached_reference
-from codegen.lab.orders.order_study import methods_for
+from codegen.lab.default_methods import methods_for
 from orderconds.errors import InputError
 
 FIELDS = {"scene", "method", "target", "h", "steps", "error", "seconds", "ns_per_step", "evaluations"}
@@ -35,9 +37,10 @@ FIELDS = {"scene", "method", "target", "h", "steps", "error", "seconds", "ns_per
 def _short_samples() -> Iterator[None]:
     """Times of a bench are coarse here: nothing but their order of magnitude is looked at."""
     with pytest.MonkeyPatch.context() as patch:
-        for module in (contest, adaptive):
+        for module in (emitted_candidate, adaptive_candidate, peer_candidate):
             patch.setattr(module, "samples", partial(timing.samples, batch=2e-4, batches=2))
-        patch.setattr(contest, "cost", partial(timing.cost, batch=2e-4, batches=2))
+        for module in (emitted_candidate, peer_candidate):
+            patch.setattr(module, "cost", partial(timing.cost, batch=2e-4, batches=2))
         yield
 
 
@@ -105,12 +108,10 @@ def test_an_interrupted_bench_measures_only_what_is_missing(tmp_path: Path) -> N
 
     with pytest.raises(Cut):
         start().run(interrupted)
-    journal = tmp_path / ".free_rigid_body.journal"
-    with journal.open("a") as stream:
-        stream.write('{"key": "cut o')  # the line that a killed process leaves
+    stored = tmp_path / ".free_rigid_body.measured"
     result = start().run(str)
     assert result.rows[:4] == tuple(heard)
-    assert not journal.exists()
+    assert not stored.exists()
     assert sorted(p.name for p in tmp_path.iterdir()) == [
         "free_rigid_body.csv",
         "free_rigid_body.json",
@@ -119,17 +120,61 @@ def test_an_interrupted_bench_measures_only_what_is_missing(tmp_path: Path) -> N
     assert len(json.loads((tmp_path / "free_rigid_body.json").read_text())) == len(result.rows)
 
 
-def test_a_journal_does_not_answer_for_other_code(tmp_path: Path, body: Bench, rows: tuple[Row, ...]) -> None:
-    journal = Journal(tmp_path / "journal")
-    candidate = body.candidates[0]
-    journal.keep(candidate, body.exact, rows[0])
-    again = Journal(tmp_path / "journal")
-    assert again.known(candidate, body.exact, rows[0].control) == rows[0]
-    assert again.known(body.candidates[1], body.exact, rows[0].control) is None
-    assert isinstance(candidate, EmittedCandidate)
-    changed = EmittedCandidate(candidate.scene, candidate.method, body.exact)
+def test_rows_of_other_code_are_not_reused(tmp_path: Path, body: Bench) -> None:
+    cache, done = MeasurementCache(tmp_path / "rows"), list[Row]()
+    (first, second) = (c for c in body.candidates if isinstance(c, EmittedCandidate))
+
+    def rows(candidate: Candidate) -> tuple[Row, ...]:
+        return measure_rows(candidate, body.scene.name, body.exact, cache, done.append)
+
+    found = rows(first)
+    assert rows(first) == found
+    changed = EmittedCandidate(first.scene, first.method, body.exact, budget=first.budget)
     changed.key = "other bytes"
-    assert again.known(changed, body.exact, rows[0].control) is None
+    for other in (second, changed):
+        assert set(rows(other)).isdisjoint(found)
+
+
+class Refusing:
+    """A peer that refuses every scene."""
+
+    name, controlled, version = "refusing", "tolerance", "1"
+
+    def __init__(self, error: Exception) -> None:
+        self.error = error
+
+    def prepare(self, scene: object, control: float) -> Prepared:
+        raise self.error
+
+
+@pytest.mark.parametrize(
+    ("error", "reason"),
+    [(InputError("no projection"), "no projection"), (RuntimeError("broken"), "RuntimeError: broken")],
+)
+def test_a_peer_that_refuses_is_one_row_and_the_others_go_on(
+    body: Bench, error: Exception, reason: str
+) -> None:
+    peer = peer_candidate.PeerCandidate(body.scene, Refusing(error), body.exact, 0.0005)  # type: ignore[arg-type]
+    result = replace(body, candidates=(peer, body.candidates[0])).run(str)
+    refused, *others = result.rows
+    assert (refused.method, refused.error, refused.failure) == ("refusing", None, reason)
+    assert {r.method for r in others} == {"rkmk:rk4"}
+    assert any(r.error is not None for r in others)
+
+
+def test_a_method_that_cannot_be_emitted_is_a_row_with_the_reason(monkeypatch: pytest.MonkeyPatch) -> None:
+    compile_method = emitted_candidate.compile_method
+
+    def refuse(scene: object, method: object) -> object:
+        if getattr(method, "label", "") == "cf:cf4":
+            raise InputError("no lowering")
+        return compile_method(scene, method)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(emitted_candidate, "compile_method", refuse)
+    match = bench("free_rigid_body", ["cf:cf4", "rkmk(0):euler"], ["c"], [], 0.0005, None, str)
+    rows = match.run(str).rows
+    assert [(r.method, r.failure) for r in rows if r.failure] == [("cf:cf4", "no lowering")]
+    assert any(r.method == "rkmk(0):euler" and r.error is not None for r in rows)
 
 
 def test_a_run_that_fails_is_a_row_with_its_reason() -> None:
@@ -221,7 +266,7 @@ def test_a_method_that_chooses_its_steps_stands_beside_those_of_equal_steps() ->
         assert row.steps is not None
         assert row.h == 2.0 / row.steps
         assert (row.evaluations or 0) >= 4 * row.steps
-        assert row.seconds
+        assert row.seconds is not None
 
 
 @pytest.fixture

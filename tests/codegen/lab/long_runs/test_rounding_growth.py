@@ -14,7 +14,7 @@ from codegen.ir.expr import evaluate
 from codegen.ir.kernel import Kernel
 from codegen.lab.long_runs.compensated import CARRY, Increments, compensated, with_carries
 from codegen.lab.invariants import MANIFOLD, functions
-from codegen.lab.long_runs.rounding_growth import RUNGS, STARTS, _growth, roundoff
+from codegen.lab.long_runs.rounding_growth import TIMES, STARTS, _growth, rounding_growth
 from codegen.lab.runner import Emitted
 from codegen.loader import load
 
@@ -85,13 +85,13 @@ def test_substeps_are_compensated_one_by_one():
 def test_compensation_loses_a_tenth_at_most(scene, method):
     compiled = compile_method(scene, method)
     h = float((compiled.scene.span[1] - compiled.scene.span[0]) / 100)
-    plain, carried = roundoff(compiled, h, 4096)
+    plain, carried = rounding_growth(compiled, h, 4096)
     assert (plain.compensated, carried.compensated) == (False, True)
     assert plain.quantity == carried.quantity
     assert plain.sizes[-1] > 10 * carried.sizes[-1]
     assert carried.sizes[-1] < 4e-15
     assert plain.steps[-1] == 4096
-    assert len(plain.steps) == RUNGS
+    assert len(plain.steps) == TIMES
 
 
 def test_a_compensated_run_stays_beside_the_plain_one():
@@ -105,7 +105,7 @@ def test_a_compensated_run_stays_beside_the_plain_one():
 
 @pytest.mark.parametrize(("exponent", "law"), [(0.5, "random walk"), (1.0, "systematic"), (0.0, "bounded")])
 def test_laws_are_told_apart(exponent, law):
-    counts = [2**k for k in range(4, 4 + RUNGS)]
+    counts = [2**k for k in range(4, 4 + TIMES)]
     draw = random.Random(5)
     members = []
     for _ in range(STARTS):

@@ -159,10 +159,10 @@ FRAUDS = {
 
 @pytest.mark.parametrize("name", sorted(FRAUDS))
 def test_a_fraud_is_reported_as_failing_with_the_order_it_has(name: str, exact: Exact) -> None:
-    spelling, spoil, claimed, real = FRAUDS[name]
+    spelling, alter, claimed, real = FRAUDS[name]
     good = parse_for(load("free_rigid_body"), spelling)
     assert measure(exact, "free_rigid_body", good, claimed).verdict == "holds"
-    found = measure(exact, "free_rigid_body", spoil(good), claimed)
+    found = measure(exact, "free_rigid_body", alter(good), claimed)
     assert found.verdict == "fails", found.sentence()
     assert replace(found, stated=CertifiedOrder(real, "exact")).verdict == "holds", found.sentence()
 

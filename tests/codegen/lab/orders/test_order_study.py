@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from codegen.lab.runner import RunFailed
-from codegen.lab.orders.order_study import COMPARED, _spread
+from codegen.lab.orders.order_study import COMPARED, largest_difference
 
 
 @dataclass
@@ -25,17 +25,17 @@ class Runner:
 def test_the_first_run_of_the_ladder_that_is_long_enough_is_taken() -> None:
     runners: Any = (Runner(80), Runner(80, 0.25), Runner(80, -0.5))
     assert COMPARED < 80
-    assert _spread(runners, (5, 80, 160)) == 0.5
-    assert _spread(runners[:1] * 3, (160,)) == 0
+    assert largest_difference(runners, (5, 80, 160)) == 0.5
+    assert largest_difference(runners[:1] * 3, (160,)) == 0
 
 
 def test_where_nothing_ran_there_is_nothing_to_compare() -> None:
     runners: Any = (Runner(80),) * 3
-    assert _spread(runners, ()) is None
-    assert _spread(runners, (COMPARED - 1,)) is None
+    assert largest_difference(runners, ()) is None
+    assert largest_difference(runners, (COMPARED - 1,)) is None
 
 
 def test_steps_that_one_executor_cannot_make_are_halved() -> None:
     runners: Any = (Runner(80), Runner(300, 0.25))
-    assert _spread(runners, (80, 160, 320, 640)) == 0.25
-    assert _spread(runners, (80, 160)) is None
+    assert largest_difference(runners, (80, 160, 320, 640)) == 0.25
+    assert largest_difference(runners, (80, 160)) is None

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from codegen.lab.orders.step_sizes import FIRST, Refinement, Run, climb, rounding
+from codegen.lab.orders.step_sizes import FIRST, Refinement, Run, refine, rounding
 
 
 def errors(order: float, bend: float = 0.0, size: float = 1.0, count: int = 12) -> Refinement:
@@ -24,7 +24,7 @@ def test_a_settled_ladder_holds_exactly_when_the_order_is_the_stated_one(
     def run(n: int) -> Run:
         return Run(n, 1 / n, abs(size * n**-order * (1 + bend / n)))
 
-    refinement = climb(run, 10**5)
+    refinement = refine(run, 10**5)
     assert refinement.settled
     assert refinement.verdict(stated) == ("holds" if order == stated else "fails")
 
@@ -82,8 +82,8 @@ def test_a_climb_stops_where_rounding_begins_and_where_patience_ends() -> None:
         error = n**-6.0 * (1 + 4 / n)
         return Run(n, 1 / n, error, "rounding" if error < 100 * rounding(n, 2.0**-52, 1) else "")
 
-    assert climb(run, 10**6).runs[-1].steps <= 160
-    assert [r.steps for r in climb(lambda n: Run(n, 1 / n, math.exp(-n)), 50).runs] == [5, 10, 20, 40]
+    assert refine(run, 10**6).runs[-1].steps <= 160
+    assert [r.steps for r in refine(lambda n: Run(n, 1 / n, math.exp(-n)), 50).runs] == [5, 10, 20, 40]
 
 
 @pytest.mark.parametrize(("order", "size"), [(6, 5e-4), (8, 1e-2), (10, 1.0)])
@@ -94,7 +94,7 @@ def test_a_high_order_that_meets_rounding_soon_is_decided_by_runs_in_between(ord
 
     doubled = Refinement(tuple(run(FIRST * 2**k) for k in range(4)))
     assert doubled.verdict(order) == "undecided"
-    refinement = climb(run, 10**6, to_rounding=True)
+    refinement = refine(run, 10**6, to_rounding=True)
     assert refinement.verdict(order) == "holds"
     assert refinement.verdict(order - 1) == refinement.verdict(order + 1) == "fails"
     assert [r.steps for r in refinement.runs] == sorted({r.steps for r in refinement.runs})
@@ -105,6 +105,6 @@ def test_a_run_that_failed_does_not_end_the_climb() -> None:
         failed = 10 <= n < 40
         return Run(n, 1 / n, math.inf if failed else float(n) ** -2, "no run" if failed else "")
 
-    refinement = climb(run, 10**4)
+    refinement = refine(run, 10**4)
     assert [r.steps for r in refinement.clean] == [40, 80, 160, 320]
     assert refinement.verdict(2) == "holds"

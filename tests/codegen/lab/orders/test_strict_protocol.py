@@ -26,9 +26,9 @@ def method(spelling: str) -> Method:
     return parse(spelling, tuple(LOWERINGS))
 
 
-def verdicts(spelling: str, stated: int | None = None, spoil: Callable[[Optimised], Optimised] = lambda c: c):
+def verdicts(spelling: str, stated: int | None = None, alter: Callable[[Optimised], Optimised] = lambda c: c):
     chosen = method(spelling)
-    return {c.scene: c for c in strict(chosen, stated_order(chosen, stated), spoil=spoil)}
+    return {c.scene: c for c in strict(chosen, stated_order(chosen, stated), alter=alter)}
 
 
 @pytest.mark.parametrize("spelling", ["rkmk(2):rk4", "rkmk:rk4", "cg:cg3", "cf:cf4", "rkmk(0):euler"])
@@ -47,13 +47,13 @@ def test_variational_methods_pass_on_every_hamiltonian(spelling):
 
 
 def altered(change: Callable[[Assign], Assign]) -> Callable[[Optimised], Optimised]:
-    def spoil(made: Optimised) -> Optimised:
+    def alter(made: Optimised) -> Optimised:
         body = tuple(change(s) if isinstance(s, Assign) else s for s in made.program.body)
         program: Program = replace(made.program, body=body)
         assert program != made.program
         return replace(made, program=program)
 
-    return spoil
+    return alter
 
 
 def frozen(assign: Assign) -> Assign:
@@ -77,8 +77,8 @@ CONTROLS = {
 
 @pytest.mark.parametrize("fault", CONTROLS)
 def test_every_fault_is_caught_on_every_scene_with_the_order_it_has(fault):
-    spelling, stated, real, spoil = CONTROLS[fault]
-    found = verdicts(spelling, stated, spoil or (lambda c: c))
+    spelling, stated, real, alter = CONTROLS[fault]
+    found = verdicts(spelling, stated, alter or (lambda c: c))
     for scene, result in found.items():
         assert result.verdict == "fails", (fault, scene, result.sentence())
         assert result.stated.order > real

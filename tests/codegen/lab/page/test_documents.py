@@ -15,7 +15,7 @@ from codegen.lab.page.documents import page_name, render, render_overview
 from codegen.lab.measurements.orders import agreement
 from codegen.lab.stability.endurance import Endurance
 from codegen.lab.stability.extreme_steps import SILENT, WRONG
-from codegen.lab.stability.order_reduction import Stiff
+from codegen.lab.stability.order_reduction import OrderReduction
 from codegen.lab.survey import Effort, Survey, plan, survey
 from codegen.lab.timing import Timing
 from codegen.scenes import load
@@ -158,7 +158,7 @@ def test_a_part_that_was_not_asked_for_has_no_section(found: Survey) -> None:
 
 def test_harsh_variants_long_runs_and_wrong_answers_are_told(found: Survey) -> None:
     (one, *others) = found.stability
-    spin = Stiff("stiff spin", 2e3, 4, ((0.1, 1e-2, ""),), 2.0, "order reduction 4 to 2.0")
+    spin = OrderReduction("stiff spin", 2e3, 4, ((0.1, 1e-2, ""),), 2.0, "order reduction 4 to 2.0")
     ended = Endurance("onwards", 10_000_000, 1e-12, None)
     bad = replace(one.answers[0], verdict=f"{WRONG}: an answer that is not finite")
     told = replace(

@@ -19,8 +19,8 @@ from codegen.lab.stability.endurance import Endurance, endure
 from codegen.lab.stability.stiff_variants import body, spin
 from codegen.lab.stability.largest_step import largest_step
 from codegen.lab.stability.linear_stability import reach, region
-from codegen.lab.stability.order_reduction import order_left
-from codegen.lab.orders.order_study import methods_for
+from codegen.lab.stability.order_reduction import order_reduction
+from codegen.lab.default_methods import methods_for
 
 
 def method(scene, spelling):
@@ -67,11 +67,11 @@ def test_an_interval_ends_where_the_function_leaves_the_disk():
 
 def test_order_is_lost_on_a_thin_body_and_kept_by_nothing_that_is_resolved():
     harsh = body(10**6)
-    left = order_left(harsh, method("free_rigid_body", "cf:cf4"), cached_reference(harsh.scene))
+    left = order_reduction(harsh, method("free_rigid_body", "cf:cf4"), cached_reference(harsh.scene))
     assert left.stated == 4
     assert "order reduction 4 to" in left.verdict
     gentle = body(10)
-    kept = order_left(gentle, method("free_rigid_body", "cf:cf4"), cached_reference(gentle.scene))
+    kept = order_reduction(gentle, method("free_rigid_body", "cf:cf4"), cached_reference(gentle.scene))
     assert "order reduction" not in kept.verdict
 
 
@@ -79,7 +79,7 @@ def test_the_stiff_spin_answers_at_every_step_size():
     """Explicit methods find the solution where h times 2000 is near one; a tenth of the span shows it."""
     harsh = spin()
     harsh = replace(harsh, scene=replace(harsh.scene, span=(0, Fraction(1, 10))))
-    left = order_left(harsh, method("driven_spin", "rkmk:rk4"), cached_reference(harsh.scene))
+    left = order_reduction(harsh, method("driven_spin", "rkmk:rk4"), cached_reference(harsh.scene))
     assert len(left.runs) > 10
     assert all(error is not None or "finite" in why for _, error, why in left.runs)
     usable = [h for h, error, _ in left.runs if error is not None and error < 1e-3]
@@ -90,10 +90,10 @@ def test_many_steps_keep_the_manifold_and_a_status_ends_those_that_do_not(monkey
     monkeypatch.setattr("codegen.lab.stability.endurance.MANY", 100_000)
     monkeypatch.setattr("codegen.lab.stability.endurance.BACK", 1000)
     made = compile_method("dipole", "cf:cf4")
-    onwards, back = endure(made, Emitted(made, "c"))
-    assert onwards.held
-    assert onwards.defect is not None
-    assert onwards.defect < 1e-11
+    forward, back = endure(made, Emitted(made, "c"))
+    assert forward.held
+    assert forward.defect is not None
+    assert forward.defect < 1e-11
     assert back.returned is not None
     ambient = compile_method("dipole", "ambient:rk4")
     off, _ = endure(ambient, Emitted(ambient, "c"))
@@ -101,9 +101,9 @@ def test_many_steps_keep_the_manifold_and_a_status_ends_those_that_do_not(monkey
 
 
 def test_a_run_off_the_manifold_does_not_hold():
-    assert not Endurance("onwards", 1000, 1e-6, None).held
-    assert Endurance("onwards", 1000, 1e-14, None).held
-    assert Endurance("onwards", 3, None, None, "step 4: the new state is not finite").held
+    assert not Endurance("forward", 1000, 1e-6, None).held
+    assert Endurance("forward", 1000, 1e-14, None).held
+    assert Endurance("forward", 3, None, None, "step 4: the new state is not finite").held
 
 
 def test_the_command_prints_its_tables_and_needs_one_scene():
