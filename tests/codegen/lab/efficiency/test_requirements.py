@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from codegen.emitter import compile_method, emit_compiled
-from codegen.lab.efficiency.work_precision import Row
-from codegen.lab.efficiency.requirements import DECADES, NEEDS, Features, advise, features, is_symplectic
 from codegen.lab.default_methods import REPORT_FIELDS, report_methods
+from codegen.lab.efficiency.requirements import DECADES, NEEDS, Features, advise, features, is_symplectic
+from codegen.lab.efficiency.work_precision import Row
 from codegen.scenes import load
 
 

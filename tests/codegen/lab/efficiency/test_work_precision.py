@@ -16,17 +16,16 @@ from click.testing import CliRunner
 from codegen import scenes
 from codegen.commands.bench import command
 from codegen.lab import timing
+from codegen.lab.default_methods import methods_for
 from codegen.lab.efficiency import adaptive_candidate, emitted_candidate, peer_candidate
 from codegen.lab.efficiency.adaptive_candidate import AdaptiveCandidate
 from codegen.lab.efficiency.bench import Bench, bench, table
 from codegen.lab.efficiency.emitted_candidate import EmittedCandidate
+from codegen.lab.efficiency.ranking import places, seconds_to
 from codegen.lab.efficiency.work_precision import Candidate, Row, measure_rows
 from codegen.lab.measurement_cache import MeasurementCache
 from codegen.lab.peers import PeerFailed, Prepared, find
-from codegen.lab.efficiency.ranking import places, seconds_to
-from codegen.lab.reference import Reference
-from codegen.lab.reference import cached_reference
-from codegen.lab.default_methods import methods_for
+from codegen.lab.reference import Reference, cached_reference
 from orderconds.errors import InputError
 
 FIELDS = {"scene", "method", "target", "h", "steps", "error", "seconds", "ns_per_step", "evaluations"}

@@ -12,9 +12,9 @@ from codegen.errors import MethodError
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.expr import evaluate
 from codegen.ir.kernel import Kernel
-from codegen.lab.long_runs.compensated import CARRY, Increments, compensated, with_carries
 from codegen.lab.invariants import MANIFOLD, functions
-from codegen.lab.long_runs.rounding_growth import TIMES, STARTS, _growth, rounding_growth
+from codegen.lab.long_runs.compensated import CARRY, Increments, compensated, with_carries
+from codegen.lab.long_runs.rounding_growth import STARTS, TIMES, _growth, rounding_growth
 from codegen.lab.runner import Emitted
 from codegen.loader import load
 

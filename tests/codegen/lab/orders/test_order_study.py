@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from codegen.lab.runner import RunFailed
 from codegen.lab.orders.order_study import COMPARED, largest_difference
+from codegen.lab.runner import RunFailed
 
 
 @dataclass

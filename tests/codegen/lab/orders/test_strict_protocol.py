@@ -14,8 +14,8 @@ from codegen.commands.converge import command
 from codegen.emitter import Optimised
 from codegen.ir.number import Number
 from codegen.ir.program import Assign, Coefficient, Program
-from codegen.lab.orders.strict_scenes import fields, hamiltonians
 from codegen.lab.orders.strict_protocol import stated_order, strict
+from codegen.lab.orders.strict_scenes import fields, hamiltonians
 from codegen.lower import LOWERINGS
 from codegen.method import Method, parse
 

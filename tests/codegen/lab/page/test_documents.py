@@ -8,17 +8,37 @@ from html.parser import HTMLParser
 
 import pytest
 
-from codegen.lab import contest
-from codegen.lab import study as measured
+from codegen.errors import MethodError
+from codegen.lab import subject as subjects
+from codegen.lab.efficiency import emitted_candidate, peer_candidate
 from codegen.lab.efficiency.requirements import NEEDS
+from codegen.lab.measurements.orders import Orders, agreement
+from codegen.lab.measurements.stability import StabilityTests
+from codegen.lab.orders import order_study
 from codegen.lab.page.documents import page_name, render, render_overview
-from codegen.lab.measurements.orders import agreement
+from codegen.lab.registry import selected
+from codegen.lab.scene_results import Measured, SceneResults, measure_scene
 from codegen.lab.stability.endurance import Endurance
 from codegen.lab.stability.extreme_steps import SILENT, WRONG
 from codegen.lab.stability.order_reduction import OrderReduction
-from codegen.lab.survey import Effort, Survey, plan, survey
+from codegen.lab.subject import QUICK, Effort, MethodResults, subject
 from codegen.lab.timing import Timing
 from codegen.scenes import load
+
+
+def part(results: SceneResults, kind):
+    """Return the result of a measurement."""
+    return next(m.result for m in results.measured if isinstance(m.measurement, kind))
+
+
+def with_part(results: SceneResults, kind, *found) -> SceneResults:
+    """Return results with other findings of a measurement."""
+
+    def changed(m: Measured) -> Measured:
+        return replace(m, result=MethodResults(found)) if isinstance(m.measurement, kind) else m
+
+    return replace(results, measured=tuple(map(changed, results.measured)))
+
 
 VOID = {"meta", "br", "hr", "img", "link"}
 
@@ -43,23 +63,25 @@ class Balanced(HTMLParser):
         assert self.open.pop() == tag
 
 
-SHORT = Effort(1.0, ("c-rk4-projected",), 1000, back=True, rounding=True, harsh=False, endurance=False)
+SHORT = Effort(1.0, ("c-rk4-projected",), 1000, back=True, rounding=True, stiff=False, endurance=False)
 
 
 @pytest.fixture(scope="module")
-def found() -> Survey:
+def found() -> SceneResults:
     told: list[str] = []
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(measured, "timings", lambda run, steps: tuple(Timing(n, n * 1e-7) for n in steps))
-        patch.setattr(contest, "samples", lambda call: (1e-4, 2e-4))
+        patch.setattr(order_study, "timings", lambda run, steps: tuple(Timing(n, n * 1e-7) for n in steps))
+        for module in (emitted_candidate, peer_candidate):
+            patch.setattr(module, "samples", lambda call: (1e-4, 2e-4))
         methods = ("cg:cg3", "cf:cf4")
-        result = survey(plan("free_rigid_body", load("free_rigid_body"), methods, effort=SHORT), told.append)
+        planned = subject("free_rigid_body", load("free_rigid_body"), methods, effort=SHORT)
+        result = measure_scene(replace(planned, progress=told.append), selected(()))
     assert "free_rigid_body, cf:cf4: convergence" in told
     return result
 
 
 @pytest.fixture(scope="module")
-def overview(found: Survey) -> str:
+def overview(found: SceneResults) -> str:
     return render_overview([found], "orderconds report free_rigid_body -o DIR")
 
 
@@ -69,7 +91,7 @@ def document(request: pytest.FixtureRequest, page: str, overview: str) -> str:
 
 
 @pytest.fixture(scope="module")
-def page(found: Survey) -> str:
+def page(found: SceneResults) -> str:
     return render(found, "orderconds report free_rigid_body -o DIR")
 
 
@@ -124,31 +146,33 @@ def test_agreement_is_said_in_words(spread: float | None, said: str) -> None:
     assert agreement(spread).replace(".0", "") == said
 
 
-def test_the_executors_agree_to_rounding(found: Survey) -> None:
-    assert all(m.spread is not None and m.spread < 1e-14 for m in found.orders)
+def test_the_executors_agree_to_rounding(found: SceneResults) -> None:
+    assert all(m.spread is not None and m.spread < 1e-14 for m in part(found, Orders).found)
 
 
-def test_the_page_is_the_same_when_the_times_are(page: str, found: Survey) -> None:
+def test_the_page_is_the_same_when_the_times_are(page: str, found: SceneResults) -> None:
     assert render(found, "orderconds report free_rigid_body -o DIR") == page
 
 
-def test_text_of_a_scene_cannot_become_markup(found: Survey) -> None:
+def test_text_of_a_scene_cannot_become_markup(found: SceneResults) -> None:
     wild = replace(found.scene, title="<script>alert(1)</script> & (x)")
-    spoilt = replace(found, plan=replace(found.plan, scene=wild))
+    spoilt = replace(found, subject=replace(found.subject, scene=wild))
     assert "<script" not in render(spoilt, "x") + render_overview([spoilt], "x")
 
 
-def test_the_overview_links_to_the_page_and_names_what_meets_each_need(overview: str, found: Survey) -> None:
+def test_the_overview_links_to_the_page_and_names_each_requirement(
+    overview: str, found: SceneResults
+) -> None:
     assert f'<a href="{page_name(found)}">' in overview
     for need in NEEDS:
         assert need.name in overview
-    assert re.findall(r"Met by none[^<]*", overview) == [
-        "Met by none of the methods here: symplectic, adaptive."
+    assert re.findall(r"No method on this[^<]*", overview) == [
+        "No method on this page meets: symplectic, adaptive."
     ]
 
 
-def test_a_part_that_was_not_asked_for_has_no_section(found: Survey) -> None:
-    only = replace(found, cost=None, advice=(), stability=(), longruns=())
+def test_a_part_that_was_not_asked_for_has_no_section(found: SceneResults) -> None:
+    only = replace(found, measured=tuple(m for m in found.measured if m.name == "orders"))
     short = render(only, "x")
     assert '<section id="orders">' in short
     for part in ("advice", "cost", "stability", "long"):
@@ -156,26 +180,74 @@ def test_a_part_that_was_not_asked_for_has_no_section(found: Survey) -> None:
         assert f'href="#{part}"' not in short
 
 
-def test_harsh_variants_long_runs_and_wrong_answers_are_told(found: Survey) -> None:
-    (one, *others) = found.stability
+def test_stiff_variants_endurance_and_wrong_results_are_shown(found: SceneResults) -> None:
+    (one, *others) = part(found, StabilityTests).found
     spin = OrderReduction("stiff spin", 2e3, 4, ((0.1, 1e-2, ""),), 2.0, "order reduction 4 to 2.0")
-    ended = Endurance("onwards", 10_000_000, 1e-12, None)
-    bad = replace(one.answers[0], verdict=f"{WRONG}: an answer that is not finite")
-    told = replace(
-        one, stiff=(spin,), endurance=(ended,), notes=("no reference",), answers=(bad, *one.answers[1:])
+    ended = Endurance("forward", 10_000_000, 1e-12, None)
+    answers = one.findings.answers
+    bad = replace(answers[0], verdict=f"{WRONG}: a result that is not finite")
+    findings = replace(
+        one.findings, stiff=(spin,), endurance=(ended,), notes=("no reference",), answers=(bad, *answers[1:])
     )
-    page = render(replace(found, stability=(told, *others)), "x")
+    page = render(with_part(found, StabilityTests, replace(one, findings=findings), *others), "x")
     for text in ("<dt>stiff spin</dt>", "order reduction 4 to 2.0", "10000000 steps", "no reference"):
         assert text in page
     assert '<td class="num fails">1</td>' in page
     assert '<td class="num fails">1</td>' not in render(found, "x")
 
 
-def test_an_undetermined_answer_is_told_and_fails_what_asks_for_digits_only(found: Survey) -> None:
-    (one, *others) = found.stability
-    lost = replace(one, answers=(replace(one.answers[0], verdict=SILENT), *one.answers[1:]))
+def test_an_undetermined_result_is_shown_and_fails_only_the_stability_command(found: SceneResults) -> None:
+    (one, *others) = part(found, StabilityTests).found
+    answers = one.findings.answers
+    findings = replace(one.findings, answers=(replace(answers[0], verdict=SILENT), *answers[1:]))
+    lost = replace(one, findings=findings)
     assert lost.honest
     assert not lost.held
-    survey = replace(found, stability=(lost, *others))
-    assert survey.held == found.held
-    assert " + 1 undetermined" in render(survey, "x")
+    results = with_part(found, StabilityTests, lost, *others)
+    assert results.held == found.held
+    assert " + 1 undetermined" in render(results, "x")
+
+
+def test_a_method_that_fails_is_a_row_with_the_reason_and_the_others_are_measured(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    compile_method = subjects.compile_method
+
+    def refuse(scene, method):
+        if method.label == "cf:cf4":
+            raise MethodError("no lowering <here>")
+        return compile_method(scene, method)
+
+    monkeypatch.setattr(subjects, "compile_method", refuse)
+    planned = subject("free_rigid_body", load("free_rigid_body"), ("cf:cf4", "cg:cg3"), effort=QUICK)
+    results = measure_scene(planned, selected(()))
+    assert not results.held
+    page = render(results, "x")
+    for name in ("orders", "cost", "stability", "long"):
+        section = page.partition(f'<section id="{name}">')[2].partition("</section>")[0]
+        assert "cf:cf4" in section
+        assert "no lowering &lt;here&gt;" in section
+        assert "cg:cg3" in section
+    found = results.as_json()
+    for key in ("methods", "stability", "longruns"):
+        assert [(m["method"], m.get("failure") or "") for m in found[key]] == [
+            ("cg:cg3", ""),
+            ("cf:cf4", "no lowering <here>"),
+        ]
+    assert ("cf:cf4", "no lowering <here>") in [(r["method"], r["failure"]) for r in found["cost"]]
+
+
+def test_a_measurement_that_fails_does_not_hide_the_others(
+    found: SceneResults, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(self, subject):
+        raise MethodError("no orders today")
+
+    monkeypatch.setattr(Orders, "run", fail)
+    planned = subject("free_rigid_body", load("free_rigid_body"), ("cg:cg3",), effort=QUICK)
+    results = measure_scene(planned, selected(("orders", "long")))
+    page = render(results, "x")
+    assert "no orders today" in page
+    assert '<section id="long">' in page
+    assert results.as_json()["methods"] == {"failure": "no orders today"}
+    assert not results.held

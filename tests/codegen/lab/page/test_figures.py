@@ -7,7 +7,13 @@ from xml.etree import ElementTree
 
 import pytest
 
-from codegen.lab.page.figures import Curve, convergence_figure, efficiency_figure, growth_figure, region_figure
+from codegen.lab.page.figures import (
+    Curve,
+    convergence_figure,
+    efficiency_figure,
+    growth_figure,
+    region_figure,
+)
 
 CURVES = [
     Curve("cg:cg3", tuple((0.4 / 2**k, 1e-2 * (0.4 / 2**k) ** 3) for k in range(6)), 3),

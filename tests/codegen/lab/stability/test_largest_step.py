@@ -12,15 +12,15 @@ from click.testing import CliRunner
 from codegen import scenes
 from codegen.commands.stability import command
 from codegen.emitter import compile_method
+from codegen.lab.default_methods import methods_for
 from codegen.lab.reference import cached_reference
 from codegen.lab.runner import Emitted
 from codegen.lab.stability import limits
 from codegen.lab.stability.endurance import Endurance, endure
-from codegen.lab.stability.stiff_variants import body, spin
 from codegen.lab.stability.largest_step import largest_step
 from codegen.lab.stability.linear_stability import reach, region
 from codegen.lab.stability.order_reduction import order_reduction
-from codegen.lab.default_methods import methods_for
+from codegen.lab.stability.stiff_variants import body, spin
 
 
 def method(scene, spelling):
