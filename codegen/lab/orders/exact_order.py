@@ -83,7 +83,8 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
     say); :class:`codegen.errors.MethodError` if the coefficients are balls, whose zeros cannot be decided.
     """
     ring = method.ring
-    if ring.is_zero(ring.one - ring.one) is not True:
+    third = ring.rational(1, 3)
+    if ring.is_zero(third - third) is not True:
         raise MethodError(
             f"the coefficients of {method.label} are balls", expected="exact coefficients, for exact zeros"
         )
