@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import click
 
-from orderconds.commands.processes import in_processes
 from orderconds.commands.screen import counting, print_json, print_table
 from orderconds.commands.variadic import Variadic
+from orderconds.processes import in_processes
 
 if TYPE_CHECKING:
     from codegen.lab.stability.stability_study import Stability

@@ -15,8 +15,7 @@ from codegen.artifact import Artifact
 from codegen.emitter import Compiled
 from codegen.lab.efficiency.ranking import seconds_to
 from codegen.lab.efficiency.work_precision import Row
-from codegen.lower import OF_PARTS, ON_COTANGENT
-from orderconds.tableau.properties import symplectic
+from codegen.lower import lowering
 
 DECADES = (3, 6, 9, 12)
 """The accuracies of the recommendations: errors of 10^-decade."""
@@ -49,7 +48,7 @@ def features(compiled: Compiled, emission: Artifact, label: str = "") -> Feature
     found = re.search(r"stack: +at most (\d+) bytes", source)
     return Features(
         label or compiled.method.label,
-        compiled.scene.group.abelian or not compiled.view.group.abelian,
+        compiled.method.kind.keeps_manifold or compiled.scene.group.abelian,
         is_symplectic(compiled),
         not compiled.kernel.loops,
         compiled.method.adaptive,
@@ -61,23 +60,12 @@ def features(compiled: Compiled, emission: Artifact, label: str = "") -> Feature
 def is_symplectic(compiled: Compiled) -> bool:
     """Whether steps of one size are symplectic maps.
 
-    Variational methods and compositions of exact flows are symplectic. Methods for fields are symplectic if
-    T*G is a vector space and their tableau is symplectic. Step-size control destroys the long-time behaviour
-    of symplectic methods, so a run with it does not count.
+    Step-size control destroys the long-time behaviour of symplectic methods, so a run with it does not count.
     """
     scene, method = compiled.scene, compiled.method
     if not scene.is_hamiltonian or method.adaptive:
         return False
-    if method.family in ON_COTANGENT | OF_PARTS:
-        return True
-    if not scene.group.abelian or not _is_runge_kutta(compiled):
-        return False
-    return symplectic(method.tableau.abelian(), method.tableau.ring) is True
-
-
-def _is_runge_kutta(compiled: Compiled) -> bool:
-    """Whether a step evaluates the field only; the secant of a discrete gradient uses energy differences."""
-    return not any(a.operation.name == "secant" for a in compiled.program.assigns())
+    return lowering(method.family).symplectic(scene, method)
 
 
 @dataclass(frozen=True)

@@ -130,10 +130,10 @@ def exactly_conserved(
 ) -> dict[str, Evaluate]:
     """Return the quantities, as functions over 60 digits, that steps in 60 digits do not change.
 
-    ``starts`` are times and states. The first state is exact, so the quantity must not change at all. The others
-    are off the manifold by rounding, so a change of the size of rounding is allowed. A step from the initial
-    state alone is not enough, because a quantity may be stationary there. Empty if the interpreter cannot make a
-    step.
+    ``starts`` are times and states. The first state is exact, so the quantity must not change at all. The
+    others are off the manifold by rounding, so a change of the size of rounding is allowed. A step from the
+    initial state alone is not enough, because a quantity may be stationary there. Empty if the interpreter
+    cannot make a step.
     """
     domain = PreciseDomain(0, DIGITS)
     functions = {name: getattr(domain.context, name) for name in ("sqrt", "sin", "cos", "exp", "log")}

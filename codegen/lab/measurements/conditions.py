@@ -14,7 +14,7 @@ from codegen.lab.page.formatting import scientific
 from codegen.lab.page.formula_html import formula_html
 from codegen.lab.subject import Subject
 from orderconds.conditions import OrderCondition
-from orderconds.derive import derive
+from orderconds.derivation import derive
 from orderconds.families import names
 
 DEEPEST = 4

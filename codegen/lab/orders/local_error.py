@@ -23,11 +23,8 @@ from codegen.lab.orders.elementary_differentials import (
 from codegen.lab.scalars import Scalar, Vector
 from codegen.method import Method
 from codegen.scene.problem import Problem
-from orderconds import families
 from orderconds.families.action_family import ActionFamily
 from orderconds.families.ordered_forests import scale
-from orderconds.families.rk import RungeKuttaFamily
-from orderconds.families.sprk import SymplecticPartitionedFamily
 from orderconds.ring import PowerSeries
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series import action_exact
@@ -97,23 +94,20 @@ def predicted(scene: Problem, method: Method, power: int) -> Vector:
     """
     if not scene.autonomous:
         raise SceneError("a scene that depends on time", where=scene.name, expected="an autonomous one")
-    match family_of(method):
-        case SymplecticPartitionedFamily():
-            return _partitioned(scene, method, power)
-        case ActionFamily():
-            return _action(scene, method, power)
-        case RungeKuttaFamily():
-            return _trees(scene, method, power)
-        case _:
-            return _forests(scene, method, power)
+    if method.kind.trees == "directed":
+        return _partitioned(scene, method, power)
+    if scene.is_hamiltonian:
+        return _action(scene, method, power)
+    return (_trees if method.kind.trees == "rooted" else _forests)(scene, method, power)
 
 
 def _residuals(method: Method, power: int) -> list[tuple[Scalar, Element]]:
     """Return the residual of every condition of one order, with its tree or forest."""
     family = family_of(method)
     conditions = family.all_conditions(power)
-    coefficients = method.tableau.read_as(family.formats)
-    found = families.residuals(family, coefficients, method.ring, conditions)
+    coefficients = family.read(method.tableau)
+    assert coefficients is not None
+    found = family.residuals(coefficients, method.ring, conditions)
     return [(c.key, x) for c, x in zip(conditions, found, strict=True) if method.ring.is_zero(x) is not True]
 
 
@@ -156,7 +150,9 @@ def _action(scene: Problem, method: Method, power: int) -> Vector:
     ring = method.ring
     family = family_of(method)
     assert isinstance(family, ActionFamily)
-    series = family.series(method.tableau.read_as(family.formats), ring)
+    coefficients = family.read(method.tableau)
+    assert coefficients is not None
+    series = family.series(coefficients, ring)
     defects = {}
     for word, x in series.update_words(power).items():
         if sum(tree.vertices for tree in word) == power:

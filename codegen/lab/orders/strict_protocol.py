@@ -15,7 +15,7 @@ from codegen.lab.orders.convergence import Convergence, converge
 from codegen.lab.orders.strict_scenes import strict_scenes
 from codegen.lab.reference import cached_reference
 from codegen.lab.runner import Interpreted
-from codegen.lower import ON_COTANGENT
+from codegen.lower import lowering
 from codegen.method import Method
 
 DIGITS = 50
@@ -36,7 +36,7 @@ def strict(
     method: Method, stated: CertifiedOrder, tell: Callable[[str], object] = str, alter: Alter = lambda c: c
 ) -> Iterator[Convergence]:
     """Yield the convergence on each scene; ``alter`` changes the program, to test the protocol."""
-    for scene in strict_scenes(method.family in ON_COTANGENT):
+    for scene in strict_scenes(lowering(method.family).hamiltonian):
         tell(f"{method.label} on {scene.name}")
         compiled = alter(optimise_method(scene, method))
         yield converge(Interpreted(compiled, DIGITS), stated, cached_reference(scene))

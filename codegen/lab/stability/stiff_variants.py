@@ -13,6 +13,7 @@ from functools import partial
 
 from codegen import scenes
 from codegen.scene.problem import Problem
+from codegen.scene.run_time import with_runtime
 
 RADIANS = 200
 """Largest angle of the fastest rotation over the span, if that motion does not decay."""
@@ -30,7 +31,7 @@ class StiffVariant:
 
 def oscillator(omega: int) -> StiffVariant:
     """Return the oscillator with that frequency, over at most three units of time."""
-    scene = scenes.load("linear_oscillator").with_runtime((f"omega={omega}",))
+    scene = with_runtime(scenes.load("linear_oscillator"), (f"omega={omega}",))
     label = f"frequency {omega:.0e}"
     span = (Fraction(0), min(Fraction(3), Fraction(RADIANS, omega)))
     return StiffVariant(f"oscillator at {label}", label, replace(scene, span=span), float(omega))
@@ -39,7 +40,7 @@ def oscillator(omega: int) -> StiffVariant:
 def dipole(gap: Fraction) -> StiffVariant:
     """Return the dipole above a charge that it passes at a distance of about ``gap``."""
     depth = _length_of_dipole() + gap
-    scene = scenes.load("dipole").with_runtime((f"depth={depth}",))
+    scene = with_runtime(scenes.load("dipole"), (f"depth={depth}",))
     scene = replace(scene, span=(Fraction(0), Fraction(5, 2)))
     about = f"passes the charge at {float(gap):g}"
     return StiffVariant(f"dipole that {about}", about, scene, float(1 / gap) ** 1.5)

@@ -13,6 +13,7 @@ from codegen import scenes
 from codegen.lab import reference as references
 from codegen.lab.measurement_cache import MeasurementCache, user_cache
 from codegen.lab.reference import cached_reference, reference
+from codegen.scene.run_time import with_runtime
 
 
 @dataclass(frozen=True)
@@ -162,7 +163,7 @@ def test_references_of_other_parameters_and_settings_are_other_entries(
     scene = scenes.load("driven_spin")
     cached_reference(scene, cache)
     cached_reference(scenes.load("linear_oscillator"), cache)
-    cached_reference(scenes.load("linear_oscillator").with_runtime(("omega=2",)), cache)
+    cached_reference(with_runtime(scenes.load("linear_oscillator"), ("omega=2",)), cache)
     assert len(entries(cache)) == 3
     monkeypatch.setattr(references, "RUNS", ((14, -32), (16, -36)))
     cached_reference(scene, cache)
