@@ -43,7 +43,7 @@ SINGULAR = 1e6
 
 @dataclass(frozen=True)
 class Search:
-    """What is searched: everything that the result depends on."""
+    """A search: everything that its result depends on."""
 
     family: str
     order: int
@@ -65,7 +65,7 @@ BatchRecord = tuple[int, str, list[tuple[str, list[str]]]]
 
 @dataclass(frozen=True)
 class Batch:
-    """What a batch found: ``solutions`` as (score, free coefficients), the best first.
+    """The result of a batch: ``solutions`` as (score, free coefficients), the best first.
 
     The score is the principal error, or the largest coefficient where that would cost too much. ``best`` is
     the least residual norm of all starts.
@@ -89,7 +89,7 @@ class Batch:
 
 
 def run_batch(search: Search, number: int) -> Batch:
-    """Return what batch ``number`` finds.
+    """Return the result of batch ``number``.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> found = run_batch(search, 0)
@@ -115,7 +115,7 @@ def run_batch(search: Search, number: int) -> Batch:
 
 
 def _score(problem: Problem, point: Floats) -> float:
-    """Return by what solutions are compared; less is better."""
+    """Return the score of a solution; less is better."""
     if problem.order <= CHEAP:
         return float(np.linalg.norm(problem.error.values(point[None])[0]))
     return float(np.abs(problem.coefficients.values(point[None])).max())
@@ -130,7 +130,7 @@ class Checkpoint:
     batches: dict[int, Batch] = field(default_factory=dict)
 
     def load(self) -> None:
-        """Read what an interrupted search left; raises InputError where it was another search."""
+        """Read the batches of an interrupted search; raises InputError where it was another search."""
         if self.path is None or not self.path.exists():
             return
         try:
@@ -167,7 +167,7 @@ class Checkpoint:
 
 
 def write_whole(path: Path, text: str) -> None:
-    """Write a file under another name first, so that nobody ever sees half of it.
+    """Write a file under another name first, so that a half-written file is never visible.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
