@@ -51,8 +51,8 @@ class Registry(Generic[T]):
             return self._added[name]
         if name not in self.built_in:
             raise UnknownName(f"unknown {self.kind} {name!r}", expected=f"one of {', '.join(self.names)}")
-        found: type[T] = getattr(sys.modules[self.home], name)
-        return found
+        cls: type[T] = getattr(sys.modules[self.home], name)
+        return cls
 
     def listing(self) -> list[dict[str, str]]:
         """Return name and first docstring line of every class."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 from fractions import Fraction
+from math import isqrt
 
 import pytest
 
@@ -13,7 +14,10 @@ from codegen.groups.capabilities import (
     BodyFrame,
     ClosedFormSeries,
     Coadjoint,
+    CotangentBundle,
+    DirectProduct,
     MatrixElements,
+    MatrixRepresentation,
     PointMotions,
     Projection,
     RightTrivialisation,
@@ -34,12 +38,15 @@ DECLARED = {
     RightTrivialisation: {"SO(3)", "R^3", "S^3", "SO(3) x R^2"},
     BodyFrame: {"SO(3)"},
     ClosedFormSeries: {"SO(3)"},
+    MatrixRepresentation: {"SO(3)", "GL(2)", "Heisenberg", "SL(2)", "R^3"},
     MatrixElements: {"SO(3)", "GL(2)", "Heisenberg", "SL(2)"},
     Rotations: {"SO(3)"},
     PointMotions: {"SE(2)"},
     Projection: {"SO(3)"},
+    DirectProduct: {"SO(3) x R^2"},
+    CotangentBundle: {f"T*{name}" for name in BASE_GROUPS},
 }
-"""The groups of each capability, among those that tests draw from; T*G has none."""
+"""The groups of each capability, among those that tests draw from."""
 
 IDS = [capability.__name__ for capability in DECLARED]
 
@@ -47,7 +54,7 @@ IDS = [capability.__name__ for capability in DECLARED]
 def with_capability(capability, samples=(EXACT, SHARP)):
     """Samplers of all groups that declare a capability."""
     return [
-        pytest.param(sampler(BASE_GROUPS[name], sample), id=f"{name}-{sample}")
+        pytest.param(sampler(ALL_GROUPS[name], sample), id=f"{name}-{sample}")
         for name in sorted(DECLARED[capability])
         for sample in samples
     ]
@@ -216,6 +223,51 @@ class TestClosedFormSeries:
         single = [tuple(f * a for a in s.group.series(d, word, dual, x, v)) for f, word, v in terms]
         total = tuple(sum(parts[1:], parts[0]) for parts in zip(*single, strict=True))
         assert s.equal(s.group.series_sum(d, terms, dual, x), total)
+
+
+@pytest.mark.parametrize("s", with_capability(MatrixRepresentation))
+class TestMatrixRepresentation:
+    def test_of_a_product_is_the_product_of_the_matrices(self, s):
+        d, g, k = s.domain, s.element(), s.element()
+        matrices = [s.group.matrix(d, x) for x in (g, k, s.group.mul(d, g, k))]
+        assert s.equal(matmul(*matrices[:2], isqrt(len(matrices[0]))), matrices[2])
+
+    def test_of_a_velocity_is_the_product_with_hat(self, s):
+        d, g, x = s.domain, s.element(), s.vector()
+        a, m = s.group.hat(d, x), s.group.matrix(d, g)
+        assert s.equal(s.group.element(matmul(a, m, isqrt(len(m)))), s.group.velocity(d, x, g))
+
+    def test_has_inverse_maps(self, s):
+        d, g, x = s.domain, s.element(), s.vector()
+        assert s.equal(s.group.element(s.group.matrix(d, g)), g)
+        assert s.equal(s.group.vee(d, s.group.hat(d, x)), x)
+
+    def test_is_linear_for_differences(self, s):
+        d, g, k = s.domain, s.element(), s.element()
+        rows = zip(s.group.matrix(d, g), s.group.matrix(d, k), strict=True)
+        gap = s.group.element(tuple(a - b for a, b in rows))
+        assert s.equal(gap, tuple(a - b for a, b in zip(g, k, strict=True)))
+
+
+@pytest.mark.parametrize("s", with_capability(DirectProduct))
+def test_the_parts_of_a_product_are_elements_of_its_factors(s):
+    g, x = s.element(), s.vector()
+    for values, width in ((g, "size"), (x, "dim")):
+        parts = s.group.parts(values)
+        assert [len(part) for part in parts] == [getattr(f, width) for f in s.group.factors]
+        assert tuple(a for part in parts for a in part) == values
+    exponentials = [f.exp(s.domain, part) for f, part in zip(s.group.factors, s.group.parts(x), strict=True)]
+    assert s.equal(sum(exponentials, ()), s.group.exp(s.domain, x))
+
+
+@pytest.mark.parametrize("s", with_capability(CotangentBundle))
+def test_the_canonical_bivector_takes_the_differential_of_h_to_its_field(s):
+    """For the differential (ad*_xi mu - n, xi) it is (xi, n)."""
+    z, f = s.element(), s.vector()
+    base = s.group.base
+    xi, n = f[: base.dim], f[base.dim :]
+    slope = tuple(a - b for a, b in zip(base.adt(s.domain, xi, z[base.size :]), n, strict=True))
+    assert s.equal(s.group.canonical(s.domain, z, (*slope, *xi)), f)
 
 
 @pytest.mark.parametrize("s", with_capability(MatrixElements))
