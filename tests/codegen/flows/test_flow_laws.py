@@ -132,6 +132,15 @@ def test_a_kick_with_time_uses_the_time_of_its_start():
     assert gains[1] == 4 * gains[0] != 0
 
 
+def test_a_stated_flow_moves_for_the_time_that_it_is_given():
+    problem, d = CASES["stated"][0], PreciseDomain(0, 40)
+    ((_, flow),) = recognise(problem)[0].summands[0].flows
+    start, tau = problem.initial(d), d.rational(2, 7)
+    c, s = d.call("cos", tau), d.call("sin", tau)
+    turned = (c * start[0] + s * start[1], c * start[1] - s * start[0])
+    assert near(advanced(d, problem, flow, tau, start)[:2], turned)
+
+
 def test_a_stated_flow_has_no_field():
     problem = CASES["stated"][0]
     ((_, flow),) = recognise(problem)[0].summands[0].flows
