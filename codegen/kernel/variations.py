@@ -14,7 +14,7 @@ from codegen.groups.base import LieGroup
 from codegen.groups.capabilities import CotangentBundle, RightTrivialisation
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr
-from codegen.ir.program import Kind
+from codegen.ir.values import Kind
 from codegen.scene.problem import Problem
 
 

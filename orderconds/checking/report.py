@@ -24,7 +24,7 @@ class EmbeddedOrder(Struct, frozen=True):
 
     claimed: int
     orders: dict[str, int]
-    own: str = "rk"
+    own: str
     failing: tuple[Failure, ...] = ()
 
     def as_json(self) -> dict[str, object]:

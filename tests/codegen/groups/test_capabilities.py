@@ -24,9 +24,9 @@ from codegen.groups.capabilities import (
     Rotations,
 )
 from codegen.groups.linear_algebra import dot, matmul, matvec
+from codegen.ir.ad_series import Factor
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import evaluate
-from codegen.ir.program import Factor
 from codegen.kernel.variations import Variations
 from codegen.scene import FieldScene, HamiltonianScene
 from tests.strategies import ALL_GROUPS, BASE_GROUPS, ORDER, hamiltonian_scene, sampler
