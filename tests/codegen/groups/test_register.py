@@ -14,7 +14,7 @@ from codegen.emitter import compile_method, emit
 from codegen.errors import SceneError
 from codegen.groups import Action, LieGroup
 from codegen.groups.capabilities import Coadjoint, RightTrivialisation
-from codegen.lab.local_error import local_error, valuation
+from codegen.lab.orders.local_error import local_error, valuation
 from codegen.loader import load
 from codegen.scene import FieldScene, HamiltonianScene
 from orderconds.cli import program
