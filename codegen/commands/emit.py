@@ -57,7 +57,7 @@ def command(
     """
     from codegen.emitter import bare, compile_method, emit_compiled
     from codegen.printers import target as known_target
-    from codegen.printers.precision import precision as known_precision
+    from codegen.run.precision import precision as known_precision
 
     if output is None and not (explain or as_json):
         raise click.UsageError("-o DIR is missing: where to write (or ask for --explain or --json)")
