@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from typing import ClassVar
 
 from codegen.run.terms import Term
 
@@ -62,7 +63,7 @@ def joined(pieces: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
 class Infix(ABC):
     """Spells terms; ``words`` are operators that a target calls otherwise."""
 
-    words: dict[str, str]
+    words: ClassVar[dict[str, str]]
 
     def text(self, term: Term) -> Text:
         """Return the text of a term."""

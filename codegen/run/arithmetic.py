@@ -7,13 +7,11 @@ from collections.abc import Iterable, Sequence
 from codegen.ir.kernel import Function as Outlined
 from codegen.kernel.schedule import (
     Arrangement,
-    Assignment,
     Beginning,
-    Invocation,
     Iteration,
     Simple,
 )
-from codegen.run.language import RAISES_NAN, Array, Assign, Call, Function, If, Return, Statement
+from codegen.run.language import RAISES_NAN, Array, Assign, Call, Function, Return, Statement
 from codegen.run.plan import INPUTS, Plan
 from codegen.run.sweeps import sweeps
 from codegen.run.terms import Kind, Term, own, real, value

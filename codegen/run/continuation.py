@@ -1,9 +1,9 @@
 """Continuation in h: a step whose equations do not settle is reached through shorter ones.
 
-First the solutions of earlier steps are forgotten: they may mislead where the motion changes. Then the step is
-halved until its equations settle, and each solution is where those of a longer step begin. The factor from one
-step to the next grows while that succeeds and falls where it does not. The solution so found is the one that
-tends to the motion as h tends to zero; a long step may have others. A step of no length changes nothing.
+First the solutions of earlier steps are forgotten: they may mislead where the motion changes. Then the step
+is halved until its equations settle, and each solution is where those of a longer step begin. The factor from
+one step to the next grows while that succeeds and falls where it does not. The solution so found is the one
+that tends to the motion as h tends to zero; a long step may have others. A step of no length changes nothing.
 """
 
 from __future__ import annotations

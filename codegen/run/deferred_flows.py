@@ -1,10 +1,10 @@
 """Runs of a splitting that defer flows: the first flow of a step joins the last of the step before, and flows
 that commute with all others are carried out once for many steps.
 
-Both are exact (:class:`codegen.ir.kernel.Deferred`). A state is complete, and may be looked at, only after the
-deferred flows: where a row is due, after the last step, and after :data:`codegen.ir.kernel.LONGEST` steps. A
-state that is no number stays so until then; the run is then repeated carefully, every step completed, to find
-the last good state.
+Both are exact (:class:`codegen.ir.kernel.Deferred`). A state is complete, and may be looked at, only after
+the deferred flows: where a row is due, after the last step, and after :data:`codegen.ir.kernel.LONGEST`
+steps. A state that is no number stays so until then; the run is then repeated carefully, every step
+completed, to find the last good state.
 """
 
 from __future__ import annotations
@@ -175,7 +175,7 @@ class _Deferring:
             Assign(self.moving, state),
             Assign(self.complete, state),
             Assign(self.good, truth(True)),
-            While(both(self.good, DONE < self.asked), self.one()),
+            While(both(self.good, self.asked > DONE), self.one()),
             Assign(self.again, negated(self.good)),
             If(self.again, failed),
         )

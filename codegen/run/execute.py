@@ -43,6 +43,7 @@ from codegen.run.language import (
     While,
 )
 from codegen.run.terms import NOT_FINITE, STATUSES, Kind, Term
+from codegen.run.writes import written
 
 Environment = dict[str, Any]
 Value = Callable[[Environment], Any]
@@ -71,8 +72,8 @@ _BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
 class Machine:
     """A unit ready to be carried out over a domain.
 
-    Arrays are lists, rows lists of lists, records namespaces (:meth:`record` makes one), absent arguments None,
-    the signal of run-time inputs a function from the time to a sequence. A ``cell`` is a list of one entry.
+    Arrays are lists, rows lists of lists, cells lists of one entry; :meth:`record` makes records. Absent
+    arguments are None; the signal of run-time inputs is a function from the time to a sequence.
     """
 
     def __init__(self, unit: Unit, domain: Domain) -> None:
@@ -128,11 +129,10 @@ class Machine:
         """Return what an arithmetic error makes of a function."""
         if function.guard == RAISES_STATUS:
             return STATUSES.index(NOT_FINITE)
-        if function.returns is None:
-            changed = [a for a in arguments if isinstance(a, list)][
-                -1 if len(function.parameters) == 2 else 0
-            ]
-            changed[:] = [math.nan] * len(changed)
+        changed = written(self.unit, function)
+        for parameter, argument in zip(function.parameters, arguments, strict=True):
+            if parameter.text in changed:
+                argument[:] = [math.nan] * len(argument)
         return math.nan
 
 
@@ -289,10 +289,7 @@ class _Compiler:
 
         def run(env: Environment) -> bool:
             passed = [value(env) for value in given]
-            if library is None:
-                found = [machine.call(function, *passed)]
-            else:
-                found = library(*passed)
+            found = library(*passed) if library is not None else [machine.call(function, *passed)]
             for store, x in zip(stores, found, strict=False):
                 store(env, x)
             return False
@@ -443,7 +440,7 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
 
 
 def _inverted(n: int, matrix: list[Any]) -> int:
-    """Replace a matrix, by rows, by its inverse (Gauss-Jordan, rows exchanged); return 0 where it has none."""
+    """Replace a matrix, by rows, by its inverse, as emitted code does; return 0 where it has none, else 1."""
     rows = [matrix[n * i : n * i + n] for i in range(n)]
     order = []
     for k in range(n):

@@ -17,7 +17,7 @@ from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, economised,
 
 
 class EmittedFloats(FloatDomain):
-    """Doubles; ``chain`` is how many angles of a step depend one on the other (``codegen.ir.angle_depth``)."""
+    """Doubles; ``chain`` is how many angles depend one on the other (:mod:`codegen.ir.angle_depth`)."""
 
     def __init__(self, h: float = 0.0, chain: int = 1) -> None:
         super().__init__(h)

@@ -4,8 +4,8 @@ Stopping rules, warm starts, continuation, runs and step control are written in 
 Printers spell it in a target, :mod:`codegen.run.execute` carries it out over any scalars.
 
 A :class:`Function` has seven kinds of statement besides notes: :class:`Assign`, :class:`Array`, :class:`For`,
-:class:`While`, :class:`If`, :class:`Call` and :class:`Return`; ``select`` is a term. Its rules suit targets in
-which a loop is a ``while_loop`` and a branch is a ``select``:
+:class:`While`, :class:`If`, :class:`Call` and :class:`Return`; ``select`` is a term. Its rules suit targets
+in which a loop is a ``while_loop`` and a branch is a ``select``:
 
 - No loop is left from its middle: a status or flag ends it.
 - Return stands at the end of a function, or alone in an If of its outermost block: a guard. What follows a
@@ -95,7 +95,7 @@ Statement = Assign | Array | For | While | If | Call | Return | Note
 Body = tuple[Statement, ...]
 
 RAISES_STATUS, RAISES_NAN = "status", "nan"
-"""What an arithmetic error makes of a function: the status NOT_FINITE; NaN in its result or the array it fills."""
+"""What an arithmetic error makes of a function: the status NOT_FINITE, or NaN in its result or array."""
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,8 @@
 """The momentum that a run carries: steps are made with that of the body, a state holds that of space.
 
-Turning it once at the beginning of a run and once at its end costs less than turning it in each step. What the
-momentum has gained in space is added to that of the state; where rounding has made q not quite orthogonal, the
-turning so changes the gain alone.
+Turning it once at the beginning of a run and once at its end costs less than turning it in each step. What
+the momentum has gained in space is added to that of the state; where rounding has made q not quite
+orthogonal, the turning so changes the gain alone.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What the functions around one kernel have in common: their arguments, and what of a run the kernel needs."""
+"""What the functions around one kernel have in common: arguments, and what of a run the kernel needs."""
 
 from __future__ import annotations
 
@@ -26,7 +26,10 @@ STEPS, STRIDE = count("steps"), count("stride")
 
 @dataclass(frozen=True)
 class Plan:
-    """A kernel in a format; a step whose equations do not settle is tried ``Start.TRIES`` times, or ``tries``."""
+    """A kernel in a format.
+
+    A step whose equations do not converge is tried ``tries`` times, by default ``Start.TRIES``.
+    """
 
     kernel: Kernel
     format: Precision

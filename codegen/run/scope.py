@@ -2,7 +2,8 @@
 
 A variable belongs to the innermost block that holds all that assigns or reads it; where blocks side by side
 each assign it before they read it, to each of them. It is declared by its first assignment where that stands
-in the block itself, before the first statement that holds it otherwise. One that is assigned once is constant.
+in the block itself, before the first statement that holds it otherwise. One that is assigned once is
+constant.
 """
 
 from __future__ import annotations
@@ -29,14 +30,17 @@ from codegen.run.terms import Term, names
 
 @dataclass
 class Declarations:
-    """By the identity of statements: which variables are declared before them, which by them, which are constant."""
+    """By the identity of statements: the variables declared before them, and by them.
+
+    Of the latter each is mapped to whether it is constant.
+    """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
     by: dict[int, dict[str, bool]] = field(default_factory=dict)
 
 
 def declarations(function: Function, identifiers: Identifiers) -> Declarations:
-    """Return where the variables of a function are declared; arrays and indices of loops declare themselves."""
+    """Return where a function's variables are declared; arrays and indices of loops declare themselves."""
     found = Declarations()
     _Scopes(identifiers, found).place(function.body, _variables(function, identifiers))
     return found

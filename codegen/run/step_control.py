@@ -1,10 +1,11 @@
 """Step control: steps as large as the tolerances allow, by a proportional-integral controller.
 
-The error of a step is the root mean square of its estimate over atol + rtol |y|; a step is accepted where that
-is at most one. With p the order of the estimate the next step is longer by 0.9 norm^(-0.7/p) before^(0.4/p), of
-the last two errors, but by a factor between 0.2 and 5, and not longer at all after a refusal; a refused step is
-repeated with 0.9 norm^(-1/p), between 0.2 and 0.9. Exponents and limits are those of Hairer, Norsett and
-Wanner, Solving Ordinary Differential Equations I, section II.4, and of Gustafsson's controller there.
+The error of a step is the root mean square of its estimate over atol + rtol |y|; a step is accepted where
+that is at most one. With p the order of the estimate the next step is longer by 0.9 norm^(-0.7/p)
+before^(0.4/p), of the last two errors, but by a factor between 0.2 and 5, and not longer at all after a
+refusal; a refused step is repeated with 0.9 norm^(-1/p), between 0.2 and 0.9. Exponents and limits are those
+of Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, section II.4, and of Gustafsson's
+controller there.
 
 The solutions of steps of another size are no guide: each step begins without them.
 """
@@ -108,8 +109,9 @@ class _Controlled:
     def function(self) -> Function:
         """Return the whole."""
         plan = self.plan
-        parameters = (plan.state(), self.t, self.end, self.h, RTOL, ATOL, self.limit)
-        parameters += (*plan.parameters, *plan.sampled(), *plan.counted, self.accepted, self.rejected)
+        chosen = (self.t, self.end, self.h, RTOL, ATOL, self.limit)
+        passed = (*plan.parameters, *plan.sampled(), *plan.counted)
+        parameters = (plan.state(), *chosen, *passed, self.accepted, self.rejected)
         moving = either(self.now < self.end, self.now > self.end)
         body: tuple[Statement, ...] = (
             *self.begin(),

@@ -118,15 +118,15 @@ class Stopping:
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm
-            else CHANGE * CHANGE <= form.unit * SCALE * previous
+            else form.unit * SCALE * previous >= CHANGE * CHANGE
         )
-        still = both(previous > 0.0, CHANGE >= previous)
+        still = both(previous > 0.0, previous <= CHANGE)
         return [
             Assign(flag("still"), still),
-            Assign(flag("close"), both(CHANGE <= close * SCALE, next_change)),
+            Assign(flag("close"), both(close * SCALE >= CHANGE, next_change)),
             Assign(
                 flag("settled"),
-                either(flag("close"), both(flag("still"), either(CHANGE <= tolerance * SCALE, self.lost()))),
+                either(flag("close"), both(flag("still"), either(tolerance * SCALE >= CHANGE, self.lost()))),
             ),
         ]
 
@@ -142,7 +142,7 @@ class Stopping:
         return both(*tests)
 
     def sums(self, changes: Sequence[Term], unknowns: Sequence[Term]) -> list[Statement]:
-        """Return the statements that measure a sweep over residuals: sums, of changes that keep their signs."""
+        """Return the statements that measure a sweep over residuals, by sums of absolute values."""
         return [
             Assign(CHANGE, paired(map(size, changes))),
             Assign(SCALE, paired(map(size, unknowns))),
@@ -170,7 +170,7 @@ class Stopping:
                 select(
                     flag("contracts"),
                     CHANGE * (rate + LEAST_RATE) <= close * SCALE,
-                    both(SWEEPS > 1, either(CHANGE <= tolerance * SCALE, self.lost())),
+                    both(SWEEPS > 1, either(tolerance * SCALE >= CHANGE, self.lost())),
                 ),
             ),
         ]
@@ -186,7 +186,7 @@ class Stopping:
 
     def going_on(self, astray: Term | None = None) -> Term:
         """Return whether another sweep is to be made."""
-        tests = [STATUS.equals(code(NOT_CONVERGED)), SWEEPS < self.loop.limit]
+        tests = [STATUS.equals(code(NOT_CONVERGED)), self.loop.limit > SWEEPS]
         return both(*tests, *([] if astray is None else [negated(astray)]))
 
     def after(self) -> list[Statement]:

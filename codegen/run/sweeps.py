@@ -1,8 +1,8 @@
 """Loops over implicit equations: fixed points u = g(u), and Newton's method in its three forms.
 
-A sweep computes the images of the unknowns. A fixed point takes the images for the unknowns; the values of the
-last sweep so belong to unknowns that are known to agree with their images. Newton's method adds the residuals
-times the inverse of a matrix, in the last sweep too:
+A sweep computes the images of the unknowns. A fixed point takes the images for the unknowns; the values of
+the last sweep so belong to unknowns that are known to agree with their images. Newton's method adds the
+residuals times the inverse of a matrix, in the last sweep too:
 
 - *Newton*: the exact matrix is made in the first sweep of all and kept, from sweep to sweep and from step to
   step, until a change is not smaller than ``Newton.CONTRACTION`` times the one before it. A matrix just made
@@ -19,7 +19,6 @@ from functools import cached_property
 
 from codegen.ir.kernel import CHORD, NEWTON, Newton
 from codegen.kernel.schedule import METHODS, Iteration
-from codegen.run.values import simple
 from codegen.run.language import Array, Assign, Call, For, If, Note, Return, Statement, While
 from codegen.run.places import places
 from codegen.run.plan import Plan
@@ -49,6 +48,7 @@ from codegen.run.terms import (
     value,
     whole,
 )
+from codegen.run.values import simple
 
 WIDE = 12
 """The most unknowns for which each entry of a matrix stands in a statement of its own."""
@@ -234,7 +234,7 @@ class _Newton(_Loop):
                 astray = either(astray, negated(self.made > 0))
             body.append(Assign(flag("astray"), astray))
             slow = number(Newton.CONTRACTION) * rule.previous
-            body.append(Assign(self.making, both(slow > 0.0, CHANGE > slow)))
+            body.append(Assign(self.making, both(slow > 0.0, slow < CHANGE)))
         body.append(Assign(rule.previous, CHANGE))
         return [*found, *self.until_settled(body, flag("astray") if self.kept else None)]
 
@@ -302,7 +302,7 @@ class _Newton(_Loop):
         return self.inverse[place]
 
     def product(self, changes: Sequence[Term], residuals: Sequence[Term]) -> list[Statement]:
-        """Return the statements of changes = inverse residuals: a sum for each row, or loops where many are."""
+        """Return the statements of changes = inverse residuals: a sum for each row, or loops over many."""
         n = len(changes)
         if n <= WIDE:
             rows = [[self.cell(i * n + j) * r for j, r in enumerate(residuals)] for i in range(n)]

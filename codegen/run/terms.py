@@ -1,7 +1,7 @@
 """Terms: the small expressions of the run representation, over reals, counts, flags, status codes and arrays.
 
-Arithmetic of a kernel stays :class:`codegen.ir.expr.Expr` and enters as one term (:func:`value`). A term knows
-its kind and its shape, so that no printer infers types. Operators build terms, they compute nothing:
+Arithmetic of a kernel stays :class:`codegen.ir.expr.Expr` and enters as one term (:func:`value`). A term
+knows its kind and its shape, so that no printer infers types. Operators build terms, they compute nothing:
 
 >>> change, scale = real("change"), real("scale")
 >>> (change <= 0.5 * scale).op

@@ -47,7 +47,7 @@ COMPLETED = count("completed", 1, optional=True, cell=True)
 
 
 def is_looped(plan: Plan) -> bool:
-    """Whether the kernel stands in the loop of the run: where nothing else calls it and its state is small."""
+    """Whether the loop of a run holds the kernel: where nothing else calls it and its state is small."""
     kernel = plan.kernel
     alone = kernel.deferred is None and not plan.parts and plan.size <= REGISTERS
     return alone and not (plan.counting or plan.time or kernel.estimate is not None)
@@ -55,7 +55,7 @@ def is_looped(plan: Plan) -> bool:
 
 @dataclass(frozen=True)
 class Rows:
-    """The rows of a trajectory: at the beginning and after every stride-th step, where a caller wants them."""
+    """The rows of a trajectory, where a caller wants them: at first and after every stride-th step."""
 
     plan: Plan
 

@@ -213,7 +213,10 @@ class WarmStart:
             Note("the next difference vanishes where this is the next solution"),
             Call("difference", (self.memory, self.degree + 1, whole(1), number(-1.0), self.guess)),
         ]
-        about = "Take up a solution and guess the next: the polynomial through the last ones, continued by a step."
+        about = (
+            "Store a solution and extrapolate the next one: the polynomial through the last solutions, "
+            "evaluated one step later."
+        )
         return Function("remember", about, (self.memory, solution), tuple(body), often=True)
 
     def judged(self, solution: Term) -> list[Statement]:
@@ -258,8 +261,6 @@ class WarmStart:
         )
         often = Term("or", (self.known < self.depth, (place % SELDOM).equals(0)), Kind.FLAG)
         return [
-            Note(
-                f"the degree grows while differences fall: after many solutions it is looked at every {SELDOM} steps"
-            ),
+            Note(f"the degree grows while differences fall; with many it is chosen once in {SELDOM} steps"),
             If(often, look),
         ]

@@ -261,7 +261,8 @@ class _Body:
             yield f"memset({record});"
             return
         if target.shape:
-            yield f"memcpy({self.terms.line(target)}, {self.terms.line(value)}, {self.extent(target, value)});"
+            copied = (self.terms.line(target), self.terms.line(value), self.extent(target, value))
+            yield f"memcpy({', '.join(copied)});"
             return
         kind, name = self.kind(statement, target), self.terms.line(target)
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
@@ -275,7 +276,7 @@ class _Body:
         yield from fill(f"{kind}{name} =", self.terms.text(value).pieces, ";")
 
     def extent(self, target: Term, value: Term) -> str:
-        """Return how many bytes are copied: the size of an array that is declared, or a count of its numbers."""
+        """Return how many bytes are copied: the size of an array of this function, or a count of numbers."""
         parameters = {p.text for p in self.function.parameters}
         for term in (target, value):
             if term.op == "name" and term.text not in parameters:

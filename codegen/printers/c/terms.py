@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from typing import ClassVar
 
 from codegen.printers.c.text import closed_call, greatest
 from codegen.printers.expression import Style, spell
@@ -31,9 +32,9 @@ def style(precision: Precision) -> Style:
 
 
 class Terms(Infix):
-    """Spells the terms of one function; ``pointers`` are its parameters, which records are reached through."""
+    """Spells the terms of one function; ``pointers`` are those parameters that are records."""
 
-    words = {"and": "&&", "or": "||", "//": "/"}
+    words: ClassVar[dict[str, str]] = {"and": "&&", "or": "||", "//": "/"}
 
     def __init__(
         self, identifiers: Identifiers, precision: Precision, prefix: str, pointers: Collection[str]

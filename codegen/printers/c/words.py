@@ -24,5 +24,8 @@ _WORDS = """
 """
 
 RESERVED = frozenset(_WORDS.split()) | {f"stumpff_{''.join(map(str, orders))}" for orders in SETS}
-"""Keywords of C and, since headers are read by both, of C++; macros of headers that the module or its caller is
-likely to include; the library, and helpers. Names of the run representation are avoided besides."""
+"""Words that no variable may take, besides the names of the run representation.
+
+Keywords of C and, since both read headers, of C++; macros of headers that the module or its caller is likely
+to include; the mathematical library; helpers.
+"""

@@ -95,7 +95,7 @@ class _Module:
 
     def imports(self) -> tuple[list[str], list[str]]:
         """Return what is imported from ``math`` and from NumPy."""
-        found = {n for n in self.needed.library if n != "fabs"}
+        found = set(self.needed.library)
         plain = {"isfinite"} if self.called & {"finite", "isfinite"} else set[str]()
         plain |= {"inf"} if self.called & {"infinity", "power"} else set()
         plain |= self.called & {"nan", "copysign"}
@@ -123,7 +123,7 @@ class _Module:
         interface, kernel = self.interface, self.kernel
         time, inputs = ["t"] if interface.time else [], ["inputs"] if interface.inputs else []
         optional = ["statistics=None"] if interface.blocks else []
-        counted = ["counted"] if interface.blocks else []
+        counted, rows = ["counted"] if interface.blocks else [], ["rows", "stride"]
         given, held = self.keyword_arguments(), ["lambda t: inputs"] if inputs else []
         passed = [f"{n}={n}" for n in (["statistics"] if interface.blocks else [])]
         comments = header(self.recipe, layout(kernel), costs(kernel), 84, "", times(kernel))
@@ -150,8 +150,7 @@ class _Module:
                 ["state", *time, "h", "steps", *inputs, *given, *keywords(["stride=0", *optional])]
             ),
             "run_arguments": ", ".join(
-                ["state", *time, "h", "steps", *self.parameters, *inputs]
-                + ["rows", "stride", *counted, "completed"]
+                ["state", *time, "h", "steps", *self.parameters, *inputs, *rows, *counted, "completed"]
             ),
             "adaptive": self.adaptive(inputs, given, optional, counted),
             "jacobian": self.jacobian(time, inputs, given),

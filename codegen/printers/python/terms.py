@@ -6,6 +6,8 @@ Python may be a double.
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from codegen.ir.number import Number
 from codegen.printers.expression import Style, spell
 from codegen.printers.infix import CHOICE, COMPARED, NOT, OR, SUM, Infix, Text, closed, joined
@@ -44,7 +46,7 @@ class Constants:
 class Terms(Infix):
     """Spells the terms of one function."""
 
-    words: dict[str, str] = {}
+    words: ClassVar[dict[str, str]] = {}
 
     def __init__(self, identifiers: Identifiers, constants: Constants) -> None:
         self.identifiers, self.constants = identifiers, constants

@@ -12,11 +12,12 @@ _WORDS = """
 """
 
 RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split())
-"""Keywords, and what a module takes from elsewhere or defines. Names of the run representation are avoided
-besides."""
+"""Keywords, and what a module imports or defines, which no variable may hide."""
 
-PUBLIC = frozenset(
-    "state steps stride statistics counted rows completed status rtol atol limit end now size accepted "
-    "rejected found inputs".split()
-)
+_PUBLIC = """
+    state steps stride statistics counted rows completed status rtol atol limit end now size accepted rejected
+    found inputs failure given
+"""
+
+PUBLIC = frozenset(_PUBLIC.split())
 """Names that the functions for callers use, which parameters may not take."""
