@@ -1,8 +1,9 @@
 """No module decides by the name of a family, a group, a scene or a tableau, except the file that defines it.
 
-The test reads the syntax trees of both packages. It looks for strings that equal a name, also ``name(2)``,
-``family:tableau`` and ``scene+u``, at each place that can decide something: comparisons, membership tests, match
-patterns, tables and sets of a module or class, tables and loops inside functions, string constants of a module.
+The test reads the syntax trees of both packages. It looks for strings that equal a name, also
+``name(2)``, ``family:tableau`` and ``scene+u``, at each place that can decide something: comparisons,
+membership tests, match patterns, tables and sets of a module or class, tables and loops inside functions,
+string constants of a module.
 """
 
 from __future__ import annotations
