@@ -11,11 +11,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from codegen.emit import Compiled
+from codegen.emitter import Compiled
 from codegen.ir.interpret import flatten, interpret
 from codegen.ir.number import Number
 from codegen.ir.program import Assign
-from codegen.lower import setting
+from codegen.lower import problem_for
 
 DRIVER = """
 #include <stddef.h>
@@ -78,7 +78,7 @@ def casadi_files(compiled: Compiled) -> dict[str, str]:
     """Return the C files of a compiled explicit method's step with a loop around it, on autonomous scenes."""
     import casadi
 
-    view = setting(compiled.scene, compiled.method)
+    view = problem_for(compiled.scene, compiled.method)
     h = casadi.SX.sym("h")
     state = casadi.SX.sym("y", len(view.symbols))
     values: dict[str, Any] = {"t": 0.0}

@@ -24,9 +24,9 @@ from importlib.util import find_spec
 from math import comb
 from pathlib import Path
 
+from codegen.artifact import Artifact
 from codegen.build import compile_files, find_compiler
-from codegen.emission import Emission
-from codegen.emit import compile_method, emit
+from codegen.emitter import compile_method, emit
 from codegen.lab.bench import bench
 from codegen.lab.peers import installed
 from codegen.lab.ranking import seconds_to
@@ -208,7 +208,7 @@ def spelled(seconds: float | None, best: bool) -> str:
     return f"**{text}**" if best and seconds is not None else text
 
 
-def build_emitted(case: Case, emission: Emission, folder: Path) -> Path:
+def build_emitted(case: Case, emission: Artifact, folder: Path) -> Path:
     """Return the program that runs an emitted module."""
     interface = emission.manifest["interface"]
     prefix, blocks = interface["prefix"], interface["blocks"]
@@ -226,7 +226,7 @@ def build_emitted(case: Case, emission: Emission, folder: Path) -> Path:
     return built({**emission.files, "driver.c": driver}, folder)
 
 
-def build_hand(case: Case, emission: Emission, folder: Path) -> Path:
+def build_hand(case: Case, emission: Artifact, folder: Path) -> Path:
     """Return the program that runs a hand-written step."""
     size = len(emission.manifest["initial"])
     driver = DRIVER.format(
@@ -241,7 +241,7 @@ def build_hand(case: Case, emission: Emission, folder: Path) -> Path:
     return built({**files, "driver.c": driver}, folder)
 
 
-def build_casadi(case: Case, emission: Emission, folder: Path) -> Path:
+def build_casadi(case: Case, emission: Artifact, folder: Path) -> Path:
     """Return the program that runs the same method's step as CasADi writes it."""
     sys.path.insert(0, str(HERE))
     from casadi_step import casadi_files
@@ -291,7 +291,7 @@ def instructions(program: Path, steps: int = 1000) -> float:
     return (counts[1] - counts[0]) / steps
 
 
-def exponentials(emission: Emission) -> str:
+def exponentials(emission: Artifact) -> str:
     """Say how often a step and each sweep evaluate functions of a rotation angle."""
     cells = []
     for counts in emission.manifest["operations"].values():

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 from orderconds.lazy import lazy
 
 if TYPE_CHECKING:
-    from codegen.emit import emit as emit
-    from codegen.load import load as load
+    from codegen.emitter import emit as emit
+    from codegen.loader import load as load
 
 __all__ = ["emit", "load"]
 
-lazy(__name__, emit=("emit",), load=("load",))
+lazy(__name__, emitter=("emit",), loader=("load",))

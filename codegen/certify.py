@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from codegen.errors import MethodError
 from codegen.lower import OF_PARTS, splitting
-from codegen.lower.fewest import bracket_program
+from codegen.lower.minimal_brackets import bracket_program
 from codegen.method import Method
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 
 if TYPE_CHECKING:
     from orderconds.families import Family
@@ -75,7 +75,7 @@ def family_of(method: Method) -> Family:
     return families.get(SAME_CONDITIONS.get(method.family, method.family_label))
 
 
-def certified_order(method: Method, scene: Setting | None = None) -> CertifiedOrder:
+def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOrder:
     """Return the order of a method in its family; a MethodError where it cannot be decided.
 
     On a ``scene`` whose group is abelian it is the order of the classical family that the method is there.

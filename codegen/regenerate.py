@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from codegen.emission import MANIFEST, Emission, entries_of, manifest_text, write_text
-from codegen.emit import compile_method, emit_compiled
+from codegen.artifact import MANIFEST, Artifact, entries_of, manifest_text, write_text
+from codegen.emitter import compile_method, emit_compiled
 from orderconds.errors import InputError
 
 LIST = Path(__file__).with_name("regenerate.toml")
@@ -23,7 +23,7 @@ class Entry:
     method: str
     targets: tuple[str, ...]
 
-    def emissions(self) -> list[Emission]:
+    def emissions(self) -> list[Artifact]:
         """Return the modules of this entry."""
         compiled = compile_method(self.scene, self.method)
         named = {"scene": self.scene, "method": self.method}

@@ -15,8 +15,8 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from codegen.artifact import Artifact
 from codegen.build import Compiler, compile_files
-from codegen.emission import Emission
 from codegen.printers.c.module import FLAGS
 
 COMPILERS = ("gcc", "clang")
@@ -29,7 +29,7 @@ def exported(path: Path) -> list[str]:
     return [line.split()[-1] for line in listing.stdout.splitlines() if line]
 
 
-def promised(emission: Emission) -> list[str]:
+def promised(emission: Artifact) -> list[str]:
     """Return the names that a header declares, sorted."""
     header = next(text for name, text in emission.files.items() if name.endswith(".h"))
     return sorted(re.findall(r"^int (\w+)\(", header, re.MULTILINE))
@@ -47,7 +47,7 @@ def usage_lines(source: str) -> str:
     return "".join(re.sub(r"^ {4}", "", line) for line in example.splitlines(keepends=True))
 
 
-def clean_c(emission: Emission, compiler: Compiler, folder: Path) -> list[float]:
+def clean_c(emission: Artifact, compiler: Compiler, folder: Path) -> list[float]:
     """Check what emitted C promises of its text; return the numbers that its example prints."""
     for name in ("object", "sanitized"):
         (folder / name).mkdir()
@@ -63,7 +63,7 @@ def clean_c(emission: Emission, compiler: Compiler, folder: Path) -> list[float]
     return [float(word) for word in run.stdout.splitlines()[1:]]
 
 
-def clean_python(emission: Emission, folder: Path) -> list[float]:
+def clean_python(emission: Artifact, folder: Path) -> list[float]:
     """Run the example of emitted Python where there is nothing but the module; return what it prints."""
     ((name, source),) = emission.files.items()
     (folder / name).write_text(source, encoding="utf-8")

@@ -32,7 +32,7 @@ from codegen.groups import (
 from codegen.groups.matrix import _invert
 from codegen.ir.domain import FloatDomain, PreciseDomain, SeriesDomain
 from codegen.ir.interpret import interpret
-from codegen.lower import lower, setting
+from codegen.lower import lower, problem_for
 from codegen.method import Method
 from codegen.scene import FieldScene, HamiltonianScene
 from orderconds.ring import QQ
@@ -309,7 +309,7 @@ def same(scene: Any, before: Any, after: Any, ring: Any = QQ, order: int = 4) ->
 
 
 def lowered(family: str, tableau: Any, scene: Any, cutoff: int | None = None) -> tuple[Any, Any]:
-    """Return the setting and the program of a method on a scene, before all passes."""
+    """Return the problem and the program of a method on a scene, before all passes."""
     made = shipped(tableau) if isinstance(tableau, str) else tableau
     method = Method(family, made, cutoff)
-    return setting(scene, method), lower(scene, method)
+    return problem_for(scene, method), lower(scene, method)

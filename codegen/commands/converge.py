@@ -75,15 +75,15 @@ def _on_scene(
     from codegen.scenes import load
 
     prescribed = read_steps(steps)
-    setting = load(scene)
-    chosen = [parse(spelling, families_for(setting)) for spelling in methods]
+    problem = load(scene)
+    chosen = [parse(spelling, families_for(problem)) for spelling in methods]
     with working("order conditions") as tell:
         held = None if stated is None else CertifiedOrder(stated, "stated")
-        pairs = [(method, held or certified_order(method, setting)) for method in chosen]
+        pairs = [(method, held or certified_order(method, problem)) for method in chosen]
         tell("compiling")
-        runners = [(runner(setting, method, target, digits, order), order) for method, order in pairs]
+        runners = [(runner(problem, method, target, digits, order), order) for method, order in pairs]
         tell("reference solution")
-        exact = remembered(setting)
+        exact = remembered(problem)
     found: list[Convergence] = []
     for run, order in runners:
         with working(f"running {run.compiled.method.label}"):

@@ -55,7 +55,7 @@ def command(
 
     Without -o nothing is written: with --explain or --json what would be is told.
     """
-    from codegen.emit import bare, compile_method, emit_compiled
+    from codegen.emitter import bare, compile_method, emit_compiled
     from codegen.printers import target as known_target
     from codegen.printers.precision import precision as known_precision
 
@@ -85,16 +85,16 @@ def command(
                     {"name": r.name, "before": r.before, "after": r.after, "removed": r.removed}
                     for r in compiled.trace
                 ]
-                record["pieces"] = pieces_of(compiled)
+                record["functions"] = functions_of(compiled)
         screen.print_json(records)
     return 0
 
 
 def explanation(compiled: Any) -> str:
     """Return the program as lowered and after each pass, with operation counts, and what was left out."""
-    from codegen.emit import left_out
-    from codegen.printers.arrange import arrange
-    from codegen.printers.operations import operations, sentences
+    from codegen.emitter import left_out
+    from codegen.kernel.operations import operations, sentences
+    from codegen.kernel.schedule import arrange
 
     parts = [f"# lowered: {counted(compiled.lowered.counts())}\n{compiled.lowered.text()}"]
     for report in compiled.trace:
@@ -105,9 +105,9 @@ def explanation(compiled: Any) -> str:
         parts.append(report.program.text())
     costs = sentences(operations(arrange(compiled.kernel)))
     parts.append("# kernel\n" + "".join(f"  {line}\n" for line in costs))
-    pieces = pieces_of(compiled)
-    if pieces:
-        lines = [f"  {p['name']}, {p['calls']} calls: {p['about']}\n" for p in pieces]
+    functions = functions_of(compiled)
+    if functions:
+        lines = [f"  {p['name']}, {p['calls']} calls: {p['about']}\n" for p in functions]
         parts.append("# functions of what the kernel repeats\n" + "".join(lines))
     if compiled.solvers:
         parts.append("# solved by\n" + "".join(f"  {choice.text()}\n" for choice in compiled.solvers))
@@ -115,12 +115,12 @@ def explanation(compiled: Any) -> str:
     return "\n".join(parts)
 
 
-def pieces_of(compiled: Any) -> list[dict[str, Any]]:
+def functions_of(compiled: Any) -> list[dict[str, Any]]:
     """Return the functions of what a long step repeats: name, number of calls in its text, what it does."""
-    from codegen.lower.pieces import calls
+    from codegen.kernel.outlined_functions import calls
 
     often = calls(compiled.kernel)
-    return [{"name": p.name, "calls": often[p.name], "about": p.about} for p in compiled.kernel.pieces]
+    return [{"name": p.name, "calls": often[p.name], "about": p.about} for p in compiled.kernel.outlined]
 
 
 def counted(counts: dict[str, int]) -> str:

@@ -37,20 +37,20 @@ def command(
     The exit status is 1 when a run ends early.
     """
     from codegen import scenes
-    from codegen.emit import compile_method
+    from codegen.emitter import compile_method
     from codegen.lab.longrun import longrun
     from codegen.lab.study import methods_for
 
-    setting = scenes.load(scene)
-    h = float((setting.span[1] - setting.span[0]) / 100) if size is None else size
+    problem = scenes.load(scene)
+    h = float((problem.span[1] - problem.span[0]) / 100) if size is None else size
     if not 1e-300 <= abs(h) <= 1e300:  # NaN is not
         raise InputError(
             f"the step size {h:g}", where="--h", expected="a number between 1e-300 and 1e300 in size"
         )
     with working("emitting"):
-        compiled = [compile_method(setting, m) for m in methods_for(setting, methods)]
+        compiled = [compile_method(problem, m) for m in methods_for(problem, methods)]
     found = []
-    with counting(f"{setting.name}: {steps} steps") as done:
+    with counting(f"{problem.name}: {steps} steps") as done:
         for made in compiled:
             found.append(longrun(made, h, steps, back=not one_way, rounding=not no_rounding))
             done(made.method.label)

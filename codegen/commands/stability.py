@@ -56,8 +56,8 @@ def _studied(job: tuple[str, tuple[str, ...], bool], tell: Callable[[str], objec
     from codegen.lab.study import methods_for
 
     name, methods, long = job
-    setting = scenes.load(name)
-    return list(study(setting, methods_for(setting, methods), tell, long=long))
+    problem = scenes.load(name)
+    return list(study(problem, methods_for(problem, methods), tell, long=long))
 
 
 def _alone(job: tuple[str, tuple[str, ...], bool]) -> list[Any]:

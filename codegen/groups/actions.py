@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from codegen.groups.protocol import Scalars, matvec
+from codegen.groups.base import Scalars, matvec
 from codegen.ir.domain import Domain
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from codegen.groups.protocol import LieGroup, Scalars
+from codegen.groups.base import LieGroup, Scalars
 from codegen.ir.domain import Domain
 
 

@@ -11,7 +11,7 @@ from fractions import Fraction
 from typing import Any
 
 from codegen.errors import SceneError
-from codegen.groups.protocol import LieGroup, Scalars, dot, matmul
+from codegen.groups.base import LieGroup, Scalars, dot, matmul
 from codegen.ir.domain import Domain, ExprDomain, SeriesDomain
 
 LONGEST = 1000

@@ -7,7 +7,7 @@ from itertools import accumulate
 from typing import Any
 
 from codegen.errors import SceneError
-from codegen.groups.protocol import LieGroup, Scalars
+from codegen.groups.base import LieGroup, Scalars
 from codegen.ir.domain import Domain
 
 

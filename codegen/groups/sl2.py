@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from codegen.groups.base import Scalars, dot
 from codegen.groups.matrix import MatrixGroup
-from codegen.groups.protocol import Scalars, dot
 from codegen.ir.domain import Domain
 
 

@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any
 
-from codegen.groups.protocol import LieGroup, Scalars, bernoulli_over_factorial, cross, dot, matmul, matvec
+from codegen.groups.base import LieGroup, Scalars, bernoulli_over_factorial, cross, dot, matmul, matvec
 from codegen.ir.domain import Domain
-from codegen.ir.normal import Relation
+from codegen.ir.normal_form import Relation
 from codegen.ir.number import Number
 from codegen.ir.program import Factor
 

@@ -23,7 +23,7 @@ from codegen.ir.program import (
 )
 
 
-class Setting(Protocol):
+class Problem(Protocol):
     """What a program needs to know of its scene: group, action, field or Hamiltonian, over any domain."""
 
     def apply(self, domain: Domain, name: str, order: int | None, args: tuple[Any, ...]) -> tuple[Any, ...]:
@@ -47,22 +47,22 @@ def coefficient(domain: Domain, c: Coefficient) -> Any:
     return value
 
 
-def apply(setting: Setting, domain: Domain, assign: Assign, args: tuple[Any, ...]) -> tuple[Any, ...]:
+def apply(problem: Problem, domain: Domain, assign: Assign, args: tuple[Any, ...]) -> tuple[Any, ...]:
     """Return the values of an assignment's targets; linear values are tuples of scalars."""
     operation = assign.operation
     if operation.name == "zero":
-        return ((domain.rational(0),) * setting.dimension(),)
+        return ((domain.rational(0),) * problem.dimension(),)
     if operation.name == "advance":
         return (args[0] + coefficient(domain, operation.coefficients[0]),)
     if operation.name == "lin":
         return (_combine(domain, operation.coefficients, args),)
     if operation.word:
-        return (setting.series(domain, operation.word, operation.name == "seriest", *args),)
+        return (problem.series(domain, operation.word, operation.name == "seriest", *args),)
     if operation.name in FLOWS:
-        return setting.flow(domain, operation.part, coefficient(domain, operation.coefficients[0]), args)
+        return problem.flow(domain, operation.part, coefficient(domain, operation.coefficients[0]), args)
     if operation.name in FLOWS_FOR:
-        return setting.flow(domain, operation.part, args[-1], args[:-1])
-    return setting.apply(domain, operation.name, operation.order, args)
+        return problem.flow(domain, operation.part, args[-1], args[:-1])
+    return problem.apply(domain, operation.name, operation.order, args)
 
 
 def _combine(domain: Domain, coefficients: tuple[Coefficient, ...], args: tuple[Any, ...]) -> tuple[Any, ...]:
@@ -90,7 +90,7 @@ def flatten(kind: Kind, value: Any) -> tuple[Any, ...]:
 
 def interpret(
     program: Program,
-    setting: Setting,
+    problem: Problem,
     domain: Domain,
     inputs: Mapping[str, Any],
     *,
@@ -112,19 +112,19 @@ def interpret(
     used instead.
     """
     if program.frame == BODY:
-        core, start = replace(program, frame=SPACE), {**inputs, "mu": inward(setting, domain, inputs)}
+        core, start = replace(program, frame=SPACE), {**inputs, "mu": inward(problem, domain, inputs)}
         options: dict[str, Any] = {"limit": limit, "newton": newton, "solutions": solutions, "near": near}
-        found = interpret(core, setting, domain, start, **options)
-        return found | {"mu": outward(setting, domain, inputs, start, found)}
+        found = interpret(core, problem, domain, start, **options)
+        return found | {"mu": outward(problem, domain, inputs, start, found)}
     if program.substeps:
-        return _composed(program, setting, domain, inputs, limit, newton, near)
+        return _composed(program, problem, domain, inputs, limit, newton, near)
     expected = {} if solutions is None else solutions
     env: dict[Var, Any] = {v: inputs[v.name] for v in program.inputs}
 
     computed = getattr(domain, "computed", None)
 
     def run(assign: Assign) -> None:
-        results = apply(setting, domain, assign, tuple(env[a] for a in assign.args))
+        results = apply(problem, domain, assign, tuple(env[a] for a in assign.args))
         if computed is not None:
             results = tuple(computed(v.name, x) for v, x in zip(assign.targets, results, strict=True))
         env.update(zip(assign.targets, results, strict=True))
@@ -146,27 +146,27 @@ def interpret(
     return {name: env[var] for name, var in program.outputs}
 
 
-def inward(setting: Setting, domain: Domain, state: Mapping[str, Any]) -> tuple[Any, ...]:
+def inward(problem: Problem, domain: Domain, state: Mapping[str, Any]) -> tuple[Any, ...]:
     """Return Ad*_q mu, the momentum of the body."""
-    (m,) = setting.apply(domain, "Adt", None, (state["q"], state["mu"]))
+    (m,) = problem.apply(domain, "Adt", None, (state["q"], state["mu"]))
     return tuple(m)
 
 
 def outward(
-    setting: Setting, domain: Domain, state: Mapping[str, Any], *ends: Mapping[str, Any]
+    problem: Problem, domain: Domain, state: Mapping[str, Any], *ends: Mapping[str, Any]
 ) -> tuple[Any, ...]:
     """Return the momentum in space after a step from a state, made in the body between two ends.
 
     It is that of the state and what has been added: where rounding has made q not quite orthogonal, it turns
     this alone.
     """
-    before, after = (setting.apply(domain, "Adtinv", None, (x["q"], x["mu"]))[0] for x in ends)
+    before, after = (problem.apply(domain, "Adtinv", None, (x["q"], x["mu"]))[0] for x in ends)
     return tuple(mu + (b - a) for mu, a, b in zip(state["mu"], before, after, strict=True))
 
 
 def _composed(
     program: Program,
-    setting: Setting,
+    problem: Problem,
     domain: Domain,
     inputs: Mapping[str, Any],
     limit: int,
@@ -180,7 +180,7 @@ def _composed(
         shorter.h = domain.number(step.fraction) * domain.h
         if "t" in inputs:
             state["t"] = inputs["t"] + domain.number(step.offset) * domain.h
-        state |= interpret(once, setting, shorter, state, limit=limit, newton=newton, near=near)
+        state |= interpret(once, problem, shorter, state, limit=limit, newton=newton, near=near)
     return {name: state[name] for name, _ in program.outputs}
 
 

@@ -186,7 +186,7 @@ class Field:
 
 
 @dataclass(frozen=True)
-class PutOff:
+class Deferred:
     """What a run does not do in each step.
 
     A step is ``begin``, the kernel with :data:`LEAD` = ``last`` h, and ``finish`` with :data:`ELAPSED` = h.
@@ -238,7 +238,7 @@ class Estimate:
 
 
 @dataclass(frozen=True)
-class Piece:
+class Function:
     """A function that a kernel calls in several places: ``outputs`` over ``body``, of ``inputs`` alone.
 
     Its k-th result is the expression that calls ``NAME.k``; ``about`` spells it in operations of a program.
@@ -258,7 +258,7 @@ class Kernel:
     ``inputs`` names functions of time that the caller supplies, ``samples`` are the times they are read at.
     ``vary`` carries a variation along: its state is this one's and then the variation, its outputs are the
     variation of the new state. With ``substeps`` this is one of the parts of a step, all alike: h and t are
-    those of the part. ``pieces`` are functions that its expressions call. With ``carried`` the state's
+    those of the part. ``outlined`` are functions that its expressions call. With ``carried`` the state's
     momentum is another for the kernel.
     """
 
@@ -267,13 +267,13 @@ class Kernel:
     scalars: tuple[str, ...]
     body: tuple[Let | Start | Loop, ...]
     outputs: tuple[Expr, ...]
-    put_off: PutOff | None = None
+    deferred: Deferred | None = None
     inputs: tuple[str, ...] = ()
     samples: tuple[Sample, ...] = ()
     estimate: Estimate | None = None
     vary: Kernel | None = None
     substeps: tuple[Substep, ...] = ()
-    pieces: tuple[Piece, ...] = ()
+    outlined: tuple[Function, ...] = ()
     carried: Carried | None = None
 
     @property
@@ -322,6 +322,6 @@ class Kernel:
     def used_scalars(self) -> tuple[str, ...]:
         """Return those of ``scalars`` that some expression reads, in order; what is put off reads too."""
         read = {n.payload for n in walk(self.expressions()) if n.op == "sym"}
-        if self.put_off is not None:
-            read |= {s for kernel in self.put_off.kernels for s in kernel.used_scalars()}
+        if self.deferred is not None:
+            read |= {s for kernel in self.deferred.kernels for s in kernel.used_scalars()}
         return tuple(s for s in self.scalars if s in read)

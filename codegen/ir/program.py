@@ -90,7 +90,7 @@ SIGNATURES: dict[str, tuple[tuple[Kind, ...], tuple[Kind, ...]]] = {
     "differential": ((P,), (D,)),  # R*_y dH: its pairing with e is d/deps H(exp(eps e).y) at eps = 0
     "secant": ((D, A, R, R), (D,)),  # the covector nearest to g whose pairing with x is H1 - H0
     "bivector": ((P, D), (A,)),  # omega_y(alpha, .), f(y) where alpha is the differential of H
-    # in the body frame (codegen.body): W and N of (q, P) with P = Ad*_q mu, and P of W
+    # in the body frame (codegen.scene.body_frame): W and N of (q, P) with P = Ad*_q mu, and P of W
     "velocity": ((G, D), (A,)),
     "velocityt": ((G, D, R), (A,)),
     "force": ((G, D), (D,)),

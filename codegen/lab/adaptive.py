@@ -14,7 +14,7 @@ from codegen.lab.contest import MOST_STEPS, EmittedContestant, Row
 from codegen.lab.distance import distance
 from codegen.lab.runner import RunFailed
 from codegen.lab.timing import samples
-from codegen.load import Arrival, Statistics, StepFailed
+from codegen.loader import Arrival, Statistics, StepFailed
 
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
 """From loose to tight, and looser than those of peers: a row of low order steers a method of high order."""

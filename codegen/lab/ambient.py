@@ -13,8 +13,8 @@ from typing import Any
 from flint import arb
 
 from codegen.ir.number import Number
-from codegen.lab.straight import velocity
-from codegen.setting import Setting
+from codegen.lab.straight_line_field import velocity
+from codegen.scene.problem import Problem
 from orderconds.ring.precision import precision, working_bits
 
 Vector = Sequence[Any]
@@ -24,7 +24,7 @@ Field = Callable[[Vector, Any], tuple[Any, ...]]
 FUNCTIONS = {name: getattr(arb, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
 
 
-def ambient_field(scene: Setting) -> Field:
+def ambient_field(scene: Problem) -> Field:
     """Return the function of a scene, its parameters at their defaults, for the working precision at hand."""
     return velocity(scene).python(ball, FUNCTIONS)
 

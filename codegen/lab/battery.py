@@ -12,14 +12,14 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 
 SPAN = (0, "1/4")
 """Short: solutions of polynomial equations may reach infinity soon after."""
 
 
 @cache
-def fields() -> tuple[Setting, ...]:
+def fields() -> tuple[Problem, ...]:
     """Return the field scenes."""
     from sympy import Matrix, Rational, Symbol
 
@@ -88,7 +88,7 @@ def fields() -> tuple[Setting, ...]:
 
 
 @cache
-def hamiltonians() -> tuple[Setting, ...]:
+def hamiltonians() -> tuple[Problem, ...]:
     """Return the Hamiltonian scenes."""
     from sympy import Matrix, Rational, Symbol
 
@@ -120,6 +120,6 @@ def hamiltonians() -> tuple[Setting, ...]:
     return tuple(found)
 
 
-def battery(variational: bool) -> tuple[Setting, ...]:
+def battery(variational: bool) -> tuple[Problem, ...]:
     """Return the scenes for variational methods, or for all others."""
     return hamiltonians() if variational else fields()

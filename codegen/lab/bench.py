@@ -10,7 +10,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 
 from codegen import scenes
-from codegen.emission import write_texts
+from codegen.artifact import write_texts
 from codegen.errors import MethodError
 from codegen.lab.adaptive import AdaptiveContestant
 from codegen.lab.contest import Contestant, EmittedContestant, PeerContestant, Row, climb
@@ -21,7 +21,7 @@ from codegen.lab.ranking import Place, places
 from codegen.lab.reference import Reference
 from codegen.lab.remembered import remembered
 from codegen.lab.study import methods_for
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
 TARGETS = ("c", "python")
@@ -32,7 +32,7 @@ Tell = Callable[[str], object]
 class Result:
     """All rows by contestant, the winner of each decade of accuracy, and the files written."""
 
-    scene: Setting
+    scene: Problem
     entries: dict[str, tuple[Row, ...]]
     places: tuple[Place, ...]
     paths: tuple[str, ...] = ()
@@ -55,7 +55,7 @@ class Result:
 class Bench:
     """Contestants on one scene, ready to run; ``folder`` is where results go, or None."""
 
-    scene: Setting
+    scene: Problem
     exact: Reference
     contestants: tuple[Contestant, ...]
     folder: Path | None
@@ -112,20 +112,20 @@ def bench(
     for target in targets:
         if target not in TARGETS:
             raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(TARGETS)}")
-    setting = scenes.load(scene)
-    chosen = () if adaptive and not methods else methods_for(setting, methods)
-    choosing, others = methods_for(setting, adaptive) if adaptive else (), find(peers)
+    problem = scenes.load(scene)
+    chosen = () if adaptive and not methods else methods_for(problem, methods)
+    choosing, others = methods_for(problem, adaptive) if adaptive else (), find(peers)
     folder = _folder(output)
-    tell(f"{setting.name}: reference solution")
-    exact = remembered(setting)
+    tell(f"{problem.name}: reference solution")
+    exact = remembered(problem)
     ours: list[Contestant] = []
     kinds = ((EmittedContestant, chosen), (AdaptiveContestant, choosing))
     for kind, method in ((kind, m) for kind, group in kinds for m in group):
         for target in dict.fromkeys(targets):
-            tell(f"{setting.name}: emitting {method.label}")
-            ours.append(kind(setting, method, exact, target, budget))
-    theirs = [PeerContestant(setting, peer, exact, budget) for peer in others]
-    return Bench(setting, exact, (*ours, *theirs), folder)
+            tell(f"{problem.name}: emitting {method.label}")
+            ours.append(kind(problem, method, exact, target, budget))
+    theirs = [PeerContestant(problem, peer, exact, budget) for peer in others]
+    return Bench(problem, exact, (*ours, *theirs), folder)
 
 
 def _folder(output: str | None) -> Path | None:

@@ -12,11 +12,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from codegen.emit import Compiled
+from codegen.emitter import Compiled
 from codegen.errors import MethodError
 from codegen.ir.expr import Expr, walk
 from codegen.ir.kernel import Field, Kernel, Let, Loop, Start
-from codegen.lower.kernel import to_kernel
+from codegen.kernel.translate import to_kernel
 
 CARRY = "carry_"
 
@@ -29,7 +29,7 @@ def compensated(compiled: Compiled) -> Compiled:
     :class:`MethodError` where the new value of some coordinate is not the old one with something added.
     """
     kernel = compiled.kernel
-    if kernel.put_off is not None:  # what commutes with all steps would be made for many of them at once
+    if kernel.deferred is not None:  # what commutes with all steps would be made for many of them at once
         kernel = to_kernel(compiled.program, compiled.view)
     if kernel.carried is not None:
         solvers = {loop.label: loop.solver for loop in kernel.loops}
@@ -70,7 +70,7 @@ def with_carries(kernel: Kernel) -> Kernel:
         state=(*kernel.state, *fields),
         body=_read(body, (*sums, *carries)),
         outputs=(*sums, *carries),
-        put_off=None,
+        deferred=None,
         estimate=None,
         vary=None,
     )

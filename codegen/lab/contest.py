@@ -19,17 +19,17 @@ from typing import Any, Protocol
 
 from codegen.build import compile_files, find_compiler
 from codegen.certify import certified_order
-from codegen.emit import Compiled, compile_method
+from codegen.emitter import Compiled, compile_method
 from codegen.ir.program import Assign
 from codegen.lab.distance import distance
 from codegen.lab.peers import TOLERANCES, Peer, PeerFailed
 from codegen.lab.reference import Reference
 from codegen.lab.runner import Emitted, RunFailed
 from codegen.lab.timing import cost, samples
-from codegen.load import Statistics
+from codegen.loader import Statistics
 from codegen.method import Method
 from codegen.printers.c.module import FLAGS
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 
 BUDGET = 1.0
 """CPU seconds that one run of a ladder may take."""
@@ -128,7 +128,7 @@ class EmittedContestant:
     ``made`` is the method compiled already, whose emission then takes next to no time.
     """
 
-    scene: Setting
+    scene: Problem
     method: Method
     exact: Reference
     target: str = "c"
@@ -247,7 +247,7 @@ def _compile_seconds(files: Any) -> float:
 class PeerContestant:
     """A peer on the scene's ambient equations."""
 
-    scene: Setting
+    scene: Problem
     peer: Peer
     exact: Reference
     budget: float = BUDGET

@@ -18,7 +18,7 @@ from codegen.lab.distance import distance
 from codegen.lab.ladder import CLEAR, Ladder, Rung, climb, rounding
 from codegen.lab.reference import Reference
 from codegen.lab.runner import RunFailed, Runner
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 
 ROUNDING = "rounding"
 FEWEST = 4
@@ -110,7 +110,7 @@ def converge(
     return Convergence(scene.name, runner.compiled.method.label, runner.target, stated, ladder)
 
 
-def _rung(scene: Setting, runner: Runner, exact: Reference, steps: int, size: float) -> Rung:
+def _rung(scene: Problem, runner: Runner, exact: Reference, steps: int, size: float) -> Rung:
     h = float(Fraction(scene.span[1] - scene.span[0]) / steps)
     try:
         error = distance(scene, runner.final(steps), exact.state)

@@ -13,10 +13,10 @@ from typing import Any
 
 from codegen.groups import SO3, MatrixGroup, Product
 from codegen.ir.program import Kind
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 
 
-def distance(scene: Setting, state: Sequence[Any], exact: Sequence[Any]) -> float:
+def distance(scene: Problem, state: Sequence[Any], exact: Sequence[Any]) -> float:
     """Return the error of ``state`` against ``exact``, both flat in the order of ``scene.symbols``.
 
     Differences are taken in the precision of ``exact`` before they are rounded, so that an error below 1e-16

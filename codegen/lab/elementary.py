@@ -14,7 +14,7 @@ from codegen.groups import SO3, MatrixGroup, Rn
 from codegen.ir.domain import Domain
 from codegen.ir.expr import evaluate
 from codegen.ir.number import Number
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.action_fields import ActionFields, Nilpotent
 from orderconds.trees.directed import DirectedTree
@@ -63,7 +63,7 @@ class FrozenFields:
     Trees and forests are ordered (:mod:`orderconds.trees.levels`), the first tree of a forest acts first.
     """
 
-    def __init__(self, scene: Setting, ring: Ring) -> None:
+    def __init__(self, scene: Problem, ring: Ring) -> None:
         self.scene, self.ring = scene, ring
         self.domain = RingDomain(ring)
         self.point: tuple[Any, ...] = scene.initial(self.domain)
@@ -99,7 +99,7 @@ class CanonicalFields:
     branch of kind 1 (:mod:`orderconds.trees.directed`).
     """
 
-    def __init__(self, scene: Setting, ring: Ring) -> None:
+    def __init__(self, scene: Problem, ring: Ring) -> None:
         self.scene, self.ring = scene, ring
         self.domain = RingDomain(ring)
         self.point: tuple[Any, ...] = scene.initial(self.domain)
@@ -120,7 +120,7 @@ class CanonicalFields:
         return self._known[tree]
 
 
-def action_fields(scene: Setting, ring: Ring) -> ActionFields:
+def action_fields(scene: Problem, ring: Ring) -> ActionFields:
     """Return the elementary velocities and covectors of an autonomous polynomial Hamiltonian scene.
 
     The group is represented by matrices: itself, or for R^n translations of affine space.

@@ -23,7 +23,7 @@ from codegen.lab.elementary import (
     element_coordinates,
 )
 from codegen.method import Method
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 from orderconds import families
 from orderconds.families.action_family import ActionFamily
 from orderconds.families.ordered_forests import scale
@@ -36,10 +36,10 @@ State = tuple[Any, ...]
 """The coordinates of a state in order, power series in h."""
 
 
-def step(program: Program, scene: Setting, ring: Ring, order: int) -> State:
+def step(program: Program, scene: Problem, ring: Ring, order: int) -> State:
     """Return the state after one step from the scene's initial state, as series in h up to ``order``.
 
-    ``scene`` is the setting that the program was lowered in. ArithmeticError for a scene whose field is not
+    ``scene`` is the problem that the program was lowered in. ArithmeticError for a scene whose field is not
     polynomial, or whose initial state is not rational.
     """
     domain = SeriesDomain(ring, order)
@@ -52,7 +52,7 @@ def step(program: Program, scene: Setting, ring: Ring, order: int) -> State:
     return tuple(x for block in scene.state for x in result[block.name])
 
 
-def exact_flow(scene: Setting, ring: Ring, order: int) -> State:
+def exact_flow(scene: Problem, ring: Ring, order: int) -> State:
     """Return the exact solution after the time h from the initial state, by Picard iteration."""
     domain = SeriesDomain(ring, order)
     start = scene.initial(domain)
@@ -64,7 +64,7 @@ def exact_flow(scene: Setting, ring: Ring, order: int) -> State:
     return state
 
 
-def _time(scene: Setting, domain: SeriesDomain) -> Any:
+def _time(scene: Problem, domain: SeriesDomain) -> Any:
     return domain.rational(scene.span[0].numerator, scene.span[0].denominator)
 
 
@@ -73,7 +73,7 @@ def _integral(ring: PowerSeries, x: Any) -> Any:
     return ring.from_coefficients((ring.base.zero, *terms))
 
 
-def local_error(program: Program, scene: Setting, ring: Ring, order: int) -> State:
+def local_error(program: Program, scene: Problem, ring: Ring, order: int) -> State:
     """Return program minus exact flow after one step, series in h up to ``order``."""
     pairs = zip(step(program, scene, ring, order), exact_flow(scene, ring, order), strict=True)
     return tuple(x - y for x, y in pairs)
@@ -90,10 +90,10 @@ def leading_term(error: State) -> tuple[int, Vector]:
     return power, tuple(x.coefficients[power] for x in error)
 
 
-def predicted(scene: Setting, method: Method, power: int) -> Vector:
+def predicted(scene: Problem, method: Method, power: int) -> Vector:
     """Return the coefficients of h^power that a method's order conditions predict, all lower ones vanishing.
 
-    ``scene`` is the setting of the method's family; autonomous and polynomial. The family ``sprk`` is
+    ``scene`` is the problem of the method's family; autonomous and polynomial. The family ``sprk`` is
     predicted by its own trees, on the Hamiltonian scene of ``vcg`` on T*R^n.
     """
     if not scene.autonomous:
@@ -121,7 +121,7 @@ def _sum(ring: Ring, terms: list[tuple[Element, Vector]], width: int) -> Vector:
     return tuple(total)
 
 
-def _trees(scene: Setting, method: Method, power: int) -> Vector:
+def _trees(scene: Problem, method: Method, power: int) -> Vector:
     """The B-series: sum over rooted trees of residual/symmetry F(t) (HLW III.1)."""
     fields = FrozenFields(scene, method.ring)
     terms = [
@@ -131,14 +131,14 @@ def _trees(scene: Setting, method: Method, power: int) -> Vector:
     return _sum(method.ring, terms, len(scene.symbols))
 
 
-def _forests(scene: Setting, method: Method, power: int) -> Vector:
+def _forests(scene: Problem, method: Method, power: int) -> Vector:
     """The Lie-Butcher series: sum over ordered forests of (value - exact value) F(w)."""
     fields = FrozenFields(scene, method.ring)
     terms = [(x * method.ring.rational(1, scale(w)), fields.forest(w)) for w, x in _residuals(method, power)]
     return _sum(method.ring, terms, len(scene.symbols))
 
 
-def _partitioned(scene: Setting, method: Method, power: int) -> Vector:
+def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
     """The P-series: sum over trees with directed edges of residual/symmetry (xi, n)(t)."""
     fields = CanonicalFields(scene, method.ring)
     terms = [
@@ -148,7 +148,7 @@ def _partitioned(scene: Setting, method: Method, power: int) -> Vector:
     return _sum(method.ring, terms, len(scene.symbols))
 
 
-def _action(scene: Setting, method: Method, power: int) -> Vector:
+def _action(scene: Problem, method: Method, power: int) -> Vector:
     """The action series: the update's words, exact values taken off."""
     ring = method.ring
     family = family_of(method)

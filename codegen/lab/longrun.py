@@ -12,16 +12,16 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
-from codegen.emit import Compiled
+from codegen.emitter import Compiled
 from codegen.ir.domain import NotConverged
 from codegen.lab.distance import distance
 from codegen.lab.drift import BLOCKS, Drift, fit
-from codegen.lab.kept import MANIFOLD, functions
+from codegen.lab.invariants import MANIFOLD, functions
 from codegen.lab.roundoff import Growth, roundoff
 from codegen.lab.runner import Emitted
 from codegen.lab.symplecticity import symplectic_defect
-from codegen.load import StepFailed
-from codegen.setting import Setting
+from codegen.loader import StepFailed
+from codegen.scene.problem import Problem
 
 SAMPLES = 1000
 
@@ -136,7 +136,7 @@ def _kept(name: str, times: Sequence[float], values: Sequence[float]) -> Kept:
     return Kept(name, tuple(elapsed), tuple(values[1:]), fit(elapsed, values[1:]))
 
 
-def _quantities(scene: Setting, rows: Sequence[Any], times: Sequence[float]) -> dict[str, list[float]]:
+def _quantities(scene: Problem, rows: Sequence[Any], times: Sequence[float]) -> dict[str, list[float]]:
     """Return deviations along a trajectory: of each invariant from its start, and from the manifold."""
     found: dict[str, list[float]] = {}
     for name, evaluate in functions(scene).items():

@@ -10,8 +10,8 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from codegen.emission import Emission
-from codegen.emit import Compiled
+from codegen.artifact import Artifact
+from codegen.emitter import Compiled
 from codegen.lab.contest import Row
 from codegen.lab.ranking import seconds_to
 from codegen.lower import OF_PARTS, ON_COTANGENT
@@ -45,7 +45,7 @@ class Features:
     lines: int
 
 
-def features(compiled: Compiled, emission: Emission, label: str = "") -> Features:
+def features(compiled: Compiled, emission: Artifact, label: str = "") -> Features:
     """Return what a method has as emitted to C; ``label`` names the contestant where it is not the method."""
     source = emission.files[f"{emission.manifest['module']}.c"]
     found = re.search(r"stack: +at most (\d+) bytes", source)

@@ -12,14 +12,14 @@ from typing import Any
 
 from codegen.errors import SceneError
 from codegen.groups import SO3, Rotation
-from codegen.groups.protocol import dot, matmul
+from codegen.groups.base import dot, matmul
 from codegen.ir.domain import Domain, ExprDomain, FloatDomain
 from codegen.ir.program import Kind
-from codegen.lab.straight import StraightLine, straight_line
-from codegen.setting import Setting
+from codegen.lab.straight_line_field import StraightLine, straight_line
+from codegen.scene.problem import Problem
 
 
-def project(scene: Setting, domain: Domain, state: Sequence[Any]) -> tuple[Any, ...]:
+def project(scene: Problem, domain: Domain, state: Sequence[Any]) -> tuple[Any, ...]:
     """Return the state brought back; :class:`SceneError` for a manifold that has no projection here."""
     result: list[Any] = []
     start = 0
@@ -50,13 +50,13 @@ def _polar(domain: Domain, g: tuple[Any, ...]) -> tuple[Any, ...]:
     return matmul(g, defect, 3)
 
 
-def projection_lines(scene: Setting) -> StraightLine:
+def projection_lines(scene: Problem) -> StraightLine:
     """Return the projection as straight-line code."""
     domain = ExprDomain()
     return straight_line(scene, project(scene, domain, tuple(domain.space.sym(s) for s in scene.symbols)))
 
 
-def projection(scene: Setting) -> Callable[[Sequence[float]], tuple[float, ...]]:
+def projection(scene: Problem) -> Callable[[Sequence[float]], tuple[float, ...]]:
     """Return the projection as a function of a list of floats."""
     field = projection_lines(scene).python(float, {"sqrt": math.sqrt})
     return lambda y: field(y, 0.0)

@@ -17,7 +17,7 @@ from flint import arb
 from codegen.errors import SceneError
 from codegen.ir.domain import PreciseDomain
 from codegen.lab.ambient import Field, ambient_field
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 from orderconds.ring.precision import precision
 
 DIGITS = 50
@@ -58,7 +58,7 @@ class Reference:
         return tuple(mpmath.nstr(x, count) for x in self.state)
 
 
-def reference(scene: Setting) -> Reference:
+def reference(scene: Problem) -> Reference:
     """Return the reference of a scene at the end of its span, with its measured uncertainty.
 
     :class:`codegen.errors.SceneError` where the equations cannot be evaluated along the way, or where two
@@ -77,7 +77,7 @@ def reference(scene: Setting) -> Reference:
     return Reference(scene.name, answer, gap)
 
 
-def _end(scene: Setting, columns: int, exponent: int) -> tuple[Any, ...]:
+def _end(scene: Problem, columns: int, exponent: int) -> tuple[Any, ...]:
     """Return the final state, by steps as long as the difference of the last two columns permits."""
     context = PreciseDomain(0, DIGITS)
     with precision(BITS):
@@ -88,7 +88,7 @@ def _end(scene: Setting, columns: int, exponent: int) -> tuple[Any, ...]:
 
 
 def _integrate(
-    scene: Setting, field: Field, y: tuple[Any, ...], columns: int, tolerance: float
+    scene: Problem, field: Field, y: tuple[Any, ...], columns: int, tolerance: float
 ) -> tuple[Any, ...]:
     """Return the state at the end of the span, as midpoints of the working precision."""
     t, end = (arb(x.numerator) / x.denominator for x in scene.span)

@@ -10,15 +10,15 @@ from __future__ import annotations
 import hashlib
 import json
 
+from codegen.artifact import write_text
 from codegen.build import cache_directory
-from codegen.emission import write_text
 from codegen.ir.domain import PreciseDomain
 from codegen.lab.reference import AGREEMENT, BITS, DIGITS, RUNS, Reference, reference
-from codegen.lab.straight import velocity
-from codegen.setting import Setting
+from codegen.lab.straight_line_field import velocity
+from codegen.scene.problem import Problem
 
 
-def remembered(scene: Setting) -> Reference:
+def remembered(scene: Problem) -> Reference:
     """Return the reference of a scene, from the cache where it is there; errors as :func:`reference`."""
     path = cache_directory() / "references" / f"{_digest(scene)}.json"
     context = PreciseDomain(0, DIGITS).context
@@ -40,7 +40,7 @@ def remembered(scene: Setting) -> Reference:
     return Reference(scene.name, state, found.uncertainty)
 
 
-def _digest(scene: Setting) -> str:
+def _digest(scene: Problem) -> str:
     field = velocity(scene)
     start = scene.initial(PreciseDomain(0, DIGITS))
     parts = (

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from codegen import scenes
-from codegen.emit import bare, quoted
+from codegen.emitter import bare, quoted
 from codegen.lab.bench import table
 from codegen.lab.page import OVERVIEW, page_name, render, render_overview
 from codegen.lab.records import FOLDER, Records

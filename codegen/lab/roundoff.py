@@ -17,16 +17,16 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
-from codegen.emit import Compiled, emit_compiled
+from codegen.emitter import Compiled, emit_compiled
 from codegen.errors import MethodError
 from codegen.ir.domain import NotConverged, PreciseDomain
 from codegen.lab.compensated import compensated
 from codegen.lab.drift import CONFIDENCE
-from codegen.lab.kept import MANIFOLD, expressions
+from codegen.lab.invariants import MANIFOLD, expressions
 from codegen.lab.runner import Emitted
 from codegen.lab.stability.extremes import DIGITS, precise_step
-from codegen.lab.straight import straight_line
-from codegen.load import Integrator, StepFailed, load
+from codegen.lab.straight_line_field import straight_line
+from codegen.loader import Integrator, StepFailed, load
 
 STARTS = 16
 APART = 37

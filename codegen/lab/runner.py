@@ -11,16 +11,16 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from codegen.artifact import Artifact
 from codegen.certify import CertifiedOrder
-from codegen.emission import Emission
-from codegen.emit import Compiled, Optimised, compile_method, emit_compiled
+from codegen.emitter import Compiled, Optimised, compile_method, emit_compiled
 from codegen.errors import MethodError
 from codegen.ir.domain import Domain, FloatDomain, NotConverged, PreciseDomain
 from codegen.ir.interpret import flatten, interpret
-from codegen.load import Integrator, Statistics, StepFailed, load
-from codegen.lower import setting
+from codegen.loader import Integrator, Statistics, StepFailed, load
+from codegen.lower import problem_for
 from codegen.method import Method
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 
 TARGETS = ("c", "python", "interpreter")
 DOUBLE = 16
@@ -50,9 +50,9 @@ class Interpreted:
         return 1280 if self.digits <= DOUBLE else 320
 
     @cached_property
-    def view(self) -> Setting:
+    def view(self) -> Problem:
         """The scene as the family sees it."""
-        return setting(self.compiled.scene, self.compiled.method)
+        return problem_for(self.compiled.scene, self.compiled.method)
 
     def final(self, steps: int) -> tuple[Any, ...]:
         """Return the state at the end of the span."""
@@ -96,7 +96,7 @@ class Emitted:
         return 81920 if self.target == "c" else 10240
 
     @cached_property
-    def emission(self) -> Emission:
+    def emission(self) -> Artifact:
         """The module's files and manifest."""
         return emit_compiled(self.compiled, self.target, order=self.order)
 
@@ -130,7 +130,7 @@ Runner = Interpreted | Emitted
 
 
 def runner(
-    scene: Setting, method: Method, target: str, digits: int = DOUBLE, order: CertifiedOrder | None = None
+    scene: Problem, method: Method, target: str, digits: int = DOUBLE, order: CertifiedOrder | None = None
 ) -> Runner:
     """Return the runner of a target.
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from codegen.certify import CertifiedOrder, certified_order
-from codegen.emit import Optimised, optimise_method
+from codegen.emitter import Optimised, optimise_method
 from codegen.lab.battery import battery
 from codegen.lab.converge import Convergence, converge
 from codegen.lab.remembered import remembered

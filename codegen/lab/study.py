@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from codegen.artifact import Artifact
 from codegen.certify import CertifiedOrder, certified_order
-from codegen.emission import Emission
-from codegen.emit import Compiled, compile_method
+from codegen.emitter import Compiled, compile_method
 from codegen.lab.converge import Convergence, converge
 from codegen.lab.ladder import FIRST, Ladder
 from codegen.lab.records import Records
@@ -18,7 +18,7 @@ from codegen.lab.runner import Emitted, Interpreted, RunFailed, Runner
 from codegen.lab.timing import Timing, timings
 from codegen.lower import families_for
 from codegen.method import Method, parse
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 
 FIELD_METHODS = ("rkmk(0):euler", "cg:cg3", "rkmk(2):rk4", "cf:cf4")
 HAMILTONIAN_METHODS = ("vcg:midpoint", "vcg:triple_jump", "cf:cf4", "vcg:triple_jump6")
@@ -47,7 +47,7 @@ class MethodStudy:
     python: Convergence
     times: tuple[Timing, ...]
     spread: float | None
-    emission: Emission
+    emission: Artifact
 
     @property
     def verdict(self) -> str:
@@ -72,19 +72,19 @@ class Study:
     """A scene, as ``spelled`` by the user, with its reference and what each method did on it."""
 
     spelled: str
-    scene: Setting
+    scene: Problem
     exact: Reference
     methods: tuple[MethodStudy, ...]
 
 
-def methods_for(scene: Setting, spellings: Sequence[str] = ()) -> tuple[Method, ...]:
+def methods_for(scene: Problem, spellings: Sequence[str] = ()) -> tuple[Method, ...]:
     """Return the methods of those spellings, or the usual ones of a scene of this kind."""
     usual = HAMILTONIAN_METHODS if scene.is_hamiltonian else FIELD_METHODS
     families = families_for(scene)
     return tuple(parse(spelling, families) for spelling in (spellings or usual))
 
 
-def study(spelled: str, scene: Setting, methods: Sequence[Method], tell: Tell) -> Study:
+def study(spelled: str, scene: Problem, methods: Sequence[Method], tell: Tell) -> Study:
     """Measure methods on a scene; ``tell`` hears what is being done."""
     tell(f"{scene.name}: reference solution")
     exact = remembered(scene)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from codegen.certify import certified_order
-from codegen.emit import Compiled, compile_method, emit_compiled
+from codegen.emitter import Compiled, compile_method, emit_compiled
 from codegen.errors import MethodError
 from codegen.lab.adaptive import AdaptiveContestant
 from codegen.lab.bench import Bench, Result
@@ -33,7 +33,7 @@ from codegen.lab.stability.study import study_method as try_method
 from codegen.lab.study import MethodStudy, Tell, study_method
 from codegen.lower import families_for
 from codegen.method import Method, parse
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 
 ORDERS, COST, STABILITY, LONG = PARTS = ("orders", "cost", "stability", "long")
 """The parts of a report, in the order of its pages."""
@@ -82,7 +82,7 @@ class Plan:
     """What is to be measured of which scene, all of it read and found to fit."""
 
     spelled: str
-    scene: Setting
+    scene: Problem
     methods: tuple[Method, ...]
     peers: tuple[str, ...]
     effort: Effort
@@ -104,7 +104,7 @@ class Survey:
     longruns: tuple[LongRun, ...]
 
     @property
-    def scene(self) -> Setting:
+    def scene(self) -> Problem:
         """The scene."""
         return self.plan.scene
 
@@ -130,7 +130,7 @@ class Survey:
 
 def plan(
     spelled: str,
-    scene: Setting,
+    scene: Problem,
     methods: Sequence[str] = (),
     peers: Sequence[str] = (),
     effort: Effort = USUAL,
@@ -155,7 +155,7 @@ def plan(
     return Plan(spelled, scene, chosen, others, effort, asked, choosing)
 
 
-def usual(scene: Setting) -> tuple[tuple[Method, ...], tuple[Method, ...]]:
+def usual(scene: Problem) -> tuple[tuple[Method, ...], tuple[Method, ...]]:
     """Return the methods that are shown where nobody chose, and those that choose their steps.
 
     Of the list those that the scene can take and that have their order there: a splitting may find no exact

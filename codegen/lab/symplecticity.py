@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from codegen.emit import Compiled
+from codegen.emitter import Compiled
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.interpret import flatten, interpret
-from codegen.lower import setting
+from codegen.lower import problem_for
 
 DIGITS = 60
 OFFSET = 15
@@ -69,7 +69,7 @@ def symplectic_defect(compiled: Compiled, state: Sequence[float], h: float, t: f
 
 
 def _step(compiled: Compiled, domain: PreciseDomain, q: Values, mu: Values, t: Any) -> tuple[Values, Values]:
-    view = setting(compiled.scene, compiled.method)
+    view = problem_for(compiled.scene, compiled.method)
     flat, values, start = (*q, *mu), {"t": t}, 0
     for block in view.state:
         values[block.name] = tuple(flat[start : start + len(block.symbols)])

@@ -7,13 +7,13 @@ from importlib import import_module
 from typing import Any
 
 from codegen.errors import MethodError
+from codegen.flows.field_by_parts import simplified
 from codegen.ir.program import Program
 from codegen.lower.discrete_gradient import keeps_energy
-from codegen.lower.simplify import simplified
-from codegen.lower.splitting import setting as with_flows
+from codegen.lower.splitting import problem_for as with_flows
 from codegen.lower.substeps import substeps as repeated
 from codegen.method import Method
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 
 LOWERINGS = {
     "rk": "rkmk",
@@ -40,7 +40,7 @@ OF_PARTS = frozenset({"splitting", "composition"})
 """Families that compose exact flows of a Hamiltonian's parts."""
 
 
-def families_for(scene: Setting) -> tuple[str, ...]:
+def families_for(scene: Problem) -> tuple[str, ...]:
     """Return the families that can be lowered onto a scene, in the order of preference where none is named.
 
     Variational families need a Hamiltonian and come first where there is one; ``rk`` needs R^n, splittings
@@ -54,7 +54,7 @@ def families_for(scene: Setting) -> tuple[str, ...]:
     return tuple(sorted((f for f in LOWERINGS if able[f]), key=lambda f: f not in ON_COTANGENT))
 
 
-def setting(scene: Setting, method: Method) -> Setting:
+def problem_for(scene: Problem, method: Method) -> Problem:
     """Return the scene as the method's family sees it; :class:`MethodError` where it cannot serve."""
     family = method.family
     if family in ON_COTANGENT | OF_PARTS:
@@ -82,17 +82,17 @@ def setting(scene: Setting, method: Method) -> Setting:
     return view
 
 
-def lower(scene: Setting, method: Method) -> Program:
+def lower(scene: Problem, method: Method) -> Program:
     """Return the verified step program of a method on a scene, all its stages in one block."""
     if method.family not in LOWERINGS:
         known = ", ".join(LOWERINGS)
         raise MethodError(f"family {method.family} cannot be lowered yet", expected=f"one of {known}")
     module: Any = import_module(f"codegen.lower.{LOWERINGS[method.family]}")
-    program: Program = module.lower(setting(scene, method), method)
+    program: Program = module.lower(problem_for(scene, method), method)
     return program
 
 
-def lower_composed(scene: Setting, method: Method) -> Program | None:
+def lower_composed(scene: Problem, method: Method) -> Program | None:
     """Return the verified program of a step made of shorter ones that are alike, None where it is not."""
     found = repeated(method)
     if found is None:

@@ -13,12 +13,12 @@ from operator import add
 from codegen.ir.program import EMBEDDED, Kind, Program, Var
 from codegen.lower.stages import Stages
 from codegen.method import Method
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 from orderconds.ring.protocol import Element
 from orderconds.tableau import Stage
 
 
-def lower(scene: Setting, method: Method) -> Program:
+def lower(scene: Problem, method: Method) -> Program:
     """Return the program of a cf or cg method."""
     tableau = method.commutator_free()
     y = Var("y", Kind.POINT)

@@ -1,7 +1,7 @@
 """Discrete gradient methods on groups, thesis section 2.6: they keep the energy exactly.
 
 x1 = exp(h xi).x0 with xi = i_D omega at the midpoint exp(h xi/2).x0, where omega is the scene's bivector
-(:mod:`codegen.conserved`) and D a trivialised discrete differential, <D, eta> = H(x1) - H(x0), eta = h xi.
+(:mod:`codegen.scene.energy`) and D a trivialised discrete differential, <D, eta> = H(x1) - H(x0), eta = h xi.
 The tableau is read as a quadrature rule with nodes c_i and weights b_i for the mean of gamma = R* dH:
 
     g = sum_i b_i gamma(exp(c_i eta).x0),
@@ -14,18 +14,18 @@ tableau; the order is two where sum b_i c_i = 1/2, else one. The unknown is xi.
 
 from __future__ import annotations
 
-from codegen.conserved import ENERGY, bivector, differential, energy_of
 from codegen.errors import MethodError
 from codegen.ir.number import Number
 from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
 from codegen.lower.stages import Stages
 from codegen.method import Method
-from codegen.setting import Setting, orbit_of
+from codegen.scene.energy import ENERGY, bivector, differential, energy_of
+from codegen.scene.problem import Problem, orbit_of
 
 HALF = Number.rational(1, 2)
 
 
-def lower(scene: Setting, method: Method) -> Program:
+def lower(scene: Problem, method: Method) -> Program:
     """Return the program of a discrete gradient method.
 
     :class:`codegen.errors.MethodError` for a scene without an energy, one that depends on time, and one whose
@@ -68,12 +68,12 @@ def lower(scene: Setting, method: Method) -> Program:
     return stages.program([xi], images, lambda: [stages.f("k0", y, None)], update)
 
 
-def keeps_energy(scene: Setting) -> bool:
+def keeps_energy(scene: Problem) -> bool:
     """Whether a scene has an energy that its field keeps."""
     return scene.autonomous and energy_of(scene) is not None
 
 
-def _check_bivector(scene: Setting, method: Method) -> None:
+def _check_bivector(scene: Problem, method: Method) -> None:
     """Raise where the bivector does not take the differential of the energy to the field."""
     orbit = orbit_of(scene)
     for point in orbit.points:

@@ -7,20 +7,20 @@ v_i).y0. The unknowns are the v_i. On R^n with r = 0 this is the Runge-Kutta met
 from __future__ import annotations
 
 from codegen.ir.program import EMBEDDED, Kind, Program, Var
-from codegen.lower import fewest
+from codegen.lower import minimal_brackets
 from codegen.lower.stages import Stages
 from codegen.method import Method
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 from orderconds.ring.protocol import Element
 
 
-def lower(scene: Setting, method: Method) -> Program:
+def lower(scene: Problem, method: Method) -> Program:
     """Return the program of an RKMK method with cut-off ``method.cutoff``; rk is the cut-off 0.
 
-    Without a cut-off it is written with the fewest brackets (:mod:`codegen.lower.fewest`).
+    Without a cut-off it is written with the fewest brackets (:mod:`codegen.lower.minimal_brackets`).
     """
     if method.family == "rkmk" and method.cutoff is None:
-        return fewest.lower(scene, method)
+        return minimal_brackets.lower(scene, method)
     tableau = method.runge_kutta()
     y = Var("y", Kind.POINT)
     stages = Stages(scene, method, (y,))

@@ -20,10 +20,10 @@ from __future__ import annotations
 from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
 from codegen.lower.variational import begin
 from codegen.method import Method
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 
 
-def lower(scene: Setting, method: Method) -> Program:
+def lower(scene: Problem, method: Method) -> Program:
     """Return the program of an SLGI method; :class:`orderconds.errors.ZeroWeight` where some b_i = 0."""
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs

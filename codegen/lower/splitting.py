@@ -14,13 +14,13 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from codegen.errors import MethodError
-from codegen.flow import Kick
+from codegen.flows.flow import Kick
+from codegen.flows.recognise import Part, Piece, bracket, recognise, vanish
 from codegen.ir.number import Number
 from codegen.ir.program import Builder, Coefficient, Kind, Program, Var
 from codegen.ir.verify import verify
-from codegen.lower.recognise import Part, Piece, bracket, recognise, vanish
 from codegen.method import Method
-from codegen.setting import Setting, orbit_of
+from codegen.scene.problem import Problem, orbit_of
 from orderconds.tableau import AdjointComposition, Composition, Splitting
 
 Word = list[tuple[Piece, Number]]
@@ -36,7 +36,7 @@ class Reading:
     family: str
 
 
-def read(scene: Setting, method: Method) -> Reading:
+def read(scene: Problem, method: Method) -> Reading:
     """Return how a splitting or composition is read on a Hamiltonian scene.
 
     :class:`codegen.errors.MethodError` for a scene without parts, a part without exact flow, a tableau in
@@ -90,8 +90,8 @@ def read(scene: Setting, method: Method) -> Reading:
     return Reading(tuple(_joined(word)), _carrier(scene, pieces, where), family)
 
 
-def lower(scene: Setting, method: Method) -> Program:
-    """Return the program of a splitting; ``scene`` is the setting that holds the flows of :func:`flows`."""
+def lower(scene: Problem, method: Method) -> Program:
+    """Return the program of a splitting; ``scene`` is the problem that holds the flows of :func:`flows`."""
     reading = read(scene, method)
     q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
     time = None if scene.autonomous else Var("t", Kind.REAL)
@@ -107,7 +107,7 @@ def lower(scene: Setting, method: Method) -> Program:
 
 
 def _splitting(
-    scene: Setting,
+    scene: Problem,
     method: Method,
     tableau: Splitting,
     parts: Sequence[Part],
@@ -134,7 +134,7 @@ def _splitting(
     raise MethodError(found, where=where, expected=f"{len(chosen)} parts, or two", hint=hint)
 
 
-def nystroem(scene: Setting, parts: Sequence[Part], piece: Piece) -> bool:
+def nystroem(scene: Problem, parts: Sequence[Part], piece: Piece) -> bool:
     """Whether [V, [V, [V, T]]] = 0, as Runge-Kutta-Nystroem splittings need, for the part V of a piece."""
     (V,) = [scene.parts[p.name] for p in parts if p.pieces[0] is piece]
     (T,) = [scene.parts[p.name] for p in parts if p.pieces[0] is not piece]
@@ -200,7 +200,7 @@ def _joined(word: Word) -> Iterator[tuple[Piece, Number]]:
     yield from joined
 
 
-def _carrier(scene: Setting, pieces: Sequence[Piece], where: str) -> Piece | None:
+def _carrier(scene: Problem, pieces: Sequence[Piece], where: str) -> Piece | None:
     """Return the piece with which time moves, None for a scene without time."""
     if scene.autonomous:
         return None
@@ -215,7 +215,7 @@ def _carrier(scene: Setting, pieces: Sequence[Piece], where: str) -> Piece | Non
     )
 
 
-def setting(scene: Setting, method: Method) -> Setting:
+def problem_for(scene: Problem, method: Method) -> Problem:
     """Return the scene with the exact flows that the method composes, by name."""
     flows = {name: flow for piece, _ in read(scene, method).word for name, flow in piece.flows}
     return replace(scene, flows=dict(sorted(flows.items())))

@@ -9,7 +9,7 @@ from codegen.ir.number import Number
 from codegen.ir.program import Builder, Coefficient, Kind, Program, Solve, Statement, Var
 from codegen.ir.verify import verify
 from codegen.method import Method
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 from orderconds.ring.protocol import Element
 
 
@@ -17,7 +17,7 @@ from orderconds.ring.protocol import Element
 class Stages:
     """Collects a method's stages into a program: unknowns, starts, the body, images, the update."""
 
-    scene: Setting
+    scene: Problem
     method: Method
     inputs: tuple[Var, ...]
     builder: Builder = field(init=False)

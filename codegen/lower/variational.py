@@ -9,12 +9,12 @@ from codegen.ir.number import Number
 from codegen.ir.program import Kind, Var
 from codegen.lower.stages import Stages
 from codegen.method import Method
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 from orderconds.errors import ZeroWeight
 from orderconds.tableau import RungeKutta
 
 
-def begin(scene: Setting, method: Method) -> tuple[Stages, RungeKutta, list[list[Number]], list[Number]]:
+def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list[Number]], list[Number]]:
     """Return the stages of a step from (q, mu), the tableau, and its A and b as numbers.
 
     :class:`orderconds.errors.ZeroWeight` where some b_i = 0.

@@ -23,7 +23,7 @@ from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
 from codegen.lower.stages import Stages
 from codegen.lower.variational import nonzero
 from codegen.method import Method
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 
 Rows = tuple[tuple[Number, ...], ...]
 """The exponentials of one product from y0 on; the first acts first."""
@@ -38,7 +38,7 @@ class _Product:
     partial: tuple[Var, ...]
 
 
-def lower(scene: Setting, method: Method) -> Program:
+def lower(scene: Problem, method: Method) -> Program:
     """Return the program of a VCF method; :class:`orderconds.errors.ZeroWeight` where some b_i = 0."""
     rows, update = _coefficients(method)
     s = len(rows)

@@ -22,12 +22,12 @@ from codegen.ir.number import Number
 from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
 from codegen.lower.variational import begin, brackets
 from codegen.method import Method
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 
 Terms = list[tuple[Coefficient, Var]]
 
 
-def lower(scene: Setting, method: Method) -> Program:
+def lower(scene: Problem, method: Method) -> Program:
     """Return the program with ``method.cutoff`` brackets in dexp.
 
     :class:`orderconds.errors.ZeroWeight` where some b_i = 0, :class:`codegen.errors.MethodError` without a

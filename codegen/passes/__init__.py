@@ -14,24 +14,24 @@ from codegen.ir.verify import IllFormed, verify
 from codegen.passes import (
     abelian,
     blocks,
+    body_frame,
     dead,
-    factor,
+    equal_unknowns,
+    factor_linear,
     flows,
-    frame,
+    fold_zeros,
     functions,
     fuse,
+    hoist_scalars,
     legendre,
-    merge,
     opposites,
-    scalars,
+    shared_negatives,
     shared_sums,
-    sharing,
-    signs,
     tearing,
-    zeros,
+    value_numbering,
 )
-from codegen.passes.meaning import Reference
-from codegen.setting import Setting
+from codegen.passes.equivalence import Reference
+from codegen.scene.problem import Problem
 
 
 @dataclass(frozen=True)
@@ -56,11 +56,11 @@ Step = tuple[str, Callable[[Program], Program]]
 
 
 def optimise(
-    program: Program, scene: Setting, *, framed: bool = False, composed: Program | None = None
+    program: Program, scene: Problem, *, framed: bool = False, composed: Program | None = None
 ) -> tuple[Program, tuple[PassReport, ...]]:
     """Return the program after all passes, and a report of each that changed something.
 
-    ``scene`` is the setting that the program was lowered in; for ``framed`` and ``composed`` see
+    ``scene`` is the problem that the program was lowered in; for ``framed`` and ``composed`` see
     :class:`Optimiser`.
     """
     work = Optimiser(program, scene, composed)
@@ -75,7 +75,7 @@ class Optimiser:
     pass that breaks the program raises :class:`codegen.ir.verify.IllFormed`: a fault of this compiler.
     """
 
-    def __init__(self, program: Program, scene: Setting, composed: Program | None = None) -> None:
+    def __init__(self, program: Program, scene: Problem, composed: Program | None = None) -> None:
         self.scene = scene
         self.reports: list[PassReport] = []
         self.program, self.meaning = program, Reference(program, scene)
@@ -118,52 +118,52 @@ def _part(program: Program) -> Program:
     return replace(program, substeps=())
 
 
-def plain_passes(scene: Setting) -> list[Step]:
+def plain_passes(scene: Problem) -> list[Step]:
     """Return the passes that serve every scene, in order."""
     return [
         ("abelian", lambda p: abelian.run(p, scene.group.abelian)),
-        ("zeros", zeros.run),
-        ("sharing", sharing.run),
-        ("merging", merge.run),
-        ("cancellation", zeros.run),
+        ("zeros", fold_zeros.run),
+        ("sharing", value_numbering.run),
+        ("merging", equal_unknowns.run),
+        ("cancellation", fold_zeros.run),
         ("flows", lambda p: flows.run(p, scene)),
         ("dead code", dead.run),
         ("blocks", blocks.run),
         ("dead code", dead.run),
-        ("factors", factor.run),
+        ("factors", factor_linear.run),
         ("common sums", shared_sums.run),
-        ("cancellation", zeros.run),
-        ("sharing", sharing.run),
+        ("cancellation", fold_zeros.run),
+        ("sharing", value_numbering.run),
         ("fusion", fuse.run),
         ("dead code", dead.run),
         ("blocks", blocks.run),  # what factoring made independent of a block's unknowns leaves it
     ]
 
 
-def framed_passes(scene: Setting) -> list[Step]:
+def framed_passes(scene: Problem) -> list[Step]:
     """Return the passes that follow where there is a body frame, in order."""
     return [
-        ("body frame", lambda p: frame.run(p, scene)),
-        ("cancellation", zeros.run),
-        ("sharing", sharing.run),
+        ("body frame", lambda p: body_frame.run(p, scene)),
+        ("cancellation", fold_zeros.run),
+        ("sharing", value_numbering.run),
         ("Legendre transform", lambda p: legendre.run(p, scene)),
         ("opposites", opposites.run),
         ("tearing", tearing.run),
         ("opposites", opposites.run),
         ("dead code", dead.run),
-        ("sharing", sharing.run),
-        ("factors", factor.run),
+        ("sharing", value_numbering.run),
+        ("factors", factor_linear.run),
         ("common sums", shared_sums.run),
         ("rows", lambda p: functions.rows(p, scene)),
         ("functions", lambda p: functions.run(p, scene)),
         ("residuals", lambda p: legendre.residuals(p, scene)),
         ("opposites", opposites.run),
         ("functions", lambda p: functions.run(p, scene)),
-        ("sharing", sharing.run),
-        ("factors", factor.run),
+        ("sharing", value_numbering.run),
+        ("factors", factor_linear.run),
         ("dead code", dead.run),
-        ("scalars", scalars.run),
-        ("sharing", sharing.run),
+        ("scalars", hoist_scalars.run),
+        ("sharing", value_numbering.run),
         ("dead code", dead.run),
-        ("signs", signs.run),
+        ("signs", shared_negatives.run),
     ]

@@ -14,7 +14,7 @@ from itertools import combinations
 from typing import Any
 
 from codegen.ir.program import FLOWS, Assign, Coefficient, Kind, Operation, Program, Var
-from codegen.setting import Setting, orbit_of
+from codegen.scene.problem import Problem, orbit_of
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Letter:
     time: tuple[Var, ...] = ()
 
 
-def run(program: Program, scene: Setting) -> Program:
+def run(program: Program, scene: Problem) -> Program:
     """Return the program with flows of one part joined across what commutes with them."""
     letters = word(program)
     if letters is None:
@@ -87,7 +87,7 @@ def spelled(program: Program, letters: Sequence[Letter]) -> Program:
     return replace(program, body=tuple(body), outputs=outputs)
 
 
-def commuting(scene: Setting) -> Callable[[str, str], bool]:
+def commuting(scene: Problem) -> Callable[[str, str], bool]:
     """Return whether the flows of two parts trade places on the scene."""
     orbit = orbit_of(scene)
     d = orbit.domain

@@ -15,7 +15,7 @@ from codegen.ir.expr import walk
 from codegen.ir.number import Number
 from codegen.ir.program import Assign, Factor, Kind, Operation, Program, Var
 from codegen.passes.rewrite import Rewriter, rewrite
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 
 ONE = Fraction(1)
 ADJOINT = {"Ad": ONE, "Adinv": -ONE, "Adt": ONE, "Adtinv": -ONE}
@@ -24,12 +24,12 @@ ADJOINT = {"Ad": ONE, "Adinv": -ONE, "Adt": ONE, "Adtinv": -ONE}
 DUAL = frozenset({"Adt", "Adtinv", "dexpt", "dexpinvt", "seriest"})
 
 
-def run(program: Program, scene: Setting) -> Program:
+def run(program: Program, scene: Problem) -> Program:
     """Return the program with functions of ad combined, where the group knows them in closed form."""
     return rewrite(program, _rule) if hasattr(scene.group, "series") else program
 
 
-def rows(program: Program, scene: Setting) -> Program:
+def rows(program: Program, scene: Problem) -> Program:
     """Return the program with q exp(x) formed row by row where the body's field reads one row of it.
 
     Then exp(x) need not be formed for it.

@@ -30,7 +30,7 @@ from codegen.passes.functions import ratio
 from codegen.passes.opposites import OPPOSITE
 from codegen.passes.rewrite import defined
 from codegen.passes.tearing import ordered
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 
 FUNCTIONS = frozenset({"dexpinv", "dexpinvt", "series", "seriest"})
 """Functions of ad that have an inverse near the identity."""
@@ -56,7 +56,7 @@ class Path:
         return self.inward[0].args[-1] if self.inward else self.velocity.args[1]
 
 
-def run(program: Program, scene: Setting) -> Program:
+def run(program: Program, scene: Problem) -> Program:
     """Return the program with momenta and forces computed from velocities."""
     if scene.body is None or scene.body.inverse is None:
         return program
@@ -78,7 +78,7 @@ def run(program: Program, scene: Setting) -> Program:
     return replace(program, body=tuple(body), outputs=outputs)
 
 
-def residuals(program: Program, scene: Setting) -> Program:
+def residuals(program: Program, scene: Problem) -> Program:
     """Return the program with residuals in the blocks all of whose unknowns follow from velocities."""
     if scene.body is None or scene.body.inverse is None:
         return program

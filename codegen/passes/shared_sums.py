@@ -2,7 +2,8 @@
 
 Exact. Where sums contain values of one map L only in a few fixed proportions, each such combination is formed
 once and L applied to it: sum_k c a_k L(x_k) = c L(sum_k a_k x_k). This is for terms that
-:mod:`codegen.passes.factor` leaves, because more than one sum uses them; it repeats until nothing changes.
+:mod:`codegen.passes.factor_linear` leaves, because more than one sum uses them;
+it repeats until nothing changes.
 """
 
 from __future__ import annotations

@@ -55,7 +55,7 @@ def spell(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[st
     """Return the text of an expression, cut where a line may be broken; ``" ".join`` gives one line.
 
     ``names`` maps symbols to identifiers of the target; those missing stand for themselves.
-    Powers must have a symbol as base and exponent 2 or 3 (see :mod:`codegen.printers.arrange`).
+    Powers must have a symbol as base and exponent 2 or 3 (see :mod:`codegen.kernel.schedule`).
     """
     made: dict[int, Spelling] = {}
     for node in walk([root]):

@@ -14,8 +14,8 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from codegen.errors import SceneError
-from codegen.extended import extended
-from codegen.setting import Setting
+from codegen.scene.extended_phase_space import extended
+from codegen.scene.problem import Problem
 from orderconds.errors import InputError, UnknownName
 
 GALLERY = (
@@ -40,10 +40,11 @@ EXTENDED = "+u"
 """What asks for the extended scene."""
 
 
-def load(name: str) -> Setting:
+def load(name: str) -> Problem:
     """Return a scene of the gallery, or the ``scene`` of the Python file at path ``name``.
 
-    ``NAME+u`` is a Hamiltonian scene extended by the time and its momentum (:mod:`codegen.extended`). A file
+    ``NAME+u`` is a Hamiltonian scene extended by the time and its momentum
+    (:mod:`codegen.scene.extended_phase_space`). A file
     that raises, or defines no scene, is a :class:`SceneError` that names file and line.
     """
     if name.endswith(EXTENDED):
@@ -52,9 +53,9 @@ def load(name: str) -> Setting:
     return _load(name)
 
 
-def _load(name: str) -> Setting:
+def _load(name: str) -> Problem:
     if name in GALLERY:
-        scene: Setting = import_module(f"codegen.scenes.{name}").scene
+        scene: Problem = import_module(f"codegen.scenes.{name}").scene
         return replace(scene, name=name)
     path = Path(name)
     if path.suffix != ".py":
@@ -77,7 +78,7 @@ def _load(name: str) -> Setting:
     except BaseException as error:  # also what a scene derives from BaseException, and sys.exit
         at = _line(name, path, error)
         raise SceneError(f"the scene raises {type(error).__name__}: {error}", where=at) from error
-    if not isinstance(found, Setting):
+    if not isinstance(found, Problem):
         raise SceneError(
             "no scene is defined", where=name, expected="scene = FieldScene(...) or HamiltonianScene(...)"
         )

@@ -11,10 +11,10 @@ from sympy import Matrix, Rational, Symbol, cos, sin
 
 from codegen.groups import SO3, Rotation
 from codegen.scene import FieldScene, param
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 
 
-def driven_spin(title: str, anisotropy: Any, damping: Any, drive: Any, end: Any) -> Setting:
+def driven_spin(title: str, anisotropy: Any, damping: Any, drive: Any, end: Any) -> Problem:
     """Return the scene with the constants K, alpha and a as parameters, from 0 to ``end``."""
     G, t = SO3(), Symbol("t")
     m = G.dual("m")

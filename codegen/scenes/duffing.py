@@ -12,14 +12,14 @@ from sympy import Matrix, Rational
 
 from codegen.groups import LeftMultiplication, Rn
 from codegen.scene import FieldScene
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 
 z = Rn(2).point("z")
 x, y = z
 field = Matrix([y, -x - x**3])
 
 
-def duffing(frame: str, group: Any, action: Any, f: Any) -> Setting:
+def duffing(frame: str, group: Any, action: Any, f: Any) -> Problem:
     """Return the scene with f(z) in the algebra of a group that acts on the plane."""
     return FieldScene(
         title=f"Duffing's equation, {frame} (thesis section 2.2)",

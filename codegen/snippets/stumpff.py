@@ -36,7 +36,8 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
     """Return the z beyond which c_k is not a number: no digit of what turns further is determined.
 
     A rounding of 2^-bits in what an angle a is computed from is one of a 2^-bits in the point, eight times
-    as much, say, in the field there, and so on along a ``chain`` of angles (:func:`codegen.ir.chain.chain`):
+    as much, say, in the field there, and so on along a ``chain`` of angles
+    (:func:`codegen.ir.angle_depth.chain`):
     of a^chain 8^(chain-1) 2^-bits no more than 2^-LEFT may come. Stages of long chains turn by parts of the
     step's angle, and lose no more than short ones: 2^(bits/6) is always allowed. No angle is larger than
     2^(2 bits/5), for a momentum carried along loses twice as many digits as the angle has, by sums that go

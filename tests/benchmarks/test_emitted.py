@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from benchmarks import emitted
-from codegen.emit import emit
+from codegen.emitter import emit
 
 
 @pytest.mark.parametrize("key", emitted.CASES)

@@ -13,13 +13,13 @@ from typing import Any
 import mpmath
 import pytest
 
+from codegen.artifact import Artifact
 from codegen.build import Compiler, build
-from codegen.emission import Emission
-from codegen.emit import emit_kernel
+from codegen.emitter import emit_kernel
 from codegen.ir.expr import Expr, Space, evaluate
 from codegen.ir.kernel import Field, Kernel, Let, Loop
 from codegen.ir.number import Number
-from codegen.load import load
+from codegen.loader import load
 from codegen.printers.recipe import Recipe
 from tests.promises import COMPILERS, SANITIZE, clean_c
 
@@ -156,7 +156,7 @@ def recipe(kernel: Kernel) -> Recipe:
     )
 
 
-def emission(kernel: Kernel, target: str, prefix: str = "") -> Emission:
+def emission(kernel: Kernel, target: str, prefix: str = "") -> Artifact:
     return emit_kernel(kernel, recipe(kernel), target, prefix or f"{kernel.name}_")
 
 
@@ -194,8 +194,8 @@ def check_codegen(compiler: Compiler, tmp_path: Path) -> Callable[..., None]:
     """
 
     def check(
-        c: Emission,
-        python: Emission,
+        c: Artifact,
+        python: Artifact,
         step: Callable[[tuple[float, ...], float, float], tuple[float, ...]],
         state: tuple[float, ...],
         h: float,

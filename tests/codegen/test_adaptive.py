@@ -9,13 +9,13 @@ import pytest
 
 from codegen.build import Compiler
 from codegen.certify import certified_order
-from codegen.emit import compile_method, emit_compiled
+from codegen.emitter import compile_method, emit_compiled
 from codegen.errors import MethodError
 from codegen.ir.domain import SeriesDomain
 from codegen.ir.interpret import interpret
 from codegen.lab.local_error import exact_flow, valuation
-from codegen.load import Statistics, Status, StepFailed, load
-from codegen.lower import lower, setting
+from codegen.loader import Statistics, Status, StepFailed, load
+from codegen.lower import lower, problem_for
 from codegen.method import WITH_ESTIMATE, Method
 from codegen.passes import optimise
 from tests.promises import clean_c, clean_python
@@ -87,7 +87,7 @@ PAIRS = [
 @pytest.mark.parametrize(("method", "place"), PAIRS, ids=[m.label for m, _ in PAIRS])
 def test_both_states_of_a_pair_have_their_stated_orders_exactly(method, place):
     scene, embedded = field_scene(place), method.embedded()
-    program, _ = optimise(lower(scene, method), setting(scene, method))
+    program, _ = optimise(lower(scene, method), problem_for(scene, method))
     order, low = (certified_order(m, scene).order for m in (method, embedded))
     assert low < order
     domain = SeriesDomain(method.ring, order + 1)

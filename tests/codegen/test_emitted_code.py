@@ -17,9 +17,9 @@ import pytest
 from sympy import Matrix, cos, exp, sin, symbols
 
 from codegen.build import CompileError, Compiler, build, compile_files
-from codegen.emit import emit, prefix_of
+from codegen.emitter import emit, prefix_of
 from codegen.groups import SO3, Rotation
-from codegen.load import Statistics, Status, StepFailed, load
+from codegen.loader import Statistics, Status, StepFailed, load
 from codegen.printers.c.module import FLAGS
 from codegen.scene import FieldScene, param
 from orderconds.errors import InputError
@@ -200,7 +200,7 @@ def test_what_a_kernel_does_not_use_is_not_emitted(kernels):
 def test_a_comment_cannot_be_ended_by_a_fact(kernels, compiler: Compiler, tmp_path):
     from dataclasses import replace
 
-    from codegen.emit import emit_kernel
+    from codegen.emitter import emit_kernel
 
     kernel = kernels.rigid()
     recipe = replace(kernels.recipe(kernel), title='*/ evil """ \\N{}', left_out=("*/ #error",))

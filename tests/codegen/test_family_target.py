@@ -21,23 +21,23 @@ import mpmath
 import pytest
 from sympy import diag
 
+from codegen.artifact import Artifact
 from codegen.build import Compiler, compile_files
 from codegen.certify import certified_order
-from codegen.emission import Emission
-from codegen.emit import Compiled, compile_method, emit_compiled
+from codegen.emitter import Compiled, compile_method, emit_compiled
 from codegen.ir.domain import FloatDomain
 from codegen.ir.interpret import interpret
 from codegen.ir.number import Number
 from codegen.lab.local_error import local_error, valuation
 from codegen.lab.reference import reference
 from codegen.lab.runner import Interpreted
-from codegen.load import load
-from codegen.lower import LOWERINGS, OF_PARTS, setting
+from codegen.loader import load
+from codegen.lower import LOWERINGS, OF_PARTS, problem_for
 from codegen.printers import TARGETS
 from codegen.printers.c.module import FLAGS
 from codegen.printers.precision import DOUBLE, SINGLE
+from codegen.scene.problem import Problem
 from codegen.scenes import load as gallery
-from codegen.setting import Setting
 from tests.promises import clean_c, clean_python, ulps
 from tests.strategies import field_scene, hamiltonian_scene, top_scene
 
@@ -45,7 +45,7 @@ EXPLICIT_ULPS = 8
 """How far emitted code may be from the interpreter: only Stumpff functions are rounded otherwise there."""
 
 FLOWS_ULPS = 32
-"""The same for some thirty flows one after the other, whose sums are written anew (codegen.lower.late)."""
+"""The same for about thirty flows in a row, with sums in a new order (codegen.kernel.critical_path)."""
 
 IMPLICIT_ULPS = 32
 """The same where equations are solved: their solutions are as sharp as the stopping rule, 2^-44."""
@@ -60,7 +60,7 @@ class Case:
 
     method: str
     order: int
-    polynomial: Callable[[], Setting]
+    polynomial: Callable[[], Problem]
     gallery: str
 
 
@@ -68,15 +68,15 @@ SHORT = (Fraction(0), Fraction(1, 4))
 """The span of polynomial scenes: their solutions may reach infinity soon after."""
 
 
-def place(name: str) -> Callable[[], Setting]:
+def place(name: str) -> Callable[[], Problem]:
     return lambda: replace(field_scene(name), span=SHORT)
 
 
-def cotangent(name: str = "SO(3)") -> Callable[[], Setting]:
+def cotangent(name: str = "SO(3)") -> Callable[[], Problem]:
     return lambda: replace(hamiltonian_scene(name), span=SHORT)
 
 
-def top(name: str) -> Callable[[], Setting]:
+def top(name: str) -> Callable[[], Problem]:
     inertia = {"symmetric": (2, 3, 2), "asymmetric": (1, 2, 4)}[name]
     return lambda: replace(top_scene(diag(*inertia)), span=SHORT)
 
@@ -158,18 +158,18 @@ def test_every_family_and_every_target_is_tried():
 
 
 @cache
-def compiled(method: str, scene: str | Callable[[], Setting]) -> Compiled:
+def compiled(method: str, scene: str | Callable[[], Problem]) -> Compiled:
     return compile_method(scene if isinstance(scene, str) else scene(), method)
 
 
 @cache
-def emitted(method: str, scene: Any, target: str) -> Emission:
+def emitted(method: str, scene: Any, target: str) -> Artifact:
     return emit_compiled(compiled(method, scene), target, prefix="tried_")
 
 
 def stepper(made: Compiled) -> Callable[[list[float], float, float], list[float]]:
     """One step by the interpreter, of the program as lowered: no pass has touched it."""
-    view = setting(made.scene, made.method)
+    view = problem_for(made.scene, made.method)
 
     def step(state: list[float], h: float, t: float) -> list[float]:
         values: dict[str, Any] = {"t": t}
@@ -220,19 +220,19 @@ def test_emitted_steps_are_those_of_the_interpreter(case, where, target):
 def test_the_order_is_exact_where_the_scene_is_polynomial(case):
     made = compiled(case.method, case.polynomial)
     assert certified_order(made.method, made.scene).order == case.order
-    view = setting(made.scene, made.method)
+    view = problem_for(made.scene, made.method)
     for program in (made.lowered, made.program):
         error = local_error(program, view, made.method.ring, case.order + 1)
         assert valuation(error) == case.order + 1
 
 
-def spanned(scene: Setting, h: Fraction) -> Setting:
+def spanned(scene: Problem, h: Fraction) -> Problem:
     """The scene from its beginning to the time h later."""
     return replace(scene, span=(scene.span[0], scene.span[0] + h))
 
 
 @cache
-def underway(name: str) -> Setting:
+def underway(name: str) -> Problem:
     """A scene of the gallery that starts where it is after an eighth: what is special at first is over."""
     scene = gallery(name)
     constants = iter(reference(spanned(scene, Fraction(1, 8))).digits(34))

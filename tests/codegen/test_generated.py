@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 
-from codegen.emit import STEPS, compile_method
+from codegen.emitter import STEPS, compile_method
 from codegen.lab.runner import Interpreted
 from codegen.regenerate import entries
 from tests.promises import ulps, usage_lines, usage_program

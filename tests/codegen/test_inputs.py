@@ -10,13 +10,13 @@ import pytest
 from sympy import Matrix, Symbol, cos, sin
 
 from codegen.build import Compiler
-from codegen.emit import compile_method, emit_compiled
+from codegen.emitter import compile_method, emit_compiled
 from codegen.errors import MethodError, SceneError
 from codegen.groups import SO3, Rotation
 from codegen.ir.domain import FloatDomain
 from codegen.lab.local_error import local_error, valuation
-from codegen.load import Status, StepFailed, load
-from codegen.lower import LOWERINGS, lower, setting
+from codegen.loader import Status, StepFailed, load
+from codegen.lower import LOWERINGS, lower, problem_for
 from codegen.method import Method
 from codegen.passes import optimise
 from codegen.scene import FieldScene, HamiltonianScene, param, signal
@@ -199,7 +199,7 @@ def forced_scene(name):
 def test_under_a_wrench_variational_methods_keep_their_order(group, family, tableau, cutoff, order):
     """Forces enter as d'Alembert's principle says, beside -(D_1 H).q^-1: exactly the stated order."""
     scene, method = forced_scene(group), Method(family, shipped(tableau), cutoff)
-    view = setting(scene, method)
+    view = problem_for(scene, method)
     program, _ = optimise(lower(scene, method), view)
     assert valuation(local_error(program, view, method.ring, order + 1)) == order + 1
 

@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 
 from codegen.build import Compiler
-from codegen.emit import compile_method, emit_compiled
+from codegen.emitter import compile_method, emit_compiled
 from codegen.errors import SceneError
 from codegen.ir.domain import FloatDomain
 from codegen.ir.expr import Space, evaluate
 from codegen.ir.tangent import tangents
-from codegen.load import Status, StepFailed, load
-from codegen.lower import setting
-from codegen.lower.variation import Variations
+from codegen.kernel.variations import Variations
+from codegen.loader import Status, StepFailed, load
+from codegen.lower import problem_for
 from codegen.scene import FieldScene
 from tests.promises import clean_c, clean_python
 from tests.strategies import field_scene
@@ -85,7 +85,10 @@ def rates(view, state, change):
 
 def differences(scene, method, state, h, t, **more):
     made, integrator = compiled(scene, method), load(emitted(scene, method))
-    view, size = setting(made.scene, made.method), emitted(scene, method).manifest["interface"]["variations"]
+    view, size = (
+        problem_for(made.scene, made.method),
+        emitted(scene, method).manifest["interface"]["variations"],
+    )
     new, columns = integrator.step(state, h, t), []
     for k in range(size):
         total = np.zeros(len(state))

@@ -9,7 +9,7 @@ from functools import cache
 import pytest
 
 from codegen.build import CompileError, Compiler, compile_files, find_compiler
-from codegen.emit import compile_method, emit_compiled
+from codegen.emitter import compile_method, emit_compiled
 from codegen.lower import LOWERINGS, OF_PARTS
 from codegen.printers.c.module import FLAGS
 

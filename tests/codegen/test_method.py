@@ -7,8 +7,8 @@ import pytest
 from codegen import scenes
 from codegen.errors import MethodError
 from codegen.ir.domain import ExprDomain
+from codegen.kernel.translate import to_kernel
 from codegen.lower import LOWERINGS, OF_PARTS, ON_COTANGENT, lower
-from codegen.lower.kernel import to_kernel
 from codegen.method import WITH_CUTOFF, Method, parse
 from orderconds.errors import InputError, TableauError, UnknownName, ZeroWeight
 from orderconds.tableau import Tableau

@@ -14,7 +14,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from codegen import scenes
 from codegen.build import find_compiler
-from codegen.emit import bare, quoted
+from codegen.emitter import bare, quoted
 from codegen.lab.needs import NEEDS
 from codegen.lab.page import advice, cost, longruns, orders, stability
 from codegen.lab.page.spelling import scientific

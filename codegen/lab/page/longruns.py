@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from codegen.lab.drift import CONFIDENCE
 from codegen.lab.figures import Curve, growth_figure
-from codegen.lab.kept import MANIFOLD
+from codegen.lab.invariants import MANIFOLD
 from codegen.lab.longrun import LongRun
 from codegen.lab.page.spelling import Picture, scientific
 

@@ -8,12 +8,12 @@ from typing import Any
 
 from markupsafe import Markup
 
+from codegen.kernel.operations import sentences
 from codegen.lab.figures import Curve, convergence_figure
 from codegen.lab.page.spelling import Picture, scientific
 from codegen.lab.study import MethodStudy
 from codegen.lab.typeset import typeset
-from codegen.printers.operations import sentences
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 from orderconds.conditions import OrderCondition
 from orderconds.derive import derive
 from orderconds.families import names
@@ -45,7 +45,7 @@ def agreement(spread: float | None) -> str:
     return scientific(spread) if spread else "bit for bit"
 
 
-def section(study: Sequence[MethodStudy], scene: Setting, again: str) -> dict[str, Any]:
+def section(study: Sequence[MethodStudy], scene: Problem, again: str) -> dict[str, Any]:
     """Return what the templates need of the orders; ``again`` is the command that measures them again."""
     return {
         "rows": [_row(m) for m in study],
@@ -73,7 +73,7 @@ def _observed(order: float | None) -> str:
     return "–" if order is None else f"{order:.2f}"
 
 
-def _picture(study: Sequence[MethodStudy], scene: Setting, again: str) -> Picture:
+def _picture(study: Sequence[MethodStudy], scene: Problem, again: str) -> Picture:
     ladders = [
         Curve(m.method.label, tuple((r.h, r.error) for r in m.compiled.ladder.clean), m.order.order, place=k)
         for k, m in enumerate(study)

@@ -13,7 +13,7 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import Any
 
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 from orderconds.errors import InputError, UnknownName
 
 
@@ -51,7 +51,7 @@ class Peer:
 
     name: str
     controlled: str
-    prepare: Callable[[Setting, float], Prepared]
+    prepare: Callable[[Problem, float], Prepared]
     version: str
 
 

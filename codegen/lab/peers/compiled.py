@@ -19,8 +19,8 @@ from codegen.build import build
 from codegen.ir.domain import FloatDomain
 from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
 from codegen.lab.projection import projection_lines
-from codegen.lab.straight import velocity
-from codegen.setting import Setting
+from codegen.lab.straight_line_field import velocity
+from codegen.scene.problem import Problem
 from orderconds.tableau import Tableau, find
 
 DECLARATION = (
@@ -36,7 +36,7 @@ def peer(name: str) -> Peer:
     return Peer(name, controlled, partial(_prepare, template), "generated C")
 
 
-def source(template: str, scene: Setting) -> str:
+def source(template: str, scene: Problem) -> str:
     """Return the C text of a peer on a scene.
 
     :class:`codegen.errors.SceneError` where RK4 has no projection onto the scene's manifold.
@@ -89,7 +89,7 @@ def third_order(nodes: Sequence[float]) -> list[float]:
     return weights
 
 
-def _prepare(template: str, scene: Setting, control: float) -> Prepared:
+def _prepare(template: str, scene: Problem, control: float) -> Prepared:
     import cffi
 
     library = _library(source(template, scene))

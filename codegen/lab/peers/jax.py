@@ -6,8 +6,8 @@ from typing import Any
 
 from codegen.ir.domain import FloatDomain
 from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
-from codegen.lab.straight import velocity
-from codegen.setting import Setting
+from codegen.lab.straight_line_field import velocity
+from codegen.scene.problem import Problem
 
 MOST_STEPS = 1_000_000
 
@@ -19,7 +19,7 @@ def peer(name: str) -> Peer:
     return Peer(name, "tolerance", _prepare, f"diffrax {diffrax.__version__}")
 
 
-def _prepare(scene: Setting, tolerance: float) -> Prepared:
+def _prepare(scene: Problem, tolerance: float) -> Prepared:
     import diffrax
     import jax
     import jax.numpy as jnp

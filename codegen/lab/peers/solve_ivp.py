@@ -9,8 +9,8 @@ from typing import Any
 from codegen.ir.domain import FloatDomain
 from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
 from codegen.lab.projection import projection
-from codegen.lab.straight import velocity
-from codegen.setting import Setting
+from codegen.lab.straight_line_field import velocity
+from codegen.scene.problem import Problem
 
 FUNCTIONS = {name: getattr(math, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
 
@@ -24,7 +24,7 @@ def peer(name: str) -> Peer:
     return Peer(name, "tolerance", prepare, f"scipy {scipy.__version__}")
 
 
-def _prepare(method: str, projected: bool, scene: Setting, tolerance: float) -> Prepared:
+def _prepare(method: str, projected: bool, scene: Problem, tolerance: float) -> Prepared:
     import numpy
     import scipy.integrate
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from codegen.ir.domain import FloatDomain
 from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
-from codegen.lab.straight import velocity
-from codegen.setting import Setting
+from codegen.lab.straight_line_field import velocity
+from codegen.scene.problem import Problem
 
 
 def peer(name: str) -> Peer:
@@ -15,7 +15,7 @@ def peer(name: str) -> Peer:
     return Peer(name, "tolerance", _prepare, f"heyoka {heyoka.__version__}")
 
 
-def _prepare(scene: Setting, tolerance: float) -> Prepared:
+def _prepare(scene: Problem, tolerance: float) -> Prepared:
     import heyoka
 
     variables = heyoka.make_vars(*scene.symbols)

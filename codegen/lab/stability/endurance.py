@@ -7,11 +7,11 @@ import time
 from dataclasses import dataclass
 from typing import Any
 
-from codegen.emit import Compiled
+from codegen.emitter import Compiled
 from codegen.lab.distance import distance
-from codegen.lab.kept import MANIFOLD, functions
+from codegen.lab.invariants import MANIFOLD, functions
 from codegen.lab.runner import Emitted
-from codegen.load import StepFailed
+from codegen.loader import StepFailed
 
 MANY = 10_000_000
 BACK = 100_000

@@ -22,13 +22,13 @@ from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import Any
 
-from codegen.emit import Compiled
+from codegen.emitter import Compiled
 from codegen.ir.domain import FloatDomain, NotConverged, PreciseDomain
 from codegen.ir.interpret import flatten, interpret
 from codegen.ir.program import Kind
 from codegen.lab.runner import Emitted
-from codegen.load import InterpretedIntegrator, StepFailed
-from codegen.lower import setting
+from codegen.loader import InterpretedIntegrator, StepFailed
+from codegen.lower import problem_for
 
 DIGITS = 60
 EPSILON = 2.0**-53
@@ -301,7 +301,7 @@ def precise_step(
     The number of a ``probe`` says how every operation is rounded.
     """
     domain = PreciseDomain(h, digits) if probe is None else Rounding(h, digits, probe)
-    view = setting(compiled.scene, compiled.method)
+    view = problem_for(compiled.scene, compiled.method)
     numbers = tuple(domain.context.mpf(x) for x in state)
     values: dict[str, Any] = {"t": domain.context.mpf(t)}
     start = 0

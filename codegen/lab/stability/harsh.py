@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from codegen import scenes
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 
 RADIANS = 200
 """Angle that the fastest motion turns through at most, where that motion does not decay."""
@@ -22,7 +22,7 @@ class Harsh:
 
     name: str
     about: str
-    scene: Setting
+    scene: Problem
     rate: float
 
 

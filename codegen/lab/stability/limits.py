@@ -12,12 +12,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from codegen.emit import Compiled
+from codegen.emitter import Compiled
 from codegen.lab.distance import distance
-from codegen.lab.kept import functions
+from codegen.lab.invariants import functions
 from codegen.lab.reference import Reference
 from codegen.lab.runner import Emitted
-from codegen.load import StepFailed
+from codegen.loader import StepFailed
 
 USABLE = 0.1
 MOST = 2**22

@@ -14,7 +14,7 @@ from itertools import pairwise
 from typing import Any
 
 from codegen.certify import certified_order
-from codegen.emit import compile_method
+from codegen.emitter import compile_method
 from codegen.lab.distance import distance
 from codegen.lab.reference import Reference
 from codegen.lab.runner import Emitted, RunFailed

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from codegen.emit import Compiled, compile_method
+from codegen.emitter import Compiled, compile_method
 from codegen.errors import MethodError, SceneError
 from codegen.lab.reference import Reference
 from codegen.lab.remembered import remembered
@@ -18,7 +18,7 @@ from codegen.lab.stability.limits import Limit, largest_step
 from codegen.lab.stability.regions import Region, region
 from codegen.lab.stability.stiff import Stiff, order_left
 from codegen.method import Method
-from codegen.setting import Setting
+from codegen.scene.problem import Problem
 
 Tell = Callable[[str], object]
 
@@ -66,7 +66,7 @@ class Stability:
         }
 
 
-def study(scene: Setting, methods: Sequence[Method], tell: Tell, *, long: bool = True) -> Iterator[Stability]:
+def study(scene: Problem, methods: Sequence[Method], tell: Tell, *, long: bool = True) -> Iterator[Stability]:
     """Yield the stability of each method on a scene; ``tell`` hears what is being done.
 
     ``long`` asks for the runs of many steps as well.
@@ -79,7 +79,7 @@ def study(scene: Setting, methods: Sequence[Method], tell: Tell, *, long: bool =
         yield study_method(compile_method(scene, method), exact, variants, notes, tell, long=long)
 
 
-def harsh_variants(scene: Setting, tell: Tell) -> tuple[tuple[tuple[Harsh, Reference], ...], tuple[str, ...]]:
+def harsh_variants(scene: Problem, tell: Tell) -> tuple[tuple[tuple[Harsh, Reference], ...], tuple[str, ...]]:
     """Return the harsh variants of a scene with their references, and notes on those that have none."""
     variants: list[tuple[Harsh, Reference]] = []
     notes: list[str] = []

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from codegen.ir.kernel import Carried, Kernel
-from codegen.printers.arrange import arrange
+from codegen.kernel.schedule import arrange
 from codegen.printers.c.statements import Statements
+from codegen.printers.identifiers import register
 from codegen.printers.interface import Interface
-from codegen.printers.layout import register
 from codegen.printers.names import Names
 
 

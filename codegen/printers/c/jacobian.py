@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from codegen.ir.kernel import Kernel
-from codegen.printers.arrange import Arrangement, arrange
+from codegen.kernel.schedule import Arrangement, arrange
 from codegen.printers.c.statements import Statements
 from codegen.printers.c.text import fill
+from codegen.printers.identifiers import blocks, register
 from codegen.printers.interface import Interface
-from codegen.printers.layout import blocks, register
 from codegen.printers.names import Names
 
 

@@ -6,10 +6,10 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from codegen.ir.kernel import CHORD, LOST, NEWTON, SLOWEST, VARIED, Loop, Newton
-from codegen.printers.arrange import METHODS, Assignment, Beginning, Iteration
+from codegen.kernel.schedule import METHODS, Assignment, Beginning, Iteration
 from codegen.printers.c.text import broken, comment, fill, greatest, paired, together
 from codegen.printers.expression import spell
-from codegen.printers.layout import WIDE, WIDEST
+from codegen.printers.identifiers import WIDE, WIDEST
 
 if TYPE_CHECKING:
     from codegen.printers.c.statements import Statements

@@ -5,21 +5,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import comb
 
-from codegen.ir.chain import chain
-from codegen.ir.kernel import CHORD, ELAPSED, LEAD, LONGEST, NEWTON, Kernel, PutOff, Start
+from codegen.ir.angle_depth import chain
+from codegen.ir.kernel import CHORD, ELAPSED, LEAD, LONGEST, NEWTON, Deferred, Kernel, Start
 from codegen.ir.number import Number
-from codegen.printers.arrange import Arrangement, Beginning, Invocation, Iteration, arrange
+from codegen.kernel.operations import costs
+from codegen.kernel.schedule import Arrangement, Beginning, Invocation, Iteration, arrange
 from codegen.printers.c.carried import turning
+from codegen.printers.c.functions import outlined_function
 from codegen.printers.c.jacobian import varying
 from codegen.printers.c.loops import compares
-from codegen.printers.c.pieces import function
 from codegen.printers.c.statements import RESERVED, Statements, literal
 from codegen.printers.c.text import comment, fill, paired
 from codegen.printers.expression import spell
+from codegen.printers.identifiers import WIDE, blocks, inverts, layout, register, times
 from codegen.printers.interface import Interface
-from codegen.printers.layout import WIDE, blocks, inverts, layout, register, times
 from codegen.printers.names import Names
-from codegen.printers.operations import costs
 from codegen.printers.precision import DOUBLE
 from codegen.printers.recipe import Recipe, header
 from codegen.snippets.graph import needed
@@ -55,12 +55,12 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     if kernel.estimate is not None:
         variables["order"] = kernel.estimate.order
         held += 2 * interface.size
-    pieces, most = [], 0
-    for piece, arranged in arrangement.pieces:
-        lines, own_numbers = function(piece, arranged, interface, RESERVED | own_names(interface))
-        pieces.append(lines)
+    outlined, most = [], 0
+    for function, arranged in arrangement.outlined:
+        lines, own_numbers = outlined_function(function, arranged, interface, RESERVED | own_names(interface))
+        outlined.append(lines)
         most = max(most, own_numbers)
-    variables["pieces"] = pieces
+    variables["outlined"] = outlined
     variables["carried"] = None
     if kernel.carried is not None:
         variables["carried"] = turning(kernel.carried, interface, RESERVED | own_names(interface))
@@ -74,9 +74,9 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         functions |= set(varied.functions())
         held = max(held, own.count) + 3 * interface.variations
         held += (names.count + remembered(kernel) * repeated + interface.size) * (repeated > 1)
-    variables["put_off"] = None
-    if kernel.put_off is not None:
-        variables["put_off"], more, held = put_off(kernel.put_off, arrangement, names, interface)
+    variables["deferred"] = None
+    if kernel.deferred is not None:
+        variables["deferred"], more, held = deferred(kernel.deferred, arrangement, names, interface)
         functions |= more
     found = needed(
         *("c", sorted(functions), interface.format),
@@ -112,7 +112,7 @@ def is_looped(kernel: Kernel, interface: Interface) -> bool:
     It does where nothing else calls it, without equations, time, step control, and what is put off, and where
     the state is small.
     """
-    alone = kernel.put_off is None and not kernel.substeps and interface.size <= REGISTERS
+    alone = kernel.deferred is None and not kernel.substeps and interface.size <= REGISTERS
     return alone and not (interface.blocks or interface.time or interface.adaptive)
 
 
@@ -154,8 +154,8 @@ def definition(
     }
 
 
-def put_off(
-    what: PutOff, arrangement: Arrangement, names: Names, interface: Interface
+def deferred(
+    what: Deferred, arrangement: Arrangement, names: Names, interface: Interface
 ) -> tuple[dict[str, object], set[str], int]:
     """Return what the template needs of what is put off, the functions called, and how many numbers.
 
@@ -358,7 +358,7 @@ def substeps(kernel: Kernel, interface: Interface) -> dict[str, object] | None:
 
 
 def called(arrangement: Arrangement) -> int:
-    """Return how many numbers the results of calls of pieces are."""
+    """Return how many numbers the results of calls of functions are."""
     total = 0
     for statement in arrangement.statements:
         inner = statement.body if isinstance(statement, Beginning | Iteration) else (statement,)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 from codegen.ir.expr import Expr
-from codegen.printers.arrange import Arrangement, Assignment, Beginning, Invocation, Iteration, Simple
+from codegen.kernel.schedule import Arrangement, Assignment, Beginning, Invocation, Iteration, Simple
 from codegen.printers.c import loops
 from codegen.printers.c.text import fill
 from codegen.printers.expression import Style, spell
-from codegen.printers.layout import Place
+from codegen.printers.identifiers import Place
 from codegen.printers.names import Names
 from codegen.printers.precision import DOUBLE, Precision
 from codegen.snippets.graph import LIBRARY
@@ -128,7 +128,7 @@ class Statements:
         yield f"{statement.function}({argument}, {', '.join(f'&{n}' for n in names)});"
 
     def _invoked(self, call: Invocation) -> Iterator[str]:
-        """Yield the lines that call a piece."""
+        """Yield the lines that call a function."""
         name = self.names.spelled[call.name]
         given = [" ".join(spell(x, self.names.spelled, self.style)) for x in call.arguments]
         start = f"{call.function}("

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from codegen.ir.kernel import Carried, Kernel
-from codegen.printers.arrange import arrange
+from codegen.kernel.schedule import arrange
+from codegen.printers.identifiers import register
 from codegen.printers.interface import Interface
-from codegen.printers.layout import register
 from codegen.printers.names import Names
 from codegen.printers.python.statements import RESERVED, Statements
 from codegen.printers.python.text import listed, unpacking

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from codegen.ir.kernel import CHORD, LOST, NEWTON, SLOWEST, VARIED, Newton
-from codegen.printers.arrange import METHODS, Beginning, Iteration
-from codegen.printers.layout import WIDE, WIDEST
+from codegen.kernel.schedule import METHODS, Beginning, Iteration
+from codegen.printers.identifiers import WIDE, WIDEST
 from codegen.printers.python.text import WIDTH, call, filled, indented, quoted
 
 if TYPE_CHECKING:

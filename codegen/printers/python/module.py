@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from codegen.ir.chain import chain
-from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Kernel, PutOff, Start
-from codegen.printers.arrange import Arrangement, arrange
+from codegen.ir.angle_depth import chain
+from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Deferred, Kernel, Start
+from codegen.kernel.operations import costs
+from codegen.kernel.schedule import Arrangement, arrange
 from codegen.printers.expression import spell
+from codegen.printers.identifiers import blocks, inverts, layout, register, times
 from codegen.printers.interface import Interface
-from codegen.printers.layout import blocks, inverts, layout, register, times
 from codegen.printers.names import Names
-from codegen.printers.operations import costs
 from codegen.printers.precision import DOUBLE
 from codegen.printers.python.carried import turning
-from codegen.printers.python.pieces import function
+from codegen.printers.python.functions import outlined_function
 from codegen.printers.python.statements import RESERVED, Statements
 from codegen.printers.python.text import listed, quoted, unpacking
 from codegen.printers.recipe import Recipe, header
@@ -39,8 +39,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     if inverts(kernel):
         functions.add("invert")
     ending: dict[str, object] | None = None
-    if kernel.put_off is not None:
-        ending, more, constants = put_off(kernel.put_off, arrangement, names, interface)
+    if kernel.deferred is not None:
+        ending, more, constants = deferred(kernel.deferred, arrangement, names, interface)
         statements.constants |= constants
         functions |= more
     carried: dict[str, object] | None = None
@@ -52,11 +52,11 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         derivative, more, constants = jacobian(kernel.vary, interface)
         statements.constants |= constants
         functions |= more
-    pieces = []
-    for piece, arranged in arrangement.pieces:
-        lines, constants = function(piece, arranged, interface)
+    outlined = []
+    for function, arranged in arrangement.outlined:
+        lines, constants = outlined_function(function, arranged, interface)
         statements.constants |= constants
-        pieces.append(lines)
+        outlined.append(lines)
     found = needed("python", sorted(functions), precision, chain=chain(kernel))
     library = found.library
     imports = ["isfinite"] if single else library
@@ -132,9 +132,9 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
             continued=", ".join(["state", *time, "part * h", *parameters, *inputs, *memory, *statistics]),
             tries=Start.TRIES,
             shortest=Start.SHORTEST,
-            put_off=ending,
+            deferred=ending,
             carried=carried,
-            pieces=pieces,
+            outlined=outlined,
             again=", ".join(["state", *time, "h", "made", *parameters]),
             body=[*body, *ends],
             new=listed("return ", (*new, *statements.errors()), 1),
@@ -182,8 +182,8 @@ def jacobian(kernel: Kernel, interface: Interface) -> tuple[dict[str, object], s
     return found, set(arrangement.functions()), statements.constants
 
 
-def put_off(
-    what: PutOff, arrangement: Arrangement, names: Names, interface: Interface
+def deferred(
+    what: Deferred, arrangement: Arrangement, names: Names, interface: Interface
 ) -> tuple[dict[str, object], set[str], dict[str, str]]:
     """Return what the template needs of what is put off, and its functions and constants."""
     precision = interface.format

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 
 from codegen.ir.expr import Expr
 from codegen.ir.number import Number
-from codegen.printers.arrange import Arrangement, Assignment, Beginning, Invocation, Iteration, Simple
+from codegen.kernel.schedule import Arrangement, Assignment, Beginning, Invocation, Iteration, Simple
 from codegen.printers.expression import Style, spell
-from codegen.printers.layout import Place
+from codegen.printers.identifiers import Place
 from codegen.printers.names import Names
 from codegen.printers.precision import DOUBLE, Precision
 from codegen.printers.python import loops

@@ -14,7 +14,7 @@ from click.testing import CliRunner
 
 from codegen.commands.emit import command as emit
 from codegen.commands.regenerate import command as regenerate
-from codegen.load import load
+from codegen.loader import load
 from orderconds.errors import InputError
 
 ROOT = Path(__file__).parents[3]
@@ -88,7 +88,7 @@ def test_json_is_the_manifest_and_nothing_else(tmp_path):
     assert record["order"] == 4
     assert record["certificate"] == "exact"
     assert record["passes"][0]["name"] == "sharing"
-    assert record["pieces"] == []
+    assert record["functions"] == []
     assert [Path(p).name for p in record["paths"]][-1] == "manifest.json"
 
 

@@ -8,11 +8,11 @@ from functools import cache
 
 import pytest
 
-from codegen.emit import compile_method, emit_compiled
+from codegen.emitter import compile_method, emit_compiled
 from codegen.ir.domain import FloatDomain
 from codegen.ir.interpret import interpret
 from codegen.lab.local_error import local_error, valuation
-from codegen.load import load
+from codegen.loader import load
 from orderconds.ring import QQ
 from tests.promises import ulps
 from tests.strategies import field_scene, hamiltonian_scene

@@ -6,7 +6,7 @@ from math import factorial
 
 import pytest
 
-from codegen.groups.protocol import LieGroup
+from codegen.groups.base import LieGroup
 from tests.strategies import ALL_GROUPS, BASE_GROUPS, ORDER, SAMPLES, inverse, sampler
 
 EXACT = "exact, series"

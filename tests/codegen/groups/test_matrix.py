@@ -9,8 +9,8 @@ import pytest
 
 from codegen.errors import SceneError
 from codegen.groups import GL, SO3, MatrixGroup
+from codegen.groups.base import matmul
 from codegen.groups.matrix import _invert
-from codegen.groups.protocol import matmul
 from codegen.ir.domain import ExprDomain, FloatDomain, PreciseDomain, SeriesDomain
 from orderconds.ring import QQ
 from tests.strategies import heisenberg

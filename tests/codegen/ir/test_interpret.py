@@ -6,7 +6,7 @@ import pytest
 
 from codegen.ir.domain import FloatDomain, NotConverged, PreciseDomain, SeriesDomain
 from codegen.ir.interpret import interpret
-from codegen.lower import lower, setting
+from codegen.lower import lower, problem_for
 from codegen.method import Method
 from codegen.passes import optimise
 from orderconds.ring import QQ
@@ -36,7 +36,7 @@ def test_euler_on_a_vector_space_is_y_plus_h_f():
 def test_doubles_and_forty_digits_agree_to_rounding(family):
     scene = hamiltonian_scene("SO(3)")
     method = Method(family, shipped("gauss2"), 2 if family == "rkmk" else None)
-    view = setting(scene, method)
+    view = problem_for(scene, method)
     program, _ = optimise(lower(scene, method), view)
     results = []
     for domain in (FloatDomain(2.0**-7), PreciseDomain(Fraction(1, 128), 40)):

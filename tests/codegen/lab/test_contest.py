@@ -145,13 +145,13 @@ def test_a_run_that_fails_is_a_row_with_its_reason() -> None:
 )
 @pytest.mark.parametrize("scene", ["dipole", "driven_spin", "linear_oscillator"])
 def test_peers_converge_to_the_reference(name: str, scene: str) -> None:
-    setting = scenes.load(scene)
-    exact = [float(x) for x in remembered(setting).state]
+    problem = scenes.load(scene)
+    exact = [float(x) for x in remembered(problem).state]
     (peer,) = find([name])
     loose, tight = (1e-4, 1e-9) if peer.controlled == "tolerance" else (500.0, 4000.0)
     errors = []
     for control in (loose, tight):
-        found = peer.prepare(setting, control).run()
+        found = peer.prepare(problem, control).run()
         errors.append(max(abs(a - b) for a, b in zip(found.state, exact, strict=True)))
         assert found.steps > 0
     assert errors[1] < 2e-6

@@ -10,7 +10,7 @@ import pytest
 from sympy import Matrix, Rational, cos, sin, symbols
 
 from codegen.certify import CertifiedOrder
-from codegen.emit import compile_method
+from codegen.emitter import compile_method
 from codegen.groups import SO3, Rotation
 from codegen.ir.number import Number
 from codegen.ir.program import Assign, Coefficient
@@ -20,8 +20,8 @@ from codegen.lab.runner import Interpreted, runner
 from codegen.lower import families_for
 from codegen.method import Method, parse
 from codegen.scene import FieldScene
+from codegen.scene.problem import Problem
 from codegen.scenes import load
-from codegen.setting import Setting
 from orderconds.ring import QQ
 from orderconds.tableau import CommutatorFree, RungeKutta, Stage
 
@@ -40,8 +40,8 @@ PUBLISHED = {
 }
 
 
-def parse_for(setting: Setting, spelling: str) -> Method:
-    return parse(spelling, families_for(setting))
+def parse_for(problem: Problem, spelling: str) -> Method:
+    return parse(spelling, families_for(problem))
 
 
 def measure(
@@ -53,10 +53,10 @@ def measure(
     digits: int = 16,
     steps: tuple[int, ...] = (),
 ) -> Convergence:
-    setting = load(scene)
-    chosen = method if isinstance(method, Method) else parse_for(setting, method)
+    problem = load(scene)
+    chosen = method if isinstance(method, Method) else parse_for(problem, method)
     order = CertifiedOrder(stated, "exact")
-    return converge(runner(setting, chosen, target, digits, order), order, exact(scene), steps=steps)
+    return converge(runner(problem, chosen, target, digits, order), order, exact(scene), steps=steps)
 
 
 @pytest.mark.parametrize(
@@ -192,7 +192,7 @@ def test_the_json_has_the_documented_fields(exact: Exact) -> None:
 
 
 @pytest.fixture(scope="module")
-def spin() -> tuple[Setting, Reference]:
+def spin() -> tuple[Problem, Reference]:
     """A field that depends on time and state, does not commute and has a component along the state."""
     t, m, span = symbols("t", real=True), SO3().dual("m"), (Rational(1, 3), 1)
     field = Matrix([cos(t), sin(2 * t) - m[0], m[2]]) + m / 2
@@ -204,7 +204,7 @@ def spin() -> tuple[Setting, Reference]:
 @pytest.mark.parametrize("target", TARGETS)
 @pytest.mark.parametrize(("method", "order"), [("rkmk(2):rk4", 4), ("cg:cg3", 3), ("cf:cf4", 4)])
 def test_orders_hold_where_the_field_depends_on_time(
-    method: str, order: int, target: str, spin: tuple[Setting, Reference]
+    method: str, order: int, target: str, spin: tuple[Problem, Reference]
 ) -> None:
     scene, end = spin
     known = CertifiedOrder(order, "exact")
@@ -213,7 +213,7 @@ def test_orders_hold_where_the_field_depends_on_time(
 
 
 def test_stage_times_frozen_at_the_beginning_of_the_step_give_order_one(
-    spin: tuple[Setting, Reference],
+    spin: tuple[Problem, Reference],
 ) -> None:
     scene, end = spin
     compiled = compile_method(scene, "rkmk(2):rk4")

@@ -15,7 +15,7 @@ from codegen.errors import SceneError
 from codegen.ir.number import Number
 from codegen.ir.program import Coefficient, Operation, Solve
 from codegen.lab.local_error import leading_term, local_error, predicted, valuation
-from codegen.lower import lower, setting
+from codegen.lower import lower, problem_for
 from codegen.method import WITH_CUTOFF, Method
 from codegen.passes import optimise
 from tests.strategies import butcher, field_scene, full, full_exponentials, hamiltonian_scene, shipped
@@ -29,7 +29,7 @@ KUTTA3_OFF = butcher("kutta3_off", [[0, 0, 0], ["1/2", 0, 0], [-1, 2, 0]], ["1/6
 
 
 def error_of(scene, method, order):
-    view = setting(scene, method)
+    view = problem_for(scene, method)
     program, _ = optimise(lower(scene, method), view)
     return view, local_error(program, view, method.ring, order)
 
@@ -202,7 +202,7 @@ def test_with_the_fewest_brackets_orders_five_and_six_are_kept(tableau, order, b
 def test_without_the_derivative_of_dexpinv_vrkmk_loses_its_order():
     """P* left out, and P* with the wrong sign: order 1 in place of 3, and the check of the order sees it."""
     scene, method = hamiltonian_scene("SO(3)"), Method("vrkmk", shipped("kutta3"), 1)
-    view, right = setting(scene, method), lower(scene, method)
+    view, right = problem_for(scene, method), lower(scene, method)
 
     made = {x.targets[0].name for x in right.assigns() if x.operation.name == "P"}
 

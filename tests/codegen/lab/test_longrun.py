@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 from codegen.commands.longrun import command
-from codegen.emit import compile_method
+from codegen.emitter import compile_method
 from codegen.lab.drift import fit
 from codegen.lab.longrun import LongRun, longrun
 from codegen.lab.symplecticity import symplectic_defect

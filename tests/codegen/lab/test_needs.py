@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from codegen.emit import compile_method, emit_compiled
+from codegen.emitter import compile_method, emit_compiled
 from codegen.lab.contest import Row
 from codegen.lab.needs import DECADES, NEEDS, Features, advise, features, is_symplectic
 from codegen.lab.survey import OF_FIELDS, usual

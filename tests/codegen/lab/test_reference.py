@@ -12,8 +12,8 @@ from codegen.errors import SceneError
 from codegen.groups import LeftMultiplication, Rn
 from codegen.lab.reference import Reference, reference
 from codegen.scene import FieldScene
+from codegen.scene.problem import Problem
 from codegen.scenes import load
-from codegen.setting import Setting
 
 Exact = Callable[[str], Reference]
 
@@ -22,7 +22,7 @@ DIPOLE_G = ("0.9237505661876837714", "0.3829945723223079841", "-0.00022144883396
 DIPOLE_MU = ("-0.5361870181330790305", "0.003780620329717814678")
 
 
-def scene(f: object, start: list[object], span: tuple[object, object]) -> Setting:
+def scene(f: object, start: list[object], span: tuple[object, object]) -> Problem:
     y = Matrix(symbols(f"y0:{len(start)}", real=True))
     field = f(y)  # type: ignore[operator]
     return FieldScene(
@@ -44,11 +44,11 @@ def test_the_dipole_agrees_with_published_digits(exact: Exact) -> None:
 def test_the_reference_keeps_every_invariant_of_its_scene(name: str, exact: Exact) -> None:
     from codegen.ir.domain import PreciseDomain
 
-    setting, domain = load(name), PreciseDomain(0, 45)
-    for invariant in setting.invariants:
+    problem, domain = load(name), PreciseDomain(0, 45)
+    for invariant in problem.invariants:
         before, after = (
-            setting.invariant(domain, invariant, state)
-            for state in (setting.initial(domain), exact(name).state)
+            problem.invariant(domain, invariant, state)
+            for state in (problem.initial(domain), exact(name).state)
         )
         assert abs(after - before) < 1e-30
 

@@ -7,16 +7,16 @@ from dataclasses import replace
 
 import pytest
 
-from codegen.emit import compile_method, emit_compiled
+from codegen.emitter import compile_method, emit_compiled
 from codegen.errors import MethodError
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.expr import evaluate
 from codegen.ir.kernel import Kernel
 from codegen.lab.compensated import CARRY, Increments, compensated, with_carries
-from codegen.lab.kept import MANIFOLD, functions
+from codegen.lab.invariants import MANIFOLD, functions
 from codegen.lab.roundoff import RUNGS, STARTS, _growth, roundoff
 from codegen.lab.runner import Emitted
-from codegen.load import load
+from codegen.loader import load
 
 METHODS = [("free_rigid_body", "cf:cf4"), ("dipole", "cf:cf4"), ("linear_oscillator", "splitting:strang")]
 
@@ -31,7 +31,7 @@ def outputs(kernel: Kernel, domain: PreciseDomain, values: dict[str, object]) ->
 
 @pytest.mark.parametrize(("scene", "method"), METHODS)
 def test_old_values_with_their_increments_and_carries_are_the_new_ones(scene, method):
-    from codegen.lower.kernel import to_kernel
+    from codegen.kernel.translate import to_kernel
 
     compiled = compile_method(scene, method)
     plain, carried = to_kernel(compiled.program, compiled.view), compensated(compiled).kernel

@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner
 
 from codegen.commands.converge import command
-from codegen.emit import Optimised
+from codegen.emitter import Optimised
 from codegen.ir.number import Number
 from codegen.ir.program import Assign, Coefficient, Program
 from codegen.lab.battery import fields, hamiltonians

@@ -10,20 +10,19 @@ import numpy as np
 import pytest
 from sympy import sympify
 
-from codegen import conserved
 from codegen.certify import certified_order
-from codegen.emit import compile_method, emit, emit_compiled
+from codegen.emitter import compile_method, emit, emit_compiled
 from codegen.errors import MethodError
 from codegen.groups import SO3, Rotation
 from codegen.ir.domain import FloatDomain, PreciseDomain
 from codegen.ir.interpret import interpret
 from codegen.ir.program import Kind
-from codegen.load import load
+from codegen.kernel.translate import to_kernel
+from codegen.loader import load
 from codegen.lower import families_for
-from codegen.lower.kernel import to_kernel
 from codegen.method import parse
 from codegen.passes.rewrite import rewrite
-from codegen.scene import FieldScene
+from codegen.scene import FieldScene, energy
 from codegen.scenes import load as gallery
 from tests.strategies import field_scene, hamiltonian_scene, lowered
 
@@ -107,19 +106,19 @@ def test_the_differential_of_h_determines_the_field_by_the_bivector(place):
 def test_the_bivector_of_a_field_scene_is_skew_and_gives_the_field():
     view = gallery("free_rigid_body_s3")
     q = (D.rational(2, 9), D.rational(4, 9), D.rational(-5, 9), D.rational(6, 9))
-    gamma = conserved.differential(view, D, q)
-    pairs = zip(conserved.bivector(view, D, q, gamma), view.apply(D, "field", None, (q,))[0], strict=True)
+    gamma = energy.differential(view, D, q)
+    pairs = zip(energy.bivector(view, D, q, gamma), view.apply(D, "field", None, (q,))[0], strict=True)
     assert max(abs(a - b) for a, b in pairs) < 1e-37
     alpha = tuple(D.rational(k, 7) for k in (3, -1, 2))
-    assert abs(inner(conserved.bivector(view, D, q, alpha), alpha)) < 1e-36
+    assert abs(inner(energy.bivector(view, D, q, alpha), alpha)) < 1e-36
 
 
 def test_the_secant_pairs_with_the_step_as_the_rise_and_is_the_slope_where_there_is_no_step():
     g, x = tuple(map(D.rational, (1, -2, 3))), tuple(map(D.rational, (2, 5, -1)))
-    found = conserved.secant(D, g, x, D.rational(7), D.rational(9))
+    found = energy.secant(D, g, x, D.rational(7), D.rational(9))
     assert abs(inner(found, x) - 2) < 1e-38
     zero = (D.rational(0),) * 3
-    assert conserved.secant(D, g, zero, D.rational(7), D.rational(7)) == g
+    assert energy.secant(D, g, zero, D.rational(7), D.rational(7)) == g
 
 
 def h_of(rows):

@@ -15,7 +15,7 @@ import pytest
 from codegen.ir.domain import PreciseDomain, SeriesDomain
 from codegen.ir.expr import evaluate
 from codegen.ir.interpret import interpret
-from codegen.lower import lower, setting
+from codegen.lower import lower, problem_for
 from codegen.method import Method
 from codegen.passes import optimise
 from orderconds.ring import QQ
@@ -360,7 +360,7 @@ def precise():
 
 
 def check(scene, method, domain, expected):
-    view = setting(scene, method)
+    view = problem_for(scene, method)
     program = lower(scene, method)
     optimised, _ = optimise(program, view)
     oracle = Oracle(view, method.tableau, domain)

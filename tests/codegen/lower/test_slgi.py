@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from codegen.certify import certified_order
-from codegen.emit import compile_method, emit
+from codegen.emitter import compile_method, emit
 from codegen.groups import SO3
 from codegen.ir.domain import PreciseDomain, SeriesDomain
 from codegen.ir.interpret import interpret
-from codegen.load import load
+from codegen.loader import load
 from codegen.method import Method
 from codegen.passes import optimise
 from orderconds.errors import ZeroWeight

@@ -10,15 +10,15 @@ from sympy import Matrix, Rational, Symbol, diag, exp, sin
 
 from codegen import scenes
 from codegen.certify import certified_order
-from codegen.emit import compile_method, emit
+from codegen.emitter import compile_method, emit
 from codegen.errors import MethodError, SceneError
-from codegen.flow import Drift, Isotropic, Kick, Linear, Stated, Turn
+from codegen.flows.flow import Drift, Isotropic, Kick, Linear, Stated, Turn
+from codegen.flows.recognise import _squares, recognise
 from codegen.groups import SO3, Rn
 from codegen.ir.domain import PreciseDomain, SeriesDomain
 from codegen.ir.number import Number
 from codegen.lab.local_error import local_error, valuation
-from codegen.lower import families_for, lower, setting
-from codegen.lower.recognise import _squares, recognise
+from codegen.lower import families_for, lower, problem_for
 from codegen.method import Method, parse
 from codegen.scene import HamiltonianScene
 from orderconds.ring import QQ
@@ -124,7 +124,7 @@ def test_flows_solve_the_equations_of_their_part_to_the_last_coefficient(name):
     scene = EXACT[name]()
     order = 7
     for part in recognise(scene):
-        view = setting(scene, Method("splitting", shipped("strang")))
+        view = problem_for(scene, Method("splitting", shipped("strang")))
         assert part.exact
         d = SeriesDomain(QQ, order)
         state = scene.initial(d)
@@ -137,9 +137,9 @@ def test_flows_solve_the_equations_of_their_part_to_the_last_coefficient(name):
 
 def solution(scene, root, d, order):
     """The exact solution of one part, as power series."""
-    from codegen.canonical import force
     from codegen.ir.differentiate import gradient
     from codegen.lab.local_error import exact_flow
+    from codegen.scene.canonical_equations import force
 
     qs, mus = (block.symbols for block in scene.state)
     slopes = gradient(root, qs + mus)
@@ -148,7 +148,7 @@ def solution(scene, root, d, order):
 
 
 def error(scene, method, order):
-    view = setting(scene, method)
+    view = problem_for(scene, method)
     return valuation(local_error(lower(scene, method), view, method.ring, order))
 
 
@@ -219,7 +219,7 @@ def test_conditions_of_nystroem_count_only_where_v_commutes_three_times_with_t()
 def rounded(scene, spelling, order):
     """The local error's coefficients in doubles, for tableaux of rounded digits."""
     method = parse(spelling, families_for(scene))
-    view = setting(scene, method)
+    view = problem_for(scene, method)
     ring = method.ring
     found = local_error(lower(scene, method), view, ring, order)
     sizes = [
@@ -250,7 +250,7 @@ def test_a_step_frozen_in_time_is_caught():
         else a
         for a in program.body
     )
-    view = setting(scene, method)
+    view = problem_for(scene, method)
     assert valuation(local_error(replace(program, body=body), view, QQ, 3)) == 2
 
 
@@ -274,7 +274,7 @@ def test_emitted_steps_agree_with_the_interpreter(scene, method, target):
 
 def test_steps_back_undo_symmetric_steps():
     compiled = compile_method("dipole", "splitting:blanes_moan4")
-    from codegen.load import load
+    from codegen.loader import load
 
     integrator = load(emit("dipole", "splitting:blanes_moan4"))
     start = [float(x) for x in compiled.scene.initial(PreciseDomain(0, 20))]
@@ -285,7 +285,7 @@ def test_steps_back_undo_symmetric_steps():
 
 
 def test_momenta_of_the_fast_top_are_kept_to_rounding():
-    from codegen.load import load
+    from codegen.loader import load
 
     scene = scenes.load("fast_heavy_top")
     integrator = load(emit(scene, "splitting:blanes_moan_rkn4"))
@@ -337,7 +337,7 @@ def test_what_cannot_be_split_is_told():
 
 def test_a_field_has_no_parts():
     with pytest.raises(MethodError, match="expected a Hamiltonian scene"):
-        setting(scenes.load("free_rigid_body"), Method("splitting", shipped("strang")))
+        problem_for(scenes.load("free_rigid_body"), Method("splitting", shipped("strang")))
 
 
 def test_parts_must_add_up_to_the_hamiltonian():

@@ -9,8 +9,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from codegen.emit import emit
-from codegen.load import load
+from codegen.emitter import emit
+from codegen.loader import load
 from codegen.lower import OF_PARTS, ON_COTANGENT
 
 H = 0.05

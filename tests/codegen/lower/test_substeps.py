@@ -7,11 +7,11 @@ from dataclasses import replace
 import pytest
 
 from codegen import scenes
-from codegen.emit import compile_method, emit_compiled
+from codegen.emitter import compile_method, emit_compiled
 from codegen.ir.number import Number
 from codegen.ir.verify import IllFormed
-from codegen.load import load
-from codegen.lower import lower, lower_composed, setting
+from codegen.loader import load
+from codegen.lower import lower, lower_composed, problem_for
 from codegen.lower.substeps import substeps
 from codegen.method import Method
 from codegen.passes import optimise
@@ -44,7 +44,7 @@ def test_a_composition_of_substeps_is_the_step_exactly(family, scene, tableau):
     composed = lower_composed(scene, method)
     assert [float(step.fraction) for step in composed.substeps] == pytest.approx([1 / 3, 2 / 3])
     assert [float(step.offset) for step in composed.substeps] == pytest.approx([0, 1 / 3])
-    assert same(setting(scene, method), lower(scene, method), composed, order=3)
+    assert same(problem_for(scene, method), lower(scene, method), composed, order=3)
 
 
 @pytest.mark.parametrize(
@@ -93,7 +93,7 @@ def test_wrong_substeps_are_caught(wrong):
     with pytest.raises(IllFormed, match="the pass substeps changed the meaning"):
         optimise(
             lower(scene, method),
-            setting(scene, method),
+            problem_for(scene, method),
             composed=replace(composed, substeps=(first, spoilt)),
         )
 

@@ -6,7 +6,7 @@ import pytest
 
 from codegen.ir.program import Assign, Kind, Operation, Solve, Var
 from codegen.ir.verify import verify
-from codegen.passes import blocks, dead, optimise, sharing, zeros
+from codegen.passes import blocks, dead, fold_zeros, optimise, value_numbering
 from tests.strategies import butcher, field_scene, full, hamiltonian_scene, lowered, same, shipped
 
 
@@ -16,7 +16,7 @@ def solved(program):
 
 
 def prepared(program):
-    return dead.run(zeros.run(sharing.run(zeros.run(program))))
+    return dead.run(fold_zeros.run(value_numbering.run(fold_zeros.run(program))))
 
 
 @pytest.mark.parametrize(("family", "cutoff"), [("cg", None), ("cf", None), ("rkmk", 2)])

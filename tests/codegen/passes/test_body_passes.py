@@ -15,9 +15,9 @@ from codegen.ir.interpret import interpret
 from codegen.ir.number import Number
 from codegen.ir.program import ONE, Builder, Coefficient, Factor, Kind, Program, Solve, Var
 from codegen.ir.verify import IllFormed, verify
-from codegen.passes import frame, functions, legendre, opposites, shared_sums, tearing
+from codegen.passes import body_frame, functions, legendre, opposites, shared_sums, tearing
+from codegen.passes.equivalence import Reference
 from codegen.passes.functions import simplified
-from codegen.passes.meaning import Reference
 from tests.strategies import full, hamiltonian_scene, lowered, same, starting, top_scene
 
 q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
@@ -157,7 +157,7 @@ def test_momenta_of_all_stages_share_what_is_carried():
 @pytest.mark.parametrize("family", ["vcg", "vrkmk"])
 def test_tearing_removes_the_forces_once_velocities_give_them(family):
     scene, before = lowered(family, full(2), top_scene(diag(1, 2, 3)), 2 if family == "vrkmk" else None)
-    framed = frame.run(before, scene)
+    framed = body_frame.run(before, scene)
     turned = verify(legendre.run(framed, scene))
     after = verify(tearing.run(turned))
     assert same(scene, before, after, order=3)
@@ -174,7 +174,7 @@ def test_an_unknown_that_depends_on_itself_is_kept():
 
 def test_residuals_vanish_at_the_solution_and_nowhere_near_it():
     scene, before = lowered("vcg", full(2), top_scene(diag(1, 2, 3)))
-    program = legendre.residuals(tearing.run(legendre.run(frame.run(before, scene), scene)), scene)
+    program = legendre.residuals(tearing.run(legendre.run(body_frame.run(before, scene), scene)), scene)
     (block,) = (s for s in program.body if isinstance(s, Solve))
     ends = dict(program.outputs)
     shown = replace(program, outputs=(("q", ends["q"]), ("mu", block.residuals[0])))
@@ -190,7 +190,7 @@ def test_residuals_vanish_at_the_solution_and_nowhere_near_it():
 
 def test_a_wrong_legendre_transform_is_seen(monkeypatch):
     scene, before = lowered("vcg", "midpoint", top_scene(diag(1, 2, 3)))
-    framed = frame.run(before, scene)
+    framed = body_frame.run(before, scene)
     reference = Reference(framed, scene)
     assert reference.differs(legendre.run(framed, scene)) == ""
     rows = tuple(tuple(x + x for x in row) for row in scene.body.inverse)
@@ -200,7 +200,7 @@ def test_a_wrong_legendre_transform_is_seen(monkeypatch):
 
 def test_a_block_needs_a_residual_for_each_unknown():
     scene, before = lowered("vcg", full(2), top_scene(diag(1, 2, 3)))
-    program = legendre.residuals(tearing.run(legendre.run(frame.run(before, scene), scene)), scene)
+    program = legendre.residuals(tearing.run(legendre.run(body_frame.run(before, scene), scene)), scene)
     body = tuple(replace(s, residuals=s.residuals[:1]) if isinstance(s, Solve) else s for s in program.body)
     with pytest.raises(IllFormed, match="a residual for each unknown"):
         verify(replace(program, body=body))
@@ -216,7 +216,7 @@ def test_an_element_times_an_exponential_row_by_row_is_the_product():
 def test_where_the_field_reads_one_row_no_exponential_is_formed_for_it():
     scene = scenes.load("dipole")
     _, before = lowered("vrkmk", "gauss2", scene, 2)
-    framed = frame.run(before, scene)
+    framed = body_frame.run(before, scene)
     after = verify(functions.rows(framed, scene))
     assert after.counts()["mulexp"] == 2
     assert Reference(framed, scene).differs(after) == ""
@@ -225,5 +225,5 @@ def test_where_the_field_reads_one_row_no_exponential_is_formed_for_it():
 def test_where_the_field_reads_more_rows_products_stay():
     scene = top_scene(diag(1, 2, 3))
     _, before = lowered("vrkmk", full(2), scene, 2)
-    framed = frame.run(before, scene)
+    framed = body_frame.run(before, scene)
     assert functions.rows(framed, scene) == framed

@@ -8,16 +8,16 @@ import pytest
 from sympy import Matrix, diag
 
 from codegen import scenes
-from codegen.flow import Kick
+from codegen.flows.flow import Kick
 from codegen.ir.program import Coefficient
-from codegen.lower import lower, setting
+from codegen.lower import lower, problem_for
 from codegen.method import Method
 from codegen.passes import flows, optimise
 from tests.strategies import shipped, top_scene
 
 
 def spelled(scene, method):
-    view = setting(scene, method)
+    view = problem_for(scene, method)
     program = lower(scene, method)
     return view, program, flows.run(program, view)
 
@@ -71,7 +71,7 @@ def test_the_pass_is_undone_where_it_changes_what_is_computed(monkeypatch):
     monkeypatch.setattr(flows, "commuting", lambda scene: lambda a, b: True)
     scene = scenes.load("fast_heavy_top")
     with pytest.raises(AssertionError, match="the pass flows changed the meaning"):
-        optimise(lower(scene, FAST), setting(scene, FAST))
+        optimise(lower(scene, FAST), problem_for(scene, FAST))
 
 
 def test_a_program_that_is_no_splitting_is_left_alone():
@@ -83,6 +83,6 @@ def test_a_program_that_is_no_splitting_is_left_alone():
 
 def test_flows_of_one_group_commute_where_their_brackets_vanish():
     scene = top_scene(Matrix([[3, 1, 1], [1, 3, 1], [1, 1, 3]]))
-    view = setting(scene, Method("splitting", shipped("strang")))
+    view = problem_for(scene, Method("splitting", shipped("strang")))
     assert isinstance(view.flows["V"], Kick)
     assert flows.commuting(view)("T.mean", "T.turn")

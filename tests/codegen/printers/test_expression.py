@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from codegen.ir.expr import Expr, Space, evaluate
 from codegen.ir.kernel import Field, Kernel
 from codegen.ir.number import Number
-from codegen.printers.arrange import Assignment, arrange
+from codegen.kernel.schedule import Assignment, arrange
 from codegen.printers.expression import number, spell
 from orderconds.errors import InputError
 

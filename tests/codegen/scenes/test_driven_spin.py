@@ -8,14 +8,14 @@ from functools import cache
 import pytest
 
 from codegen.certify import certified_order
-from codegen.emit import compile_method, emit_compiled
+from codegen.emitter import compile_method, emit_compiled
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.interpret import interpret
 from codegen.lab.converge import converge
 from codegen.lab.reference import reference
 from codegen.lab.runner import Emitted
-from codegen.load import Status, StepFailed
-from codegen.load import load as load_module
+from codegen.loader import Status, StepFailed
+from codegen.loader import load as load_module
 from codegen.passes.rewrite import rewrite
 from codegen.scenes import load
 

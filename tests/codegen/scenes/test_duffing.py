@@ -9,13 +9,13 @@ import mpmath
 import pytest
 
 from codegen.certify import certified_order
-from codegen.emit import compile_method, emit
+from codegen.emitter import compile_method, emit
 from codegen.groups import SL2
 from codegen.ir.domain import FloatDomain, PreciseDomain, SeriesDomain
 from codegen.lab.converge import converge
 from codegen.lab.reference import reference
 from codegen.lab.runner import Emitted
-from codegen.load import load as load_module
+from codegen.loader import load as load_module
 from codegen.scenes import load
 from codegen.snippets.graph import needed
 from orderconds.ring import QQ

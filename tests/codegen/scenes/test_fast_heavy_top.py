@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from codegen.emit import emit
+from codegen.emitter import emit
 from codegen.ir.domain import FloatDomain
-from codegen.load import load
+from codegen.loader import load
 from codegen.scenes import load as load_scene
 
 SCENE = load_scene("fast_heavy_top")

@@ -12,19 +12,19 @@ import mpmath
 import pytest
 
 from codegen.certify import certified_order
-from codegen.emit import compile_method, emit_compiled
+from codegen.emitter import compile_method, emit_compiled
 from codegen.ir.domain import FloatDomain, PreciseDomain
 from codegen.ir.interpret import interpret
+from codegen.kernel.operations import operations
+from codegen.kernel.schedule import arrange
 from codegen.lab.converge import converge
 from codegen.lab.local_error import local_error, valuation
 from codegen.lab.reference import reference
 from codegen.lab.runner import Emitted
-from codegen.lower import lower, setting
+from codegen.lower import lower, problem_for
 from codegen.method import Method
 from codegen.passes import optimise
 from codegen.passes.rewrite import rewrite
-from codegen.printers.arrange import arrange
-from codegen.printers.operations import operations
 from codegen.scenes import load
 from orderconds.ring import QQ
 from tests.strategies import full, shipped, starting
@@ -37,7 +37,7 @@ ENOUGH = 25
 
 def stepped(method, program=None):
     """One step of the optimised program from the initial state at the time 1/3, as (q, p)."""
-    view = setting(SCENE, method)
+    view = problem_for(SCENE, method)
     made = program or optimise(lower(SCENE, method), view)[0]
     inputs = {k: v for k, v in starting(view, DOMAIN).items() if k in [i.name for i in made.inputs]}
     found = interpret(made, view, DOMAIN, inputs)
@@ -170,14 +170,14 @@ def still(program):
 @pytest.mark.parametrize(("method", "order"), METHODS, ids=IDS)
 def test_the_order_with_time_is_exact(method, order):
     """Brackets vanish here: RKMK without any has the order of its tableau."""
-    view = setting(SCENE, method)
+    view = problem_for(SCENE, method)
     program, _ = optimise(lower(SCENE, method), view)
     assert valuation(local_error(program, view, QQ, order + 1)) == order + 1
 
 
 @pytest.mark.parametrize(("method", "order"), METHODS, ids=IDS)
 def test_a_time_that_stands_still_leaves_order_one(method, order):
-    view = setting(SCENE, method)
+    view = problem_for(SCENE, method)
     program, _ = optimise(lower(SCENE, method), view)
     assert valuation(local_error(still(program), view, QQ, order + 1)) == 2
     assert not close(stepped(method, still(program)), stepped(method))
@@ -194,7 +194,7 @@ def test_emitted_code_reads_the_time(check_codegen, spelling):
     made = compile_method("linear_oscillator", spelling)
     c, python = emit_compiled(made, "c"), emit_compiled(made, "python")
     assert c.manifest["interface"]["time"]
-    view = setting(made.scene, made.method)
+    view = problem_for(made.scene, made.method)
 
     def step(state, h, t):
         inputs, first = {"t": t}, 0

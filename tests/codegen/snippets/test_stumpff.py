@@ -11,8 +11,8 @@ import pytest
 from cffi import FFI
 
 from codegen.build import build
-from codegen.emit import emit
-from codegen.load import StepFailed, load
+from codegen.emitter import emit
+from codegen.loader import StepFailed, load
 from codegen.printers.precision import DOUBLE, SINGLE, Precision
 from codegen.snippets.graph import needed
 from codegen.snippets.stumpff import SETS, SMALL, SWITCH, TINY, coefficients, economised, limit

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import pytest
 
-from codegen.emit import compile_method
+from codegen.emitter import compile_method
 from codegen.lab.runner import Emitted
 from codegen.lab.stability.extremes import ACCURATE, SILENT, WRONG, Case, answer, cases
-from codegen.load import Integrator
+from codegen.loader import Integrator
 
 
 class Spoilt:

@@ -11,7 +11,7 @@ from click.testing import CliRunner
 
 from codegen import scenes
 from codegen.commands.stability import command
-from codegen.emit import compile_method
+from codegen.emitter import compile_method
 from codegen.lab.remembered import remembered
 from codegen.lab.runner import Emitted
 from codegen.lab.stability import limits

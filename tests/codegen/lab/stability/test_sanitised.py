@@ -9,7 +9,7 @@ import pytest
 
 from codegen import scenes
 from codegen.build import compile_files, find_compiler
-from codegen.emit import compile_method
+from codegen.emitter import compile_method
 from codegen.lab.runner import Emitted
 from codegen.lab.stability.extremes import cases
 from codegen.lab.study import methods_for

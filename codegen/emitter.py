@@ -1,0 +1,384 @@
+"""From scene and method to emitted files and a manifest entry; also from a bare kernel.
+
+The whole line of the compiler stands in :func:`compile_method`: lowering, passes, kernel. What is emitted
+says how it was made, so the same scene, method and options give the same bytes.
+"""
+
+from __future__ import annotations
+
+import keyword
+import re
+import shlex
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from pathlib import PurePath
+from typing import Any
+
+from codegen import scenes
+from codegen.artifact import Artifact, digest
+from codegen.certify import CertifiedOrder, certified_order
+from codegen.ir.domain import FloatDomain
+from codegen.ir.kernel import Kernel, Loop
+from codegen.ir.program import Program
+from codegen.kernel.column_choice import fastest
+from codegen.kernel.operations import STEP, operations
+from codegen.kernel.schedule import arrange
+from codegen.kernel.translate import to_kernel
+from codegen.kernel.variations import Variations
+from codegen.lower import families_for, lower, lower_composed, problem_for
+from codegen.method import Method, parse
+from codegen.passes import Optimiser, PassReport, optimise
+from codegen.printers import target as printer_of
+from codegen.printers.interface import Interface
+from codegen.printers.precision import DOUBLE
+from codegen.printers.precision import precision as known_precision
+from codegen.printers.recipe import Recipe
+from codegen.run.solver_choice import AUTO, Choice, known_solver, solved
+from codegen.scene.problem import TIME, Problem
+from orderconds import __version__
+from orderconds.errors import InputError
+
+SINGLE_IS = "single: constants are rounded once, implicit stages settle at its rounding"
+
+SWEEPS = 5
+WEIGHTS = {"div": 4, "sqrt": 5}
+"""What a step is taken to cost where two forms of it are compared: other functions cost twelve additions."""
+
+STEPS = 100
+"""How many steps the usage example makes over the scene's span."""
+
+HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
+"""What emitted files and their examples include or import; no emitted file may take such a name."""
+
+
+@dataclass(frozen=True)
+class Optimised:
+    """A method on a scene, ready to be interpreted: the program before and after each pass.
+
+    ``view`` is the scene as the method's family sees it; ``solvers`` tells how each implicit block is solved,
+    ``asked`` what was asked for.
+    """
+
+    scene: Problem
+    method: Method
+    view: Problem
+    lowered: Program
+    program: Program
+    trace: tuple[PassReport, ...]
+
+
+@dataclass(frozen=True)
+class Compiled(Optimised):
+    """A method on a scene, ready to be printed: with the kernel."""
+
+    kernel: Kernel
+    solvers: tuple[Choice, ...] = ()
+    asked: str = AUTO
+
+
+def optimise_method(scene: Problem, method: Method) -> Optimised:
+    """Return a method on a scene lowered and optimised, for groups without closed forms as well."""
+    view, lowered = problem_for(scene, method), lower(scene, method)
+    program, trace = optimise(lowered, view, composed=lower_composed(scene, method))
+    return Optimised(scene, method, view, lowered, program, trace)
+
+
+def compile_method(
+    scene: Problem | str,
+    method: Method | str,
+    parameters: Sequence[str] = (),
+    inputs: Sequence[str] = (),
+    frame: str = "space",
+    adaptive: bool = False,
+    *,
+    solver: str = AUTO,
+    jacobian: bool = False,
+) -> Compiled:
+    """Return a method on a scene (or their names) lowered, optimised and made a kernel.
+
+    ``parameters`` stay run-time arguments, or are folded at the value given (``alpha=1/2``); all others are
+    folded at the scene's values; ``inputs`` are signals to be taken at run time, ``frame`` that of
+    momenta (:meth:`codegen.scene.problem.Problem.with_frame`); ``solver`` is for implicit blocks
+    (:mod:`codegen.run.solver_choice`). SceneError, MethodError, UnknownName or TableauError for what cannot
+    be read or does not fit. ``adaptive`` asks for the estimate of an embedded row, ``jacobian`` for the
+    derivative of a step.
+    """
+    if isinstance(scene, str):
+        scene = scenes.load(scene)
+    if parameters:
+        scene = scene.with_runtime(tuple(parameters))
+    if inputs:
+        scene = scene.with_inputs(tuple(inputs))
+    scene = scene.with_frame(frame)
+    if isinstance(method, str):
+        method = parse(method, families_for(scene))
+    if adaptive:
+        method = replace(method, adaptive=True)
+    view = problem_for(scene, method)
+    lowered = lower(scene, method)
+    passes = Optimiser(lowered, view, lower_composed(scene, method))
+    candidates = []
+    for program, trace in (passes.plain(), *([passes.framed()] if view.has_body else [])):
+        kernel = fastest(program, view)
+        candidates.append(Compiled(scene, method, view, lowered, program, trace, kernel))
+    best = min(candidates, key=lambda c: work(c.kernel))
+    if known_solver(solver) and best.kernel.loops:
+        kernel, choices = solved(best.program, view, start_of(scene), solver, best.kernel)
+        best = replace(best, kernel=kernel, solvers=choices, asked=solver)
+    if jacobian:
+        vary = to_kernel(best.program, view, variations=Variations.of(view))
+        best = replace(best, kernel=replace(best.kernel, vary=vary))
+    embedded, estimate = method.embedded(), best.kernel.estimate
+    if embedded is None or estimate is None:
+        return best
+    order = 1 + min(certified_order(m, scene).order for m in (method, embedded))
+    return replace(best, kernel=replace(best.kernel, estimate=replace(estimate, order=order)))
+
+
+def work(kernel: Kernel) -> int:
+    """Return about what a step costs, in additions: five sweeps over each block and the rest once."""
+    total, sweeps = 0, SWEEPS * max(1, len(kernel.substeps))
+    for key, counts in operations(arrange(kernel)).items():
+        cost = sum(n * WEIGHTS.get(name, 1 if name in ("add", "mul") else 12) for name, n in counts.items())
+        total += cost * (1 if key == STEP else sweeps)
+    return total
+
+
+def emit(
+    scene: Problem | str,
+    method: Method | str,
+    target: str = "c",
+    *,
+    prefix: str = "",
+    parameters: Sequence[str] = (),
+    precision: str = DOUBLE.name,
+    inputs: Sequence[str] = (),
+    frame: str = "space",
+    adaptive: bool = False,
+    solver: str = AUTO,
+    jacobian: bool = False,
+) -> Artifact:
+    """Return the integrator of a method on a scene as a module of a target.
+
+    ``scene`` is a name of the gallery, the path of a Python file, or a problem; ``method`` is spelled
+    ``FAMILY:TABLEAU`` or ``TABLEAU``; ``prefix`` starts every external name, by default scene and method;
+    ``precision`` is ``double`` or ``single``; ``inputs`` are signals of the scene that are taken at run time,
+    ``frame`` is that of momenta, ``space`` or ``body``; ``adaptive`` adds a run that chooses its steps,
+    ``jacobian`` the derivative of a step; ``solver``, for implicit blocks, is ``newton``, ``chord``,
+    ``fixed-point`` or ``auto``, the cheapest.
+    Errors as :func:`compile_method`, UnknownName for a target, InputError for a prefix that C cannot take.
+    """
+    printer_of(target)
+    known_precision(precision)
+    named = {"scene": bare(scene) if isinstance(scene, str) else scene.name}
+    named["method"] = bare(method) if isinstance(method, str) else method.label
+    made = compile_method(
+        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian
+    )
+    return emit_compiled(made, target, prefix, named, precision=precision)
+
+
+def emit_compiled(
+    compiled: Compiled,
+    target: str,
+    prefix: str = "",
+    named: Mapping[str, str] | None = None,
+    order: CertifiedOrder | None = None,
+    *,
+    precision: str = DOUBLE.name,
+) -> Artifact:
+    """Return a compiled method as a module of a target.
+
+    ``named`` spells scene and method for the command; ``order`` is what :func:`certified_order` found, for a
+    caller that has asked already.
+    """
+    scene, method = compiled.scene, compiled.method
+    named = named or {"scene": scene.name, "method": method.label}
+    body = scene.body_group is not None
+    single = known_precision(precision) is not DOUBLE
+    chosen = (
+        prefix_of(prefix) if prefix else default_prefix(scene, method) + "body_" * body + "single_" * single
+    )
+    order = order or certified_order(method, scene)
+    options = [f"--prefix {chosen}"] if prefix else []
+    options += ["--frame body"] if body else []
+    options += ["--adaptive"] if method.adaptive else []
+    options += ["--jacobian"] if compiled.kernel.vary is not None else []
+    options += [f"--precision {precision}"] if single else []
+    options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
+    options += [f"--parameter {p}" for p in scene.runtime]
+    options += [f"--parameter {p}={value}" for p, value in scene.fixed]  # of an input its default
+    options += [f"--input {name}" for name in scene.inputs]
+    words = ["orderconds emit", quoted(named["scene"]), "--method", quoted(named["method"])]
+    words += ["--target", target]
+    command = " ".join([*words, *options, "-o", "."])
+    first, last = scene.span
+    recipe = Recipe(
+        title=f"{scene.title}: one step by {method.label}",
+        facts=(
+            ("method", f"family {method.family_label}, tableau {method.tableau.name}"),
+            ("source", method.tableau.source),
+            ("order", order.text()),
+            ("scene", f"{scene.title}, group {scene.group.name}"),
+            *((("flows", flows_of(compiled.view)),) if compiled.view.flows else ()),
+            *((("substeps", substeps_of(compiled.kernel)),) if compiled.kernel.substeps else ()),
+            *(("solved by", choice.text()) for choice in compiled.solvers),
+            *((("precision", SINGLE_IS),) if single else ()),
+            *((("steps", steps_of(compiled.kernel)),) if method.adaptive else ()),
+        ),
+        initial=start_of(scene),
+        h=float((last - first) / STEPS),
+        steps=STEPS,
+        defaults={p: float(scene.parameters[p]) for p in scene.runtime},
+        left_out=left_out(compiled),
+        command=command,
+        version=__version__,
+    )
+    about = {
+        "scene": scene.name,
+        "method": method.label,
+        "family": method.family_label,
+        "tableau": method.tableau.name,
+        "source": method.tableau.source,
+        "order": order.order,
+        "certificate": order.certificate,
+        "initial": list(recipe.initial),
+        "span": [float(first), float(last)],
+        "left_out": list(recipe.left_out),
+        "solvers": [asdict(choice) for choice in compiled.solvers],
+    }
+    return emit_kernel(compiled.kernel, recipe, target, chosen, about, precision)
+
+
+def emit_kernel(
+    kernel: Kernel,
+    recipe: Recipe,
+    target: str,
+    prefix: str,
+    about: Mapping[str, Any] | None = None,
+    precision: str = DOUBLE.name,
+) -> Artifact:
+    """Return a kernel as a module of a target; ``about`` adds to the manifest entry what only a caller knows.
+
+    The prefix starts every external C name and names the files. UnknownName for a target that is not there.
+    """
+    interface = Interface.of(kernel, prefix, precision)
+    files = printer_of(target)(kernel, interface, recipe)
+    manifest = {
+        **(about or {}),
+        "module": interface.module,
+        "target": target,
+        "interface": interface.as_json(),
+        "defaults": {p: float(recipe.defaults[p]) for p in interface.parameters if p in recipe.defaults},
+        "files": {name: digest(text) for name, text in files.items()},
+        "operations": operations(arrange(kernel)),
+        "state": [{"name": f.name, "symbols": list(f.symbols), "meaning": f.meaning} for f in kernel.state],
+        "command": recipe.command,
+        "version": recipe.version,
+    }
+    return Artifact(files, manifest)
+
+
+def steps_of(kernel: Kernel) -> str:
+    """Say how a run chooses its steps."""
+    assert kernel.estimate is not None
+    return (
+        f"of one size, or chosen by the embedded row, whose estimate is O(h^{kernel.estimate.order}), and a "
+        "proportional-integral controller"
+    )
+
+
+def substeps_of(kernel: Kernel) -> str:
+    """Say which shorter steps make a step."""
+    each = ", ".join(f"{float(step.fraction):.6g}" for step in kernel.substeps)
+    return f"{len(kernel.substeps)}, all made by one function, of {each} times h"
+
+
+def start_of(scene: Problem) -> tuple[float, ...]:
+    """Return the initial state as emitted code takes it."""
+    domain = FloatDomain(0.0)
+    state = tuple(float(x) for x in scene.initial(domain))
+    if scene.body_group is None:
+        return state
+    q, mu = state[: scene.body_group.size], state[scene.body_group.size :]
+    return (*q, *scene.body_group.Adt(domain, q, mu))
+
+
+def left_out(compiled: Compiled) -> tuple[str, ...]:
+    """Say what the emitted step does not hold because this scene and method do not need it."""
+    kernel, scene = compiled.kernel, compiled.scene
+    lines: list[str] = []
+    for report in compiled.trace:
+        removed = [f"{n} {name}" for name, n in report.removed.items() if n > 0]
+        if removed:
+            lines.append(f"{', '.join(removed)} ({report.name})")
+    folded = [f"{name} = {x.text()}" for name, x in scene.parameters.items() if name not in scene.runtime]
+    if folded:
+        lines.append(f"parameters, folded: {', '.join(folded)}")
+    closed = [name for name in scene.signals if name not in scene.inputs]
+    if closed:
+        lines.append(f"run-time inputs: {', '.join(closed)} by formula")
+    if TIME not in kernel.used_scalars():
+        lines.append("the time: the scene does not depend on it")
+    if not any(isinstance(s, Loop) for s in kernel.body):
+        lines.append("equation solving: every stage is explicit here")
+    return tuple(lines)
+
+
+def flows_of(view: Problem) -> str:
+    """Say which exact flows a splitting composes."""
+    return "; ".join(f"{name}, {flow.text()}" for name, flow in view.flows.items())
+
+
+def bare(name: str) -> str:
+    """Return a name without folders, so that no path reaches emitted text.
+
+    >>> bare("vcg:some/where/mine.toml"), bare("scenes/top.py")
+    ('vcg:mine.toml', 'top.py')
+    """
+    family, colon, rest = name.rpartition(":") if re.match(r"[a-z_]+(\(\d+\))?:", name) else ("", "", name)
+    return f"{family}{colon}{PurePath(rest).name}"
+
+
+def quoted(word: str) -> str:
+    """Quote a word that a shell would read otherwise.
+
+    >>> quoted("rkmk(2):rk4"), quoted("linear_oscillator+u")
+    ("'rkmk(2):rk4'", 'linear_oscillator+u')
+    """
+    return shlex.quote(word)
+
+
+def default_prefix(scene: Problem, method: Method) -> str:
+    """Return SCENE_FAMILY_TABLEAU_, without the family where the tableau's name says it.
+
+    A family's cut-off follows its name: ``free_rigid_body_rkmk2_rk4_``.
+    """
+    family = method.family + ("" if method.cutoff is None else str(method.cutoff))
+    tableau = method.tableau.name
+    parts = [scene.name, *([] if tableau.startswith(method.family) else [family]), tableau]
+    name = re.sub(r"\W", "_", "_".join(parts), flags=re.ASCII)
+    return prefix_of(name, "the scene's file gave it: rename that, or choose another with --prefix NAME")
+
+
+def prefix_of(name: str, hint: str = "") -> str:
+    """Return a prefix that ends in one underscore; an InputError for what C or Python cannot take.
+
+    The prefix names the files too, so it may not be a keyword, under which Python imports nothing, nor a
+    header or module that emitted code includes.
+    """
+    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
+        raise InputError(
+            f"the prefix {name!r}",
+            where="--prefix",
+            expected="a letter, then letters, digits and _",
+            hint=hint,
+        )
+    module = name.rstrip("_")
+    if keyword.iskeyword(module) or module in HEADERS:
+        raise InputError(
+            f"the prefix {name!r}",
+            where="--prefix",
+            expected="a name for the files that is no keyword of Python and no standard header",
+        )
+    return module + "_"

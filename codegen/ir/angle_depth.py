@@ -1,0 +1,44 @@
+"""How long the longest chain of angles in a step is: each is computed from functions of those before it.
+
+It says how far a step may turn before rounding leaves nothing of it (:func:`codegen.snippets.stumpff.limit`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from codegen.ir.expr import Expr, walk
+from codegen.ir.kernel import Kernel, Let
+
+
+def chain(kernel: Kernel) -> int:
+    """Return how many Stumpff functions stand one in the argument of another, at least 1.
+
+    Equations are another matter: what solves them is as sharp as they are, and 1 is returned. So are exact
+    flows: what one adds to an angle the next does not multiply.
+
+    >>> from codegen.ir.expr import Space
+    >>> space = Space()
+    >>> x = space.call("stumpff1", space.sym("h"))
+    >>> body = (Let("x", x), Let("y", space.call("stumpff1", x * x) + x))
+    >>> chain(Kernel("step", (), ("h",), body, (space.sym("y"),)))
+    2
+    """
+    if kernel.loops or kernel.deferred is not None:
+        return 1
+    depths: dict[str, int] = {}
+    for statement in kernel.body:
+        if isinstance(statement, Let):
+            depths[statement.name] = _depth(statement.value, depths)
+    return max([1, *(_depth(x, depths) for x in kernel.outputs)])
+
+
+def _depth(root: Expr, depths: Mapping[str, int]) -> int:
+    """Return the longest chain in an expression whose symbols have those of ``depths``."""
+    found: dict[int, int] = {}
+    for node in walk([root]):
+        below = max((found[a.id] for a in node.args), default=0)
+        if node.op == "sym":
+            below = depths.get(node.payload, 0)
+        found[node.id] = below + (node.op == "call" and "stumpff" in node.payload)
+    return found[root.id]

@@ -1,0 +1,1 @@
+"""The backend: a step program becomes a kernel of scheduled scalar statements."""

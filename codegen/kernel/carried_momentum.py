@@ -1,0 +1,92 @@
+"""Whose momentum a kernel takes and gives, that of space or of the body, and what a run carries.
+
+A program computes with one of them, emitted code takes and returns one of them. Where the program's is that
+of the body and the state's is not, a run turns the momentum once at its beginning and once at its end
+(:class:`codegen.ir.kernel.Carried`); a kernel that is asked for ``whole`` turns it in each step.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from codegen.groups.actions import LeftMultiplication
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr
+from codegen.ir.interpret import inward, outward
+from codegen.ir.kernel import Carried, Field, Kernel
+from codegen.ir.program import BODY, Kind, Program
+from codegen.scene.problem import Problem
+
+State = tuple[Expr, ...]
+
+
+@dataclass(frozen=True)
+class Frames:
+    """A program's frame and that of its kernel."""
+
+    scene: Problem
+    program: Program
+    whole: bool = False
+
+    @property
+    def _alike(self) -> bool:
+        """Whether the program computes with the momentum that emitted code takes."""
+        return (self.program.frame == BODY) == (self.scene.body_group is not None)
+
+    @property
+    def _size(self) -> int:
+        """How many numbers stand before the momentum."""
+        group = self.scene.body_group or self.scene.group
+        return int(group.size)
+
+    def begin(self, domain: ExprDomain, state: State) -> State:
+        """Return what the program begins with, of the kernel's state."""
+        if self._alike:
+            return state
+        q, mu = state[: self._size], state[self._size :]
+        if self.scene.body_group is not None:
+            return (*q, *self.scene.body_group.Adtinv(domain, q, mu))
+        return (*q, *inward(self.scene, domain, {"q": q, "mu": mu})) if self.whole else state
+
+    def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:
+        """Return the kernel's new state of the program's; it began with ``start`` of ``state``."""
+        if self._alike or not new:
+            return new
+        q = new[: self._size]
+        if self.scene.body_group is not None:
+            return (*q, *self.scene.body_group.Adt(domain, q, new[self._size :]))
+        if not self.whole:
+            return new
+        named = ({"q": x[: self._size], "mu": x[self._size :]} for x in (state, start, new))
+        return (*q, *outward(self.scene, domain, *named))
+
+    def fields(self) -> tuple[Field, ...]:
+        """Return the fields of the state that emitted code takes."""
+        group, symbols = self.scene.body_group, self.scene.symbols
+        if group is None:
+            return tuple(Field(b.name, b.symbols, _meaning(b.kind, self.scene)) for b in self.scene.state)
+        meaning = f"left-trivialised momentum, that of the body, in the dual algebra of {group.name}"
+        return (
+            Field("q", symbols[: group.size], f"element of {group.name}{group.layout}"),
+            Field("mu", symbols[group.size :], meaning),
+        )
+
+    def carried(self, domain: ExprDomain) -> Carried | None:
+        """Return how a run turns the momentum, None where it does not."""
+        if self._alike or self.whole or self.scene.body_group is not None:
+            return None
+        state = tuple(domain.space.sym(s) for s in self.scene.symbols)
+        q, mu = state[: self._size], state[self._size :]
+        fields = self.fields()
+        turned = (self.scene.apply(domain, name, None, (q, mu))[0] for name in ("Adt", "Adtinv"))
+        first, second = (Kernel(self.program.name, fields, (), (), tuple(new)) for new in turned)
+        return Carried(first, second, self._size)
+
+
+def _meaning(kind: Kind, scene: Problem) -> str:
+    group, action = scene.group, scene.action
+    if kind is Kind.DUAL:
+        return f"right-trivialised momentum in the dual algebra of {group.name}"
+    if kind is Kind.POINT and not isinstance(action, LeftMultiplication):
+        return f"point that {group.name} acts on by {action.name}"
+    return f"element of {group.name}{group.layout}"

@@ -1,0 +1,127 @@
+"""What a run of many steps puts off: the first flow of each step, and flows that commute with all others.
+
+Where a step of a splitting ends with the flow that the next one begins with, the two are one; only before the
+first step is the beginning made alone. A part that commutes with every other is not made in the steps at all
+but once for all of them. Both are exact: :class:`codegen.ir.kernel.Deferred` says what equals what.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+from codegen.ir.kernel import ELAPSED, LEAD, Deferred, Kernel
+from codegen.ir.number import Number
+from codegen.ir.program import Assign, Kind, Operation, Program, Var
+from codegen.ir.verify import verify
+from codegen.kernel.translate import AS_WRITTEN, to_kernel
+from codegen.passes.flows import Letter, apart, commuting, word
+from codegen.scene.problem import Problem
+
+
+@dataclass(frozen=True)
+class Parted:
+    """A program in three: ``core`` reads :data:`LEAD`, ``finish`` :data:`ELAPSED`; empty ones are None."""
+
+    begin: Program | None
+    core: Program
+    finish: Program | None
+    last: Number
+    later: Number
+
+
+def part(program: Program, scene: Problem) -> Parted | None:
+    """Return a splitting's program in parts, or None where nothing can be put off."""
+    letters = word(program)
+    if letters is None:
+        return None
+    commute = commuting(scene)
+    bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
+    free = [name for name in apart(letters, commute) if name not in bound]
+    kept = [letter for letter in letters if letter.part not in free]
+    spun = [letter for letter in letters if letter.part in free]
+    joined = _joined(kept, commute, program)
+    if not kept or not (joined or spun):
+        return None
+    lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
+    last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
+    heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
+    first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
+    inner: list[Timed] = [(x, lead if j in tails else None) for j, x in enumerate(kept) if j not in heads]
+    outer: list[Timed] = [(letter, elapsed) for letter in spun]
+    return Parted(
+        verify(_program(program, first)) if first else None,
+        verify(_program(program, inner, *([lead] if joined else []))),
+        verify(_program(program, outer, elapsed)) if outer else None,
+        last,
+        later,
+    )
+
+
+def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = AS_WRITTEN) -> Kernel:
+    """Return the kernel of a program's core with what it puts off."""
+    begin, finish = (
+        None if program is None else to_kernel(program, scene, chains=chains)
+        for program in (parted.begin, parted.finish)
+    )
+    return replace(kernel, deferred=Deferred(begin, finish, parted.last, parted.later))
+
+
+def _is_h(letter: Letter) -> bool:
+    """Whether a flow lasts h: each part of a consistent splitting does, also where balls cannot prove it."""
+    return letter.duration.power == 1 and float(letter.duration.value) == 1.0
+
+
+Timed = tuple[Letter, Var | None]
+"""A flow with the variable for how long it lasts, where it is none of the program's own durations."""
+
+Joint = tuple[int, int, Number, Number]
+"""Places of a flow at the beginning and of one at the end; how long the latter lasts alone, and with it."""
+
+
+def _joined(kept: Sequence[Letter], commute: Callable[[str, str], bool], program: Program) -> list[Joint]:
+    """Return which flows at the end take those of the same part at the next beginning with them."""
+    last = _last_time(program)
+    begin, end = _run(kept, commute), _run(kept[::-1], commute)
+    found: list[Joint] = []
+    for i, head in enumerate(kept[:begin]):
+        for k, tail in enumerate(kept[::-1][:end]):
+            j = len(kept) - 1 - k
+            timely = not head.time or (head.time[0].name == "t" and tail.time == last)
+            if head.part == tail.part and i < j and timely:
+                found.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
+    return [joint for joint in found if joint[2:] == found[0][2:]]
+
+
+def _run(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> int:
+    """Return how many letters at the beginning are of different parts and commute with one another."""
+    n = 0
+    while n < len(letters) and all(
+        x.part != letters[n].part and commute(x.part, letters[n].part) for x in letters[:n]
+    ):
+        n += 1
+    return n
+
+
+def _last_time(program: Program) -> tuple[Var, ...]:
+    times = [a.targets for a in program.assigns() if a.operation.name == "advance"]
+    return times[-1] if times else ()
+
+
+def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
+    """Return the program of some flows, those with a variable for the time that it holds."""
+    body = [a for a in old.assigns() if a.operation.name == "advance"]
+    first = state = tuple(v for v in old.inputs if v.kind is not Kind.REAL)
+    for number, (letter, duration) in enumerate(letters):
+        targets = tuple(Var(f"{v.name}{number + 1}", v.kind) for v in first)
+        timed = "t" if letter.time else ""
+        if duration is None:
+            operation = Operation(f"flow{timed}", (letter.duration,), part=letter.part)
+            args = (*state, *letter.time)
+        else:
+            operation = Operation(f"flow{timed}for", part=letter.part)
+            args = (*state, *letter.time, duration)
+        body.append(Assign(targets, operation, args))
+        state = targets
+    outputs = tuple((name, var) for (name, _), var in zip(old.outputs, state, strict=True))
+    return replace(old, inputs=(*old.inputs, *more), body=tuple(body), outputs=outputs)

@@ -1,0 +1,142 @@
+"""Counting what a step costs: arithmetic and calls outside loops, and in one sweep of each loop."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from codegen.ir.expr import Expr, walk
+from codegen.ir.kernel import Kernel
+from codegen.kernel.schedule import (
+    Arrangement,
+    Beginning,
+    Invocation,
+    Iteration,
+    Joint,
+    Simple,
+    arrange,
+)
+
+STEP = "step"
+"""The key under which operations outside loops are counted."""
+
+START = "start"
+"""The key under which starting values are counted."""
+
+
+def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
+    """Return how often each operation is carried out: ``add`` (and subtract), ``mul``, ``div``, and calls.
+
+    The key ``step`` holds what a step does once, ``start`` what a step does more that follows no other,
+    further keys what each block does a sweep, and where it makes Newton's matrix, without its inversion.
+    Changes of sign, comparisons, extrapolation and what a stopping rule costs are not counted.
+    """
+    inside = {function.name: operations(inner)[STEP] for function, inner in arrangement.outlined}
+
+    def count(statements: Iterable[Simple], more: Iterable[Expr]) -> dict[str, int]:
+        return _counted(statements, more, inside)
+
+    total = {STEP: count([], (*arrangement.outputs, *arrangement.errors))}
+    for statement in arrangement.statements:
+        match statement:
+            case Iteration():
+                total[STEP] = _plus(total[STEP], count([], statement.starts))
+                sweep, label = count(statement.body, statement.images), statement.loop.label
+                if statement.matrix:
+                    n = len(statement.loop.unknowns)
+                    sweep = _plus(sweep, {"add": n * (n - 1), "mul": n * n})
+                    total[matrix_of(label)] = count(statement.newton, statement.matrix)
+                total[label] = sweep
+            case Beginning():
+                total[START] = count(statement.body, statement.values)
+            case _:
+                total[STEP] = _plus(total[STEP], count([statement], ()))
+    for key in (STEP, START):
+        if key in total:
+            total[key] = {name: n * arrangement.repeated for name, n in total[key].items()}
+    return total
+
+
+def matrix_of(label: str) -> str:
+    """Return the key of what making a block's matrix costs."""
+    return f"matrix of {label}"
+
+
+def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
+    """Spell counts for people, a line for the step and one for each block's sweep.
+
+    >>> sentences({"step": {"add": 2, "stumpff_12": 1}, "stage 1": {"mul": 3}})
+    ['2 add, 1 stumpff_12 a step', '3 mul a sweep of stage 1']
+    """
+    lines = []
+    for block, found in counts.items():
+        each = ", ".join(f"{n} {name}" for name, n in found.items()) or "none"
+        if block == START:
+            lines.append(f"{each} a start, in steps that follow no other")
+        elif block == STEP:
+            lines.append(f"{each} a step")
+        elif block.startswith("matrix of "):
+            lines.append(f"{each} a {block}")
+        else:
+            lines.append(f"{each} a sweep of {block}")
+    return lines
+
+
+def costs(kernel: Kernel) -> list[str]:
+    """Spell what a step, each sweep of its blocks, and the ends of a run cost."""
+    lines = sentences(operations(arrange(kernel)))
+    if kernel.carried is not None:
+        turned = (kernel.carried.inward, kernel.carried.outward)
+        there, back = (operations(arrange(made))[STEP] for made in turned)
+        added = {"add": 2 * len(turned[1].outputs)}
+        spelled = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
+        first, last = (line.removesuffix(" a step") for line in spelled)
+        lines.append(f"{first} where a run begins, {last} where it ends")
+    for made in kernel.deferred.kernels if kernel.deferred is not None else ():
+        (once,) = sentences(operations(arrange(made)))
+        lines.append(f"{once.removesuffix(' a step')} once in a run of steps")
+    return lines
+
+
+def _counted(
+    statements: Iterable[Simple], more: Iterable[Expr], functions: Mapping[str, dict[str, int]]
+) -> dict[str, int]:
+    total: dict[str, int] = {}
+    roots = list(more)
+    for statement in statements:
+        if isinstance(statement, Invocation):
+            total = _plus(total, functions[statement.function])
+            roots += statement.arguments
+        elif isinstance(statement, Joint):
+            total = _plus(total, {statement.function: 1})
+            roots.append(statement.argument)
+        else:
+            roots.append(statement.value)
+    for root in roots:
+        total = _plus(total, _spelled(root))
+    first = ("add", "mul", "div")
+    return {k: total[k] for k in (*first, *sorted(set(total) - set(first))) if k in total}
+
+
+def _spelled(root: Expr) -> dict[str, int]:
+    """Count the operations in the text of one expression, which repeats what it shares."""
+    found: dict[int, dict[str, int]] = {}
+    for node in walk([root]):
+        match node.op:
+            case "const" | "sym" | "neg":
+                own = {}
+            case "pow":
+                own = {"mul": node.payload - 1}
+            case "call":
+                own = {node.payload: 1}
+            case "sub":
+                own = {"add": 1}
+            case op:
+                own = {op: 1}
+        for arg in node.args:
+            own = _plus(own, found[arg.id])
+        found[node.id] = own
+    return found[root.id]
+
+
+def _plus(a: dict[str, int], b: dict[str, int]) -> dict[str, int]:
+    return a | {k: a.get(k, 0) + n for k, n in b.items()}

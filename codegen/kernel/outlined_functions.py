@@ -1,0 +1,187 @@
+"""Pieces: functions of a kernel that its expressions call, made of trees of operations, and executed.
+
+A function takes what a tree is given, and the coefficients of its sums where these are not the same constants
+wherever it is called; it computes those results that are read.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from codegen.ir.expr import Expr, Space, evaluate, walk
+from codegen.ir.interpret import apply, flatten
+from codegen.ir.kernel import Function, Kernel
+from codegen.ir.program import Coefficient, Kind
+from codegen.kernel.repeated_trees import Tree, Trees, Values, distinct
+from codegen.scene.problem import Problem
+
+LETTER = {Kind.REAL: "r", Kind.ALG: "x", Kind.DUAL: "m", Kind.GROUP: "g", Kind.POINT: "y"}
+
+
+class _Inputs:
+    """The inputs of a function, in order: symbols, or the constants that they are wherever it is called."""
+
+    def __init__(self, name: str, space: Space, fixed: Sequence[Expr | None]) -> None:
+        self.name, self.space, self.fixed = name, space, fixed
+        self.made: list[Expr] = []
+
+    def take(self, words: Sequence[str]) -> Values:
+        """Return the next inputs, named after their function and these words."""
+        first = len(self.made)
+        for word, constant in zip(words, self.fixed[first:], strict=False):
+            self.made.append(self.space.sym(f"{self.name}.{word}") if constant is None else constant)
+        return tuple(self.made[first:])
+
+    def spelled(self, x: Expr, c: Coefficient) -> str:
+        """Spell the coefficient of a term: its symbol, or its value."""
+        value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
+        return (f"({value})" if " " in value else value) + " h" * c.power
+
+    def read(self, outputs: Sequence[Expr]) -> list[int]:
+        """Return the places of those symbols that the outputs read."""
+        needed = {n.payload for n in walk(outputs) if n.op == "sym"}
+        return [p for p, s in enumerate(self.made) if s.op == "sym" and s.payload in needed]
+
+
+def function(
+    name: str, trees: Trees, tree: Tree, scene: Problem, read: Sequence[int], fixed: Sequence[Expr | None]
+) -> tuple[Function, list[int]]:
+    """Return the function of a tree's shape, and the places of those of a tree's inputs that it takes.
+
+    ``read`` are the results that it computes, ``fixed`` the inputs
+    (:meth:`codegen.kernel.repeated_trees.Trees.inputs`) that are the same constant wherever it is called.
+    """
+    domain = trees.domain
+    inputs = _Inputs(name, domain.space, fixed)
+    given, wires = trees.wiring(tree)
+    words = _words([v.kind for v in given])
+    values: list[Any] = []
+    for v, word in zip(given, words, strict=True):
+        own = inputs.take([f"{word}_{k}" for k in range(trees.width(tree, v))])
+        values.append(own[0] if v.kind is Kind.REAL else own)
+    coefficients = [c for i in tree.members for c in distinct(trees.made[i].assign)]
+    numbers = inputs.take([f"c{k + 1}" for k in range(len(coefficients))])
+    (step,) = inputs.take(["h"]) if any(c.power for c in coefficients) else (domain.h,)
+    results: list[Any] = []
+    texts: list[str] = []
+    first = 0
+    for i, places in zip(tree.members, wires, strict=True):
+        assign = trees.made[i].assign
+        args = tuple(values[p] if p >= 0 else results[-p - 1] for p in places)
+        names = [words[p] if p >= 0 else texts[-p - 1] for p in places]
+        if assign.operation.name == "lin":
+            own_terms = distinct(assign)
+            symbol = dict(zip(own_terms, numbers[first:], strict=False))
+            first += len(own_terms)
+            scaled = {c: x * step**c.power if c.power else x for c, x in symbol.items()}
+            results.append(_sum(assign.operation.coefficients, scaled, args))
+            terms = [
+                x if c.is_one else f"{inputs.spelled(symbol[c], c)} {x}"
+                for c, x in zip(assign.operation.coefficients, names, strict=True)
+            ]
+            texts.append(f"({' + '.join(terms)})" if len(terms) > 1 else terms[0])
+        else:
+            made = apply(scene, domain, assign, args)
+            results += made
+            texts += [f"{assign.operation.text()}({', '.join(names)})"] * len(made)
+    targets = trees.made[tree.root].assign.targets
+    ends = [x for v, y in zip(targets, results[-len(targets) :], strict=True) for x in flatten(v.kind, y)]
+    outputs = tuple(ends[k] for k in read)
+    taken = inputs.read(outputs)
+    return Function(name, tuple(inputs.made[p].payload for p in taken), (), outputs, texts[-1]), taken
+
+
+def _words(kinds: Sequence[Kind]) -> list[str]:
+    """Name what a function is given by its kind: x1, x2, m1.
+
+    >>> _words([Kind.ALG, Kind.DUAL, Kind.ALG])
+    ['x1', 'm1', 'x2']
+    """
+    return [f"{LETTER[kind]}{1 + kinds[:k].count(kind)}" for k, kind in enumerate(kinds)]
+
+
+def calls(kernel: Kernel) -> dict[str, int]:
+    """Return in how many places a kernel calls each of its functions, in order."""
+    found = {made.name: dict[tuple[int, ...], None]() for made in kernel.outlined}
+    for node in walk(kernel.expressions()):
+        name = node.payload.partition(".")[0] if node.op == "call" else ""
+        if name in found:
+            found[name][tuple(a.id for a in node.args)] = None
+    return {name: len(places) for name, places in found.items()}
+
+
+class WithFunctions:
+    """A domain in which a kernel's functions can be called."""
+
+    def __init__(self, domain: Any, functions: Sequence[Function]) -> None:
+        self.domain, self.functions = domain, {function.name: function for function in functions}
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.domain, name)
+
+    def call(self, callee: str, *args: Any) -> Any:
+        """Return one result of a function, or a function's value."""
+        name, dot, k = callee.partition(".")
+        if not dot:
+            return self.domain.call(callee, *args)
+        function = self.functions[name]
+        values = dict(zip(function.inputs, args, strict=True))
+        for let in function.body:
+            (values[let.name],) = evaluate([let.value], self, values)
+        (value,) = evaluate([function.outputs[int(k)]], self, values)
+        return value
+
+
+def _sum(
+    coefficients: Sequence[Coefficient], symbol: Mapping[Coefficient, Expr], args: Sequence[Values]
+) -> Values:
+    """Return a sum with symbols for its coefficients; terms with equal ones are added first."""
+    groups: dict[Coefficient, Values] = {}
+    for c, x in zip(coefficients, args, strict=True):
+        groups[c] = tuple(a + b for a, b in zip(groups[c], x, strict=True)) if c in groups else x
+    parts = [x if c.is_one else tuple(symbol[c] * a for a in x) for c, x in groups.items()]
+    total = parts[0]
+    for part in parts[1:]:
+        total = tuple(a + b for a, b in zip(total, part, strict=True))
+    return total
+
+
+def rewritten(
+    roots: Sequence[Expr], calls: Mapping[int, tuple[str, int, list[Expr]]], space: Space
+) -> list[Expr]:
+    """Return the roots with nodes replaced by results of calls, whose arguments are rewritten as well."""
+    new: dict[int, Expr] = {}
+    for root in roots:
+        waiting = [root]
+        while waiting:
+            node = waiting[-1]
+            if node.id in new:
+                waiting.pop()
+                continue
+            call = calls.get(node.id)
+            below = node.args if call is None else call[2]
+            missing = [a for a in below if a.id not in new]
+            if missing:
+                waiting += missing
+                continue
+            waiting.pop()
+            args = tuple(new[a.id] for a in below)
+            if call is not None:
+                new[node.id] = space._make("call", args, f"{call[0]}.{call[1]}")
+            elif all(a is b for a, b in zip(args, node.args, strict=True)):
+                new[node.id] = node
+            else:
+                new[node.id] = _made(space, node, args)
+    return [new[root.id] for root in roots]
+
+
+def _made(space: Space, node: Expr, args: Values) -> Expr:
+    match node.op:
+        case "pow":
+            return space.pow(args[0], node.payload)
+        case "call":
+            return space._make("call", args, node.payload)
+        case op:
+            made: Expr = getattr(space, op)(*args)
+            return made

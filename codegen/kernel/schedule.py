@@ -1,0 +1,333 @@
+"""Kernel to printable statements: Stumpff functions of one argument computed together, powers as products.
+
+A target's template sees five kinds of statement: :class:`Assignment`, :class:`Joint` (one call, several
+results), :class:`Invocation` (the same of a function), :class:`Beginning` and :class:`Iteration`. What a loop
+computes on the way is not reused after it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+from dataclasses import dataclass, field
+
+from codegen.ir.expr import Expr, walk
+from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Function, Kernel, Let, Loop, Start
+
+METHODS = {
+    FIXED_POINT: "fixed point",
+    NEWTON: "Newton's method",
+    CHORD: "Newton's method with the matrix to first order in h",
+}
+"""What solvers are called."""
+
+STUMPFF = {f"stumpff{k}": k for k in range(4)}
+
+
+@dataclass(frozen=True)
+class Assignment:
+    """name = value, once."""
+
+    name: str
+    value: Expr
+
+
+@dataclass(frozen=True)
+class Joint:
+    """names[i] = c_(orders[i])(argument), all from one call."""
+
+    names: tuple[str, ...]
+    orders: tuple[int, ...]
+    argument: Expr
+
+    @property
+    def function(self) -> str:
+        """The snippet that computes this set, such as ``stumpff_12``."""
+        return "stumpff_" + "".join(map(str, self.orders))
+
+
+@dataclass(frozen=True)
+class Invocation:
+    """name = function(arguments): all results of a function of the kernel, from one call."""
+
+    name: str
+    results: int
+    function: str
+    arguments: tuple[Expr, ...]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What the results are called in expressions."""
+        return tuple(f"{self.name}.{k}" for k in range(self.results))
+
+
+Simple = Assignment | Joint | Invocation
+
+
+@dataclass(frozen=True)
+class Beginning:
+    """Where the unknowns of all loops begin (see :class:`codegen.ir.kernel.Start`)."""
+
+    start: Start
+    body: tuple[Simple, ...]
+    values: tuple[Expr, ...]
+
+
+@dataclass(frozen=True)
+class Iteration:
+    """A loop (see :class:`codegen.ir.kernel.Loop`); ``kept`` are body names read after it.
+
+    ``matrix`` is that of Newton's method, by rows, with the statements that only it needs in ``newton``; both
+    are empty where there is none.
+    """
+
+    loop: Loop
+    number: int
+    starts: tuple[Expr, ...]
+    body: tuple[Simple, ...]
+    images: tuple[Expr, ...]
+    kept: tuple[str, ...]
+    newton: tuple[Simple, ...] = ()
+    matrix: tuple[Expr, ...] = ()
+
+
+Statement = Simple | Beginning | Iteration
+
+
+@dataclass(frozen=True)
+class Arrangement:
+    """The statements of a step and its outputs, ready to be spelled; a step makes them ``repeated`` times."""
+
+    statements: tuple[Statement, ...]
+    outputs: tuple[Expr, ...]
+    errors: tuple[Expr, ...] = ()
+    repeated: int = 1
+    outlined: tuple[tuple[Function, Arrangement], ...] = ()
+
+    def functions(self) -> tuple[str, ...]:
+        """Return the functions called, sorted: scalar ones and sets of Stumpff functions."""
+        called = {s.function for s in self._simple() if isinstance(s, Joint)}
+        made = {function.name for function, _ in self.outlined}
+        names = {n.payload for n in walk(self.expressions()) if n.op == "call"}
+        called |= {name for name in names if name.partition(".")[0] not in made}
+        for _, inner in self.outlined:
+            called |= set(inner.functions())
+        return tuple(sorted(called))
+
+    def _simple(self) -> Iterable[Simple]:
+        for statement in self.statements:
+            if isinstance(statement, Beginning | Iteration):
+                yield from statement.body
+                yield from statement.newton if isinstance(statement, Iteration) else ()
+            else:
+                yield statement
+
+    def expressions(self) -> Iterable[Expr]:
+        """Yield every expression to be spelled."""
+        for simple in self._simple():
+            yield from _values(simple)
+        for statement in self.statements:
+            if isinstance(statement, Iteration):
+                yield from (*statement.starts, *statement.images, *statement.matrix)
+            elif isinstance(statement, Beginning):
+                yield from statement.values
+        yield from self.outputs
+        yield from self.errors
+
+    def symbols(self) -> frozenset[str]:
+        """Return every symbol that some expression reads; for membership only."""
+        return frozenset(n.payload for n in walk(self.expressions()) if n.op == "sym")
+
+
+def arrange(kernel: Kernel) -> Arrangement:
+    """Return the printable statements of a kernel, in its order and with its roundings."""
+    scope = _Scope(
+        _taken(kernel), outlined={function.name: len(function.outputs) for function in kernel.outlined}
+    )
+    ends = [*kernel.outputs, *(kernel.estimate.errors if kernel.estimate is not None else ())]
+    scope.expect([*(e for s in kernel.body for e in _outside(s)), *ends])
+    statements: list[Statement] = []
+    loops = 0
+    for position, statement in enumerate(kernel.body):
+        if isinstance(statement, Let):
+            statements += scope.assign(statement, False)
+            continue
+        if isinstance(statement, Start):
+            body, values = scope.nested(statement.body, statement.values)
+            statements.append(Beginning(statement, body, values))
+            continue
+        starts = tuple(scope.rewrite(e) for e in statement.starts)
+        statements += scope.take()
+        later = _read_later(kernel, position)
+        loops += 1
+        statements.append(_iteration(statement, loops, starts, scope, later))
+    rewritten = tuple(scope.rewrite(e) for e in ends)
+    statements += scope.take()
+    states = len(kernel.outputs)
+    repeated = max(1, len(kernel.substeps))
+    functions = tuple((function, arrange(_alone(function))) for function in kernel.outlined)
+    return Arrangement(tuple(statements), rewritten[:states], rewritten[states:], repeated, functions)
+
+
+def _alone(function: Function) -> Kernel:
+    """Return a function as a kernel that takes scalars."""
+    return Kernel(function.name, (), function.inputs, function.body, function.outputs)
+
+
+def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
+    """Return the expressions of a statement that are computed where it stands."""
+    if isinstance(statement, Let):
+        return [statement.value]
+    return statement.starts if isinstance(statement, Loop) else []
+
+
+def _iteration(
+    loop: Loop, number: int, starts: tuple[Expr, ...], scope: _Scope, later: Collection[str]
+) -> Iteration:
+    inner = scope.inside([*(let.value for let in loop.body), *loop.images])
+    body = [s for let in loop.body for s in inner.assign(let, let.name in later)]
+    images = tuple(inner.rewrite(e) for e in loop.images)
+    body += inner.take()
+    kept = tuple(let.name for let in loop.body if let.name in later)
+    made: tuple[Simple, ...] = ()
+    matrix: tuple[Expr, ...] = ()
+    if loop.newton is not None:
+        entries = tuple(x for row in loop.newton.matrix for x in row)
+        made, matrix = (scope if loop.newton.leading else inner).nested(loop.newton.body, entries)
+    return Iteration(loop, number, starts, tuple(body), images, kept, made, matrix)
+
+
+def _values(statement: Simple) -> tuple[Expr, ...]:
+    if isinstance(statement, Invocation):
+        return statement.arguments
+    return (statement.argument if isinstance(statement, Joint) else statement.value,)
+
+
+def _taken(kernel: Kernel) -> dict[str, int]:
+    """Return a counter of fresh names that starts with every name of the kernel used."""
+    names = [s for f in kernel.state for s in f.symbols] + list(kernel.scalars)
+    names += [s for sample in kernel.samples for s in sample.symbols]
+    names += [let.name for let in kernel.lets()]
+    names += [u for loop in kernel.loops for u in loop.unknowns]
+    names += [c for loop in kernel.loops if loop.newton is not None for c in loop.newton.changes]
+    return dict.fromkeys(names, 1)
+
+
+def _read_later(kernel: Kernel, position: int) -> frozenset[str]:
+    after = kernel.body[position + 1 :]
+    rest = Kernel(kernel.name, (), (), after, kernel.outputs, estimate=kernel.estimate)
+    return frozenset(n.payload for n in walk(rest.expressions()) if n.op == "sym")
+
+
+@dataclass
+class _Scope:
+    """Rewrites the expressions of one block; what must come first is pending until taken."""
+
+    taken: dict[str, int]
+    known: dict[int, Expr] = field(default_factory=dict)
+    orders: dict[int, tuple[int, ...]] = field(default_factory=dict)
+    pending: list[Simple] = field(default_factory=list)
+    results: dict[str, int] = field(default_factory=dict)
+    outlined: dict[str, int] = field(default_factory=dict)
+
+    def nested(
+        self, lets: Sequence[Let], values: Sequence[Expr]
+    ) -> tuple[tuple[Simple, ...], tuple[Expr, ...]]:
+        """Return the statements and values of a block in this scope, which nothing reads after it."""
+        inner = self.inside([*(let.value for let in lets), *values])
+        body = [s for let in lets for s in inner.assign(let, False)]
+        rewritten = tuple(inner.rewrite(e) for e in values)
+        return (*body, *inner.take()), rewritten
+
+    def inside(self, expressions: list[Expr]) -> _Scope:
+        """Return the scope of a loop body: it sees what stands before the loop."""
+        inner = _Scope(self.taken, dict(self.known), outlined=self.outlined)
+        inner.expect(expressions)
+        return inner
+
+    def expect(self, expressions: list[Expr]) -> None:
+        """Note which Stumpff functions these expressions need of each argument."""
+        needed: dict[int, list[int]] = {}
+        for node in walk(expressions):
+            if node.op == "call" and node.payload in STUMPFF and node.id not in self.known:
+                needed.setdefault(node.args[0].id, []).append(STUMPFF[node.payload])
+        self.orders = {argument: tuple(sorted(set(ks))) for argument, ks in needed.items()}
+
+    def assign(self, let: Let, kept: bool) -> list[Simple]:
+        """Return the statements of an assignment: none of its own where a joint call made its value."""
+        value = self.rewrite(let.value)
+        before = self.take()
+        if value.op == "sym" and value.payload in self.results and not kept:
+            self.known[value.space.sym(let.name).id] = value
+            return before
+        return [*before, Assignment(let.name, value)]
+
+    def take(self) -> list[Simple]:
+        """Return and forget the statements that must stand before the next one."""
+        pending, self.pending = self.pending, []
+        return pending
+
+    def rewrite(self, root: Expr) -> Expr:
+        """Return root with Stumpff calls and awkward powers replaced by names."""
+        space = root.space
+        for node in walk([root], lambda n: n.id in self.known):
+            if node.id in self.known:
+                continue
+            args = [self.known[a.id] for a in node.args]
+            match node.op:
+                case "pow":
+                    self.known[node.id] = self._power(args[0], node.payload)
+                case "call" if node.payload in STUMPFF:
+                    self._joint(node, args[0])
+                case "call" if node.payload.partition(".")[0] in self.outlined:
+                    self._invoke(node, args)
+                case "call":
+                    self.known[node.id] = space.call(node.payload, *args)
+                case "const" | "sym":
+                    self.known[node.id] = node
+                case op:
+                    self.known[node.id] = getattr(space, op)(*args)
+        return self.known[root.id]
+
+    def _joint(self, node: Expr, argument: Expr) -> None:
+        orders = self.orders[node.args[0].id]
+        names = tuple(self._fresh(f"c{k}") for k in orders)
+        self.pending.append(Joint(names, orders, argument))
+        for k, name in zip(orders, names, strict=True):
+            self.results[name] = k
+            call = node.space.call(f"stumpff{k}", node.args[0])
+            self.known[call.id] = node.space.sym(name)
+
+    def _invoke(self, node: Expr, args: list[Expr]) -> None:
+        function = node.payload.partition(".")[0]
+        call = Invocation(self._fresh("v"), self.outlined[function], function, tuple(args))
+        self.pending.append(call)
+        for k, name in enumerate(call.names):
+            self.results[name] = k
+            whole = node.space._make("call", node.args, f"{function}.{k}")
+            self.known[whole.id] = node.space.sym(name)
+
+    def _power(self, base: Expr, n: int) -> Expr:
+        space = base.space
+        base = self._named(base)
+        if n <= 3:
+            return space.pow(base, n)
+        result = base
+        for bit in bin(n)[3:]:
+            result = space.pow(self._named(result), 2)
+            if bit == "1":
+                result = space.mul(result, base)
+        return result
+
+    def _named(self, value: Expr) -> Expr:
+        if value.op == "sym":
+            return value
+        name = self._fresh("p")
+        self.pending.append(Assignment(name, value))
+        return value.space.sym(name)
+
+    def _fresh(self, stem: str) -> str:
+        while True:
+            self.taken[f"{stem} count"] = self.taken.get(f"{stem} count", 0) + 1
+            name = f"{stem}_{self.taken[f'{stem} count']}"
+            if name not in self.taken:
+                return name

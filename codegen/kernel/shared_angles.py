@@ -1,0 +1,52 @@
+"""Functions of one angle: arguments that are equal as polynomials are one expression.
+
+Variational methods exponentiate h xi, h xi/2 and -h xi/2 in one stage. Spelled as sums of squares, z of the
+second, z of the third and a quarter of z of the first differ, so that their Stumpff functions would be
+computed three times. Compared as polynomials in symbols and earlier calls they are one.
+"""
+
+from __future__ import annotations
+
+from itertools import islice
+
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr, Space, walk
+from codegen.ir.normal_form import NormalForms, Polynomial, TooLong
+
+LONGEST = 64
+"""Arguments of more operations than this are taken as they are."""
+
+
+class SharedArguments(ExprDomain):
+    """Expressions whose Stumpff functions are called with the first of equal arguments."""
+
+    def __init__(self, space: Space | None = None) -> None:
+        super().__init__(space)
+        self.normal = NormalForms(self.space)
+        self.arguments: list[tuple[Polynomial, Expr]] = []
+        self.shared: dict[int, Expr] = {}
+
+    def call(self, function: str, *args: Expr) -> Expr:
+        """Return a call node."""
+        if function.startswith("stumpff"):
+            args = (self._first(args[0]),)
+        return super().call(function, *args)
+
+    def _first(self, argument: Expr) -> Expr:
+        """Return the argument of an earlier call that equals this one, or this one."""
+        if argument.id not in self.shared:
+            self.shared[argument.id] = self._compared(argument)
+        return self.shared[argument.id]
+
+    def _compared(self, argument: Expr) -> Expr:
+        if len(list(islice(walk([argument]), LONGEST + 1))) > LONGEST:
+            return argument
+        try:
+            polynomial = self.normal.polynomial(argument)
+        except TooLong:
+            return argument
+        for known, first in self.arguments:
+            if known == polynomial:
+                return first
+        self.arguments.append((polynomial, argument))
+        return argument

@@ -1,0 +1,88 @@
+"""Variations of a state: the coordinates in which a step has a Jacobian.
+
+A group element q varies by xi in its algebra, dq = xi.q (right-trivialised); momenta, and points that are no
+group elements, vary component by component. So the Jacobian on T*SO(3) is 6 x 6, that on the sphere 3 x 3.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from codegen.errors import SceneError
+from codegen.groups.actions import LeftMultiplication
+from codegen.groups.base import LieGroup
+from codegen.groups.cotangent import Cotangent
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr
+from codegen.ir.program import Kind
+from codegen.scene.problem import Problem
+
+
+@dataclass(frozen=True)
+class Variations:
+    """How a state varies: its symbols in parts, each with the group that moves it, or None for numbers."""
+
+    parts: tuple[tuple[Any, tuple[str, ...]], ...]
+
+    @classmethod
+    def of(cls, scene: Problem) -> Variations:
+        """Return those of a problem; SceneError for a group whose elements have no rates."""
+        parts: list[tuple[Any, tuple[str, ...]]] = []
+        for block in scene.state:
+            moved = block.kind is Kind.POINT and isinstance(scene.action, LeftMultiplication)
+            if isinstance(scene.group, Cotangent) and moved:
+                base = scene.group.base
+                parts += [(base, block.symbols[: base.size]), (None, block.symbols[base.size :])]
+            elif block.kind is Kind.GROUP or moved:
+                parts.append((scene.group, block.symbols))
+            else:
+                parts.append((None, block.symbols))
+        for group, _ in parts:
+            if group is not None and type(group).rate is LieGroup.rate:
+                raise SceneError(f"a Jacobian on {group.name}", where=scene.name, expected="another group")
+        return cls(tuple(parts))
+
+    @property
+    def dim(self) -> int:
+        """How many numbers a variation has."""
+        return sum(len(symbols) if group is None else group.dim for group, symbols in self.parts)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of its numbers that no scene can have."""
+        return tuple(f"vary.{k}" for k in range(self.dim))
+
+    def seeds(self, domain: ExprDomain) -> dict[str, Expr]:
+        """Return the rates of the state's symbols under the variation."""
+        rest = tuple(domain.space.sym(name) for name in self.names)
+        found: dict[str, Expr] = {}
+        for group, symbols in self.parts:
+            count = len(symbols) if group is None else group.dim
+            own, rest = rest[:count], rest[count:]
+            state = tuple(domain.space.sym(s) for s in symbols)
+            rates = own if group is None else group.velocity(domain, own, state)
+            found |= dict(zip(symbols, rates, strict=True))
+        return found
+
+    def ends(self, domain: ExprDomain, state: tuple[Expr, ...], rates: tuple[Expr, ...]) -> tuple[Expr, ...]:
+        """Return the variation of the new state from the rates of its coordinates."""
+        found: list[Expr] = []
+        for group, symbols in self.parts:
+            count = len(symbols)
+            g, v, state, rates = state[:count], rates[:count], state[count:], rates[count:]
+            found += v if group is None else group.rate(domain, v, g)
+        return tuple(found)
+
+    def text(self) -> str:
+        """Say what the numbers are."""
+        words = []
+        first = 0
+        for group, symbols in self.parts:
+            count = len(symbols) if group is None else group.dim
+            what = (
+                f"d({symbols[0]}..{symbols[-1]})" if group is None else f"xi, where dq = xi.q on {group.name}"
+            )
+            words.append(f"[{first}..{first + count - 1}] {what}")
+            first += count
+        return "; ".join(words)

@@ -1,0 +1,91 @@
+"""A scene's ambient equation y' = f(y).y as straight-line code, for references and for peers.
+
+The right-hand side is evaluated once over expressions; every node becomes one line, so that what is shared is
+computed once. The same lines become a Python function over whatever numbers its names stand for (floats,
+balls, arrays of another library) and the body of a C function.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr, walk
+from codegen.ir.number import Number
+from codegen.printers.expression import number
+from codegen.scene.problem import TIME, Problem
+
+INFIX = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
+
+
+@dataclass(frozen=True)
+class StraightLine:
+    """Lines ``name = text`` over y[0], y[1], ... and t, with constants c0, c1, ...; ``results`` in order."""
+
+    scene: str
+    constants: tuple[Number, ...]
+    lines: tuple[tuple[str, str], ...]
+    results: tuple[str, ...]
+    functions: tuple[str, ...]
+
+    def python(self, constant: Callable[[Number], Any], functions: Mapping[str, Any]) -> Callable[..., Any]:
+        """Return field(y, t) -> tuple, over the numbers that ``constant`` makes and ``functions`` take."""
+        body = [f"    {name} = {text}" for name, text in self.lines]
+        source = "\n".join(
+            ["def field(y, t):", *body, f"    return ({''.join(f'{r}, ' for r in self.results)})"]
+        )
+        found: dict[str, Any] = {f"c{k}": constant(x) for k, x in enumerate(self.constants)}
+        found |= {name: functions[name] for name in self.functions}
+        exec(compile(source, f"<{self.scene}>", "exec"), found)
+        field: Callable[..., Any] = found["field"]
+        return field
+
+    def c(self, target: str = "dy") -> list[str]:
+        """Return C statements that write the derivative to an array."""
+        lines = [f"const double c{k} = {number(x)};" for k, x in enumerate(self.constants)]
+        for name, text in self.lines:
+            base, power, exponent = text.partition(" ** ")
+            lines.append(f"const double {name} = {' * '.join([base] * int(exponent)) if power else text};")
+        return lines + [f"{target}[{i}] = {result};" for i, result in enumerate(self.results)]
+
+
+def velocity(scene: Problem) -> StraightLine:
+    """Return a scene's ambient derivative, its parameters at their defaults."""
+    domain = ExprDomain()
+    state = tuple(domain.space.sym(s) for s in scene.symbols)
+    roots = scene.velocity(domain, state, domain.space.sym(TIME))
+    return straight_line(scene, roots)
+
+
+def straight_line(scene: Problem, roots: tuple[Expr, ...]) -> StraightLine:
+    """Return expressions in the state's symbols and the time as straight-line code."""
+    constants: list[Number] = []
+    names: dict[int, str] = {}
+    lines: list[tuple[str, str]] = []
+    functions: set[str] = set()
+    places = {s: f"y[{i}]" for i, s in enumerate(scene.symbols)}
+    for node in walk(roots):
+        if node.op == "sym":
+            names[node.id] = places.get(node.payload, node.payload)
+        elif node.op == "const":
+            names[node.id] = f"c{len(constants)}"
+            constants.append(node.payload)
+        else:
+            names[node.id] = f"v{node.id}"
+            lines.append((f"v{node.id}", _spelled(node, [names[a.id] for a in node.args])))
+            if node.op == "call":
+                functions.add(node.payload)
+    results = tuple(names[r.id] for r in roots)
+    return StraightLine(scene.name, tuple(constants), tuple(lines), results, tuple(sorted(functions)))
+
+
+def _spelled(node: Expr, args: list[str]) -> str:
+    if node.op in INFIX:
+        return f"{args[0]} {INFIX[node.op]} {args[1]}"
+    if node.op == "neg":
+        return f"-{args[0]}"
+    if node.op == "pow":
+        return f"{args[0]} ** {node.payload}"
+    return f"{node.payload}({', '.join(args)})"

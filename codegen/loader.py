@@ -1,0 +1,435 @@
+"""Emitted modules as Python objects: compiled C through cffi (ABI mode), or emitted Python, with one face."""
+
+from __future__ import annotations
+
+import math
+import operator
+import types
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from enum import IntEnum
+from pathlib import Path
+from typing import Any
+
+from codegen.artifact import Artifact, read
+from codegen.build import build
+from codegen.printers.c.module import prototypes
+from codegen.printers.interface import Interface
+
+State = Any
+"""A sequence of floats; a numpy array is answered by a numpy array, anything else by a list."""
+
+Signals = Callable[[float], Sequence[float]]
+"""A function from the time to the run-time inputs."""
+
+
+class Status(IntEnum):
+    """Why a step was not made; the numbers are those of emitted code."""
+
+    OK = 0
+    NOT_CONVERGED = 1
+    NOT_FINITE = 2
+    BAD_STEP = 3
+    LIMIT = 4
+
+
+class StepFailed(ArithmeticError):
+    """A step that could not be made: its status, how many steps were made before it, the last good state."""
+
+    def __init__(self, status: Status, step: int, state: State, reason: str) -> None:
+        super().__init__(f"step {step + 1}: {reason}")
+        self.status, self.step, self.state, self.reason = status, step, state, reason
+
+
+@dataclass(frozen=True)
+class Arrival:
+    """Where a run that chose its steps ended: the size to go on with, steps made and steps refused."""
+
+    state: State
+    t: float
+    h: float
+    accepted: int
+    rejected: int
+
+
+@dataclass
+class Statistics:
+    """Sweeps by block, the most one block took in one step, and 1 + the block that failed.
+
+    ``matrices`` is how often a matrix of Newton's method was made.
+    """
+
+    sweeps: list[int] = field(default_factory=list)
+    most: int = 0
+    failed: int = 0
+    matrices: int = 0
+
+
+@dataclass(frozen=True)
+class _Begun:
+    """What a call begins with: the state as it was given and as numbers, parameter values, inputs, counts."""
+
+    state: State
+    numbers: list[float]
+    values: list[float]
+    inputs: Signals | None = None
+    statistics: Statistics | None = None
+
+    def failed(self, status: int, step: int, state: Sequence[float], reason: str) -> StepFailed:
+        """Return the error of a step that could not be made, its state of the kind that was given."""
+        return StepFailed(Status(status), step, like(self.state, state), reason)
+
+
+class Integrator(ABC):
+    """A loaded step: ``interface`` tells its arguments, ``defaults`` the scene's parameter values."""
+
+    def __init__(self, interface: Interface, defaults: Mapping[str, float]) -> None:
+        self.interface, self.defaults = interface, dict(defaults)
+
+    def step(
+        self,
+        state: State,
+        h: float,
+        t: float = 0.0,
+        statistics: Statistics | None = None,
+        inputs: Sequence[float] | None = None,
+        **parameters: float,
+    ) -> State:
+        """Return the state after one step of size h; a StepFailed if it cannot be made.
+
+        ``inputs`` are the run-time inputs, in the interface's order, held over the step.
+        """
+        held = None if inputs is None else tuple(inputs)
+        function = None if held is None else lambda t: held
+        return self.run(state, h, 1, t, statistics, function, **parameters)
+
+    def run(
+        self,
+        state: State,
+        h: float,
+        steps: int,
+        t: float = 0.0,
+        statistics: Statistics | None = None,
+        inputs: Signals | None = None,
+        **parameters: float,
+    ) -> State:
+        """Return the state after that many steps of size h from time t; a StepFailed if one fails.
+
+        ``inputs`` is a function from the time to the run-time inputs, in the interface's order.
+        """
+        begun = self._begin(state, parameters, inputs, statistics)
+        final, _ = self._call(begun, t, h, self._checked_count(steps), 0)
+        return like(state, final)
+
+    def trajectory(
+        self,
+        state: State,
+        h: float,
+        steps: int,
+        stride: int = 1,
+        t: float = 0.0,
+        statistics: Statistics | None = None,
+        inputs: Signals | None = None,
+        **parameters: float,
+    ) -> State:
+        """Return rows: the initial state and every stride-th state after it."""
+        if stride < 1:
+            raise ValueError(f"expected a stride of at least 1, found {stride}")
+        begun = self._begin(state, parameters, inputs, statistics)
+        _, rows = self._call(begun, t, h, self._checked_count(steps), stride)
+        return like(state, rows)
+
+    def adaptive(
+        self,
+        state: State,
+        t: float,
+        end: float,
+        h: float = 0.0,
+        *,
+        rtol: float = 1e-6,
+        atol: float = 1e-9,
+        limit: int = 100_000,
+        statistics: Statistics | None = None,
+        inputs: Signals | None = None,
+        **parameters: float,
+    ) -> Arrival:
+        """Return where steps from t to end lead, as large as the tolerances allow; ``h`` is the first.
+
+        TypeError for a module without an estimate of the error (``emit --adaptive``), StepFailed as
+        :meth:`run`, and with the status ``LIMIT`` where the end is not reached.
+        """
+        if not self.interface.adaptive:
+            raise TypeError("this module has no run that chooses its steps; emit it with --adaptive")
+        span, tolerances = (float(t), float(end), float(h)), (float(rtol), float(atol))
+        begun = self._begin(state, parameters, inputs, statistics)
+        found = self._adapt(begun, span, tolerances, operator.index(limit))
+        return replace(found, state=like(state, found.state))
+
+    def jacobian(
+        self,
+        state: State,
+        h: float,
+        t: float = 0.0,
+        inputs: Sequence[float] | None = None,
+        **parameters: float,
+    ) -> State:
+        """Return the derivative of one step, rows of the variations that the module's head names.
+
+        TypeError for a module without it (``emit --jacobian``); StepFailed as :meth:`step`.
+        """
+        if not self.interface.variations:
+            raise TypeError("this module has no derivative of its step; emit it with --jacobian")
+        if bool(self.interface.inputs) != (inputs is not None):
+            raise TypeError(f"expected values for {', '.join(self.interface.inputs) or 'no inputs'}")
+        held = None if inputs is None else [float(x) for x in inputs]
+        begun = _Begun(state, self._numbers(state), self._values(parameters))
+        return like(state, self._derive(begun, t, h, held))
+
+    def _begin(
+        self,
+        state: State,
+        parameters: Mapping[str, float],
+        inputs: Signals | None,
+        statistics: Statistics | None,
+    ) -> _Begun:
+        """Return what was given, checked: TypeError for names and inputs, ValueError for the state."""
+        names = self.interface.inputs
+        if bool(names) != (inputs is not None):
+            raise TypeError(f"expected {'a function for ' + ', '.join(names) if names else 'no inputs'}")
+        return _Begun(state, self._numbers(state), self._values(parameters), inputs, statistics)
+
+    def _checked_count(self, steps: int) -> int:
+        count = operator.index(steps)
+        if count < 0:
+            raise ValueError(f"expected no negative number of steps, found {steps}")
+        return count
+
+    def _numbers(self, state: State) -> list[float]:
+        numbers = [float(x) for x in state]
+        if len(numbers) != self.interface.size:
+            raise ValueError(f"expected {self.interface.size} numbers in state, found {len(numbers)}")
+        return numbers
+
+    def _values(self, parameters: Mapping[str, float]) -> list[float]:
+        known = self.interface.parameters
+        for name in parameters:
+            if name not in known:
+                raise TypeError(f"unknown parameter {name}; this step reads {', '.join(known) or 'none'}")
+        values = {**self.defaults, **parameters}
+        for name in known:
+            if name not in values:
+                raise TypeError(f"the parameter {name} has no value")
+        return [float(values[name]) for name in known]
+
+    def _count(self, counts: Any, statistics: Statistics | None) -> None:
+        """Add what emitted code counted."""
+        if counts is not None and statistics is not None:
+            before = statistics.sweeps or [0] * len(self.interface.blocks)
+            statistics.sweeps = [a + b for a, b in zip(before, counts.sweeps, strict=True)]
+            statistics.most = max(statistics.most, counts.most)
+            statistics.failed = counts.failed
+            statistics.matrices += counts.matrices if self.interface.newton else 0
+
+    @abstractmethod
+    def _call(
+        self, begun: _Begun, t: float, h: float, steps: int, stride: int
+    ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
+        """Run and return the final state and the rows."""
+
+    @abstractmethod
+    def _derive(self, begun: _Begun, t: float, h: float, held: list[float] | None) -> list[list[float]]:
+        """Return the rows of the Jacobian."""
+
+    @abstractmethod
+    def _adapt(
+        self, begun: _Begun, span: tuple[float, float, float], tolerances: tuple[float, float], limit: int
+    ) -> Arrival:
+        """Run with chosen steps; ``span`` is (t, end, h)."""
+
+
+class CompiledIntegrator(Integrator):
+    """A step in a shared object; calls let go of the interpreter lock."""
+
+    def __init__(self, interface: Interface, defaults: Mapping[str, float], path: Path) -> None:
+        from cffi import FFI
+
+        super().__init__(interface, defaults)
+        self._ffi = FFI()
+        self._ffi.cdef(prototypes(interface))
+        self._library = self._ffi.dlopen(str(path))
+        self._run = getattr(self._library, f"{interface.prefix}run")
+
+    def _call(
+        self, begun: _Begun, t: float, h: float, steps: int, stride: int
+    ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
+        size, real, new = self.interface.size, self.interface.format.c_type, self._ffi.new
+        state, completed = new(f"{real}[]", begun.numbers), new("size_t *")
+        row_count = steps // stride + 1 if stride else 0
+        rows = new(f"{real}[]", row_count * size) if stride else self._ffi.NULL
+        time = [t] if self.interface.time else []
+        with self._observed(begun) as (sampled, counted):
+            arguments = [state, *time, h, steps, *begun.values, *sampled, rows, stride, *counted, completed]
+            status = self._run(*arguments)
+        final = self._ffi.unpack(state, size)
+        if status != Status.OK:
+            raise begun.failed(status, completed[0], final, reason(status, self._block(counted), h))
+        flat = self._ffi.unpack(rows, row_count * size) if stride else []
+        return final, [flat[i : i + size] for i in range(0, len(flat), size)]
+
+    def _adapt(
+        self, begun: _Begun, span: tuple[float, float, float], tolerances: tuple[float, float], limit: int
+    ) -> Arrival:
+        real, new = self.interface.format.c_type, self._ffi.new
+        state, t, h = new(f"{real}[]", begun.numbers), new(f"{real} *", span[0]), new(f"{real} *", span[2])
+        accepted, rejected = new("size_t *"), new("size_t *")
+        run = getattr(self._library, f"{self.interface.prefix}run_adaptive")
+        with self._observed(begun) as (sampled, counted):
+            arguments = [state, t, span[1], h, *tolerances, limit, *begun.values, *sampled, *counted]
+            status = run(*arguments, accepted, rejected)
+        final = self._ffi.unpack(state, self.interface.size)
+        if status != Status.OK:
+            why = reason(status, self._block(counted), span[2])
+            if status == Status.BAD_STEP:
+                why = "from {} to {} by {} with rtol = {}, atol = {}".format(*span, *tolerances)
+            raise begun.failed(status, accepted[0], final, why)
+        return Arrival(final, t[0], h[0], accepted[0], rejected[0])
+
+    @contextmanager
+    def _observed(self, begun: _Begun) -> Iterator[tuple[list[Any], list[Any]]]:
+        """Hand over the arguments for inputs and for counts; raise after the call what an input raised."""
+        callback = None if begun.inputs is None else _Callback(self._ffi, self.interface, begun.inputs)
+        blocks, prefix = self.interface.blocks, self.interface.prefix
+        counted = [self._ffi.new(f"{prefix}statistics *")] if blocks else []
+        yield [] if callback is None else [callback.pointer, self._ffi.NULL], counted
+        if callback is not None and callback.failure is not None:
+            raise callback.failure
+        self._count(counted[0] if counted else None, begun.statistics)
+
+    def _block(self, counted: list[Any]) -> str:
+        """Return the name of the block that failed, empty where none did."""
+        failed = counted[0].failed if counted else 0
+        return self.interface.blocks[failed - 1] if failed else ""
+
+    def _derive(self, begun: _Begun, t: float, h: float, held: list[float] | None) -> list[list[float]]:
+        real, size = self.interface.format.c_type, self.interface.variations
+        found = self._ffi.new(f"{real}[]", size * size)
+        time, inputs = [t] if self.interface.time else [], [] if held is None else [held]
+        derive = getattr(self._library, f"{self.interface.prefix}jacobian")
+        status = derive(begun.numbers, *time, h, *begun.values, *inputs, found)
+        if status != Status.OK:
+            raise begun.failed(status, 0, begun.numbers, reason(status, "an implicit block", h))
+        flat = self._ffi.unpack(found, size * size)
+        return [flat[i : i + size] for i in range(0, size * size, size)]
+
+
+class _Callback:
+    """A function of time that C may call; what it raises is kept, and the step that asked for it fails."""
+
+    def __init__(self, ffi: Any, interface: Interface, function: Signals) -> None:
+        self.function, self.count = function, len(interface.inputs)
+        self.failure: BaseException | None = None
+        real = interface.format.c_type
+        self.pointer = ffi.callback(f"void({real}, {real} *, void *)", self._write)
+
+    def _write(self, t: float, values: Any, context: Any) -> None:
+        found = [math.nan] * self.count
+        try:
+            if self.failure is None:
+                found = [float(x) for x in self.function(t)]
+            if len(found) != self.count:
+                raise TypeError(f"expected {self.count} inputs, found {len(found)}")
+        except BaseException as error:  # nothing may be raised through C
+            self.failure, found = error, [math.nan] * self.count
+        for k, x in enumerate(found):
+            values[k] = x
+
+
+class InterpretedIntegrator(Integrator):
+    """A step in an emitted Python module."""
+
+    def __init__(self, interface: Interface, defaults: Mapping[str, float], source: str) -> None:
+        super().__init__(interface, defaults)
+        self.module = types.ModuleType(interface.module)
+        exec(compile(source, f"{interface.module}.py", "exec"), self.module.__dict__)
+
+    def _call(
+        self, begun: _Begun, t: float, h: float, steps: int, stride: int
+    ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
+        time, sampled = [t] if self.interface.time else [], [] if begun.inputs is None else [begun.inputs]
+        with self._observed(begun) as counted:
+            arguments = [begun.numbers, *time, h, steps, *sampled, *begun.values]
+            found = self.module.run(*arguments, stride=stride, **counted)
+        return (found[-1], found) if stride else (found, [])
+
+    def _adapt(
+        self, begun: _Begun, span: tuple[float, float, float], tolerances: tuple[float, float], limit: int
+    ) -> Arrival:
+        t, end, h = span
+        sampled = [] if begun.inputs is None else [begun.inputs]
+        keywords: dict[str, Any] = dict(zip(("rtol", "atol"), tolerances, strict=True)) | {"limit": limit}
+        keywords |= dict(zip(self.interface.parameters, begun.values, strict=True))
+        with self._observed(begun) as counted:
+            return Arrival(
+                *self.module.run_adaptive(begun.numbers, t, end, *sampled, h, **keywords, **counted)
+            )
+
+    def _derive(self, begun: _Begun, t: float, h: float, held: list[float] | None) -> list[list[float]]:
+        time, inputs = [t] if self.interface.time else [], [] if held is None else [held]
+        try:
+            return list(self.module.jacobian(begun.numbers, *time, h, *inputs, *begun.values))
+        except self.module.StepFailed as failure:
+            raise begun.failed(failure.status, 0, begun.numbers, failure.reason) from None
+
+    @contextmanager
+    def _observed(self, begun: _Begun) -> Iterator[dict[str, Any]]:
+        """Hand over the argument for counts; raise a failed step as ours."""
+        counts = self.module.Statistics() if self.interface.blocks else None
+        try:
+            yield {} if counts is None else {"statistics": counts}
+        except self.module.StepFailed as failure:
+            raise begun.failed(failure.status, failure.step, failure.state, failure.reason) from None
+        finally:
+            self._count(counts, begun.statistics)
+
+
+def reason(status: int, block: str, h: float) -> str:
+    """Say in words why a step failed."""
+    match status:
+        case Status.BAD_STEP:
+            return f"the step size h = {h} is not finite"
+        case Status.LIMIT:
+            return "the end is not reached within the tolerance"
+        case Status.NOT_CONVERGED:
+            return f"{block} did not converge"
+        case _:
+            return f"{block} met a number that is not finite" if block else "the new state is not finite"
+
+
+def like(state: State, values: Sequence[Any]) -> State:
+    """Return values as a numpy array if state is one, else as a list."""
+    if type(state).__module__ == "numpy":
+        import numpy as np
+
+        return np.array(values, dtype=float)
+    return list(values)
+
+
+def load(source: Artifact | str | Path, module: str = "", target: str = "") -> Integrator:
+    """Return the integrator of an emission, or of a module in a folder that holds a manifest.
+
+    ``module`` and ``target`` choose among the folder's modules where it has several. C is compiled, or taken
+    from the cache. Errors: CompilerMissing, CompileError, InputError for a folder without such a module.
+    """
+    emission = source if isinstance(source, Artifact) else read(Path(source), module, target)
+    interface = Interface.from_json(emission.manifest["interface"])
+    defaults = emission.manifest["defaults"]
+    if emission.manifest["target"] == "c":
+        path = build(emission.files)
+        try:
+            return CompiledIntegrator(interface, defaults, path)
+        except OSError:  # a damaged file in the cache; what is built anew and fails again is told
+            path.unlink(missing_ok=True)
+            return CompiledIntegrator(interface, defaults, build(emission.files))
+    return InterpretedIntegrator(interface, defaults, emission.files[f"{interface.module}.py"])

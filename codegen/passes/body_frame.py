@@ -1,0 +1,119 @@
+"""The body frame: values seen from the body at the start of the step, the field from that of the stage.
+
+Exact. With E~ = q^-1 E q for a group element, Ad_{q^-1} x for a value in the algebra and Ad*_q mu for one in
+its dual, a program keeps its operations, which commute with the group; Q = E q becomes q E~. The field is
+taken from :mod:`codegen.scene.body_frame`:
+xi = Ad_E~ W(Q, P), n = Ad*_{E~^-1} N(Q, P), P = Ad*_E~ M. So the equations of
+a block need of q only what the body's field needs. The program takes and gives the momentum of the body
+(:data:`codegen.ir.program.BODY`), so that steps one after the other need not turn it.
+
+A program of other operations, or of a scene without a body frame, is left alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from codegen.ir.program import BODY, Assign, Builder, Kind, Program, Solve, Statement, Var
+from codegen.passes.rewrite import defined
+from codegen.scene.problem import Problem
+
+EQUIVARIANT = frozenset(
+    {"exp", "lin", "zero", "ad", "adt", "dexpinv", "dexpinvt", "P", "dexpt", "Ad", "Adinv", "Adt", "Adtinv"}
+)
+"""Operations that commute with the adjoint action; group arguments are products of exponentials."""
+
+
+class NotFramed(Exception):
+    """A program that this pass leaves alone."""
+
+
+def run(program: Program, scene: Problem) -> Program:
+    """Return the program in the body frame."""
+    kinds = {v.name: v.kind for v in program.inputs}
+    if scene.body is None or (kinds.get("q"), kinds.get("mu")) != (Kind.GROUP, Kind.DUAL):
+        return program
+    try:
+        return _Framing(program).run()
+    except NotFramed:
+        return program
+
+
+@dataclass
+class _Framing:
+    program: Program
+    names: dict[Var, Var] = field(default_factory=dict)
+    relative: dict[Var, Var | None] = field(default_factory=dict)
+    """Of elements Q = q E: what stands for E, None where it is the identity."""
+
+    def run(self) -> Program:
+        program = self.program
+        self.do = Builder({v.name for v in defined(program)})
+        inputs = {v.name: v for v in program.inputs}
+        self.q = inputs["q"]
+        self.relative[self.q] = None
+        body: list[Statement] = []
+        for statement in program.body:
+            if isinstance(statement, Assign):
+                self._visit(statement)
+                body += self.do.take()
+                continue
+            if any(u.kind not in (Kind.ALG, Kind.DUAL) for u in statement.unknowns):
+                raise NotFramed
+            starts = self._now(statement.starts)
+            for assign in statement.body:
+                self._visit(assign)
+            body.append(
+                Solve(
+                    *(statement.label, statement.unknowns, starts),
+                    *(self.do.take(), self._now(statement.images)),
+                )
+            )
+        outputs = dict(program.outputs)
+        if set(outputs) != {"q", "mu"} or outputs["q"] not in self.relative:
+            raise NotFramed
+        element, (momentum,) = outputs["q"], self._now((outputs["mu"],))
+        E = self.relative[element]
+        m = momentum if E is None else self.do.do("Adt", "m", E, momentum)
+        ends = {"q": self.names.get(element, element), "mu": m}
+        body += self.do.take()
+        named = tuple((name, ends[name]) for name, _ in program.outputs)
+        return replace(program, body=tuple(body), outputs=named, frame=BODY)
+
+    def _now(self, variables: tuple[Var, ...]) -> tuple[Var, ...]:
+        if any(v in self.relative for v in variables):
+            raise NotFramed
+        return tuple(self.names.get(v, v) for v in variables)
+
+    def _visit(self, assign: Assign) -> None:
+        name, args = assign.operation.name, assign.args
+        if name in ("hamilton", "hamiltont") and args[0] in self.relative:
+            self._field(assign)
+        elif name == "mul" and args[1] in self.relative:
+            left, right = args[0], self.relative[args[1]]
+            if left in self.relative:
+                raise NotFramed
+            E = left if right is None else self.do.do("mul", f"r{assign.targets[0].name}", left, right)
+            self.relative[assign.targets[0]] = E
+            self._emit(replace(assign, args=(self.q, E)))
+        elif name in EQUIVARIANT or name == "mul" or (name == "identity"):
+            self._emit(replace(assign, args=self._now(args)))
+        elif name == "advance":
+            self._emit(assign)
+        else:
+            raise NotFramed
+
+    def _emit(self, assign: Assign) -> None:
+        self.do.body.append(assign)
+
+    def _field(self, assign: Assign) -> None:
+        """xi = Ad_E W, n = Ad*_{E^-1} N of (Q, Ad*_E M)."""
+        do, (xi, n), element = self.do, assign.targets, assign.args[0]
+        E, time = self.relative[element], assign.args[2:]
+        (M,) = self._now(assign.args[1:2])
+        P = M if E is None else do.do("Adt", f"P{xi.name}", E, M)
+        suffix = "t" if time else ""
+        W = do.do(f"velocity{suffix}", f"W{xi.name}", element, P, *time)
+        N = do.do(f"force{suffix}", f"N{n.name}", element, P, *time)
+        self.names[xi] = W if E is None else do.do("Ad", f"b{xi.name}", E, W)
+        self.names[n] = N if E is None else do.do("Adtinv", f"b{n.name}", E, N)

@@ -1,0 +1,129 @@
+"""Sums of functions of one ad, nested: sum_k f_k (1 + b_k ad_x + c_k ad_x^2) v_k in two brackets.
+
+Exact. It is A + ad_x (B + ad_x C) with A = sum f_k v_k, B = sum f_k b_k v_k and C = sum f_k c_k v_k, however
+many terms there are; one by one each takes two brackets. The momentum of (3.19) is such a sum: functions of
+one ad applied to the momentum before and to the force. A group that knows them in closed form has
+``series_sum``. Where the v_k are sums themselves, A, B and C are sums of what those are sums of: they do not
+wait for them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from codegen.ir.domain import Domain
+from codegen.ir.interpret import coefficient
+from codegen.ir.number import Number
+from codegen.ir.program import ONE, Assign, Coefficient, Factor, Program, Var
+from codegen.passes.functions import ratio
+from codegen.passes.rewrite import uses
+from codegen.scene.problem import Problem
+
+Term = tuple[Coefficient, Assign]
+"""A multiple of a function of ad."""
+
+
+@dataclass
+class SeriesSums:
+    """Finds such sums in a program while it is executed."""
+
+    program: Program
+    scene: Problem
+    definitions: dict[Var, Assign] = field(default_factory=dict)
+    uses: dict[Var, int] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.uses = uses(self.program)
+
+    def value(self, domain: Domain, assign: Assign, env: Mapping[Var, Any]) -> tuple[Any, ...] | None:
+        """Return the value of a sum with its functions of ad nested; None where nothing is saved by that.
+
+        Assignments are taken note of, so that all of them have to pass here in order.
+        """
+        for target in assign.targets:
+            self.definitions[target] = assign
+        if assign.operation.name != "lin" or not hasattr(self.scene.group, "series_sum"):
+            return None
+        groups = self._groups(assign)
+        if not groups:
+            return None
+        inner = {made.targets[0] for group in groups for _, made in group}
+        total = [
+            (coefficient(domain, c), env[v])
+            for c, v in zip(assign.operation.coefficients, assign.args, strict=True)
+            if v not in inner
+        ]
+        values = [self._nested(domain, group, env) for group in groups]
+        result = values[0]
+        for other in values[1:]:
+            result = tuple(a + b for a, b in zip(result, other, strict=True))
+        for c, v in total:
+            result = tuple(a + c * b for a, b in zip(result, v, strict=True))
+        return result
+
+    def _groups(self, assign: Assign) -> list[list[Term]]:
+        """Return the terms that are functions of ad of multiples of one x, where there are two or more."""
+        groups: list[list[Term]] = []
+        for c, v in zip(assign.operation.coefficients, assign.args, strict=True):
+            made = self.definitions.get(v)
+            if made is None or not made.operation.word or self.uses.get(v) != 1:
+                continue
+            for group in groups:
+                if ratio(self.definitions, made.args[0], group[0][1].args[0]) is not None:
+                    group.append((c, made))
+                    break
+            else:
+                groups.append([(c, made)])
+        return [group for group in groups if len(group) > 1]
+
+    def _nested(self, domain: Domain, group: list[Term], env: Mapping[Var, Any]) -> tuple[Any, ...]:
+        """Return the value of one group, all in terms of the last x."""
+        x, operation = group[-1][1].args[0], group[-1][1].operation
+        terms = []
+        for c, made in group:
+            scale = ratio(self.definitions, made.args[0], x)
+            assert scale is not None
+            word: tuple[Factor, ...] = tuple(replace(f, scale=f.scale * scale) for f in made.operation.word)
+            terms.append((signed(domain, c), word, env[made.args[1]]))
+
+        def total(numbers: tuple[int, ...]) -> tuple[Any, ...]:
+            flat = self._flat([(group[k][0], group[k][1].args[1]) for k in numbers])
+            return combined(domain, [(c, env[v]) for c, v in flat])
+
+        nested: tuple[Any, ...] = self.scene.group.series_sum(
+            domain, terms, operation.name == "seriest", env[x], total
+        )
+        return nested
+
+    def _flat(self, terms: list[tuple[Coefficient, Var]]) -> list[tuple[Coefficient, Var]]:
+        """Return a sum in terms of what its terms are sums of, where that is no longer."""
+        total: dict[tuple[Var, int], Number] = {}
+        for c, v in terms:
+            made = self.definitions.get(v)
+            inner = [(ONE, v)]
+            if made is not None and made.operation.name == "lin":
+                inner = list(zip(made.operation.coefficients, made.args, strict=True))
+            for d, u in inner:
+                key, more = (u, c.power + d.power), c.value * d.value
+                total[key] = total[key] + more if key in total else more
+        flat = [(Coefficient(x, power), u) for (u, power), x in total.items() if not x.is_zero]
+        return flat if 0 < len(flat) <= len(terms) else terms
+
+
+def signed(domain: Domain, c: Coefficient) -> Any:
+    """Return a coefficient with its sign in front, so that products with it and its negative are shared."""
+    if c.value.is_rational and c.value.fraction() < 0:
+        return -coefficient(domain, Coefficient(-c.value, c.power))
+    return coefficient(domain, c)
+
+
+def combined(domain: Domain, terms: Sequence[tuple[Coefficient, tuple[Any, ...]]]) -> tuple[Any, ...]:
+    """Return a sum of multiples, those that need no product first."""
+    total: tuple[Any, ...] | None = None
+    for c, v in sorted(terms, key=lambda term: not term[0].is_one):
+        own = v if c.is_one else tuple(signed(domain, c) * a for a in v)
+        total = own if total is None else tuple(a + b for a, b in zip(total, own, strict=True))
+    assert total is not None
+    return total

@@ -1,0 +1,1 @@
+"""What surrounds a kernel at run time: the solver of implicit stages and its choice."""

@@ -1,0 +1,300 @@
+"""How each block of equations is solved: by a fixed point, Newton's method or chords, whichever is cheapest.
+
+Newton's method keeps an exact matrix as long as it serves; chords make one, to first order in h, each step. A
+fixed point needs none. Its sweeps gain one power of h each, those of the thesis' (3.19) too, because momenta
+are computed within a sweep; were they unknowns beside the velocities, two sweeps would gain one.
+
+All are tried: the step is printed as Python and makes a few steps from the initial state, of the length that
+the usage example takes. Sweeps and matrices are counted and weighed by their operations. What settles with
+steps :data:`LONGER` times as long too, soon, is preferred: near its limit a method fails at a user's next
+step size.
+
+Where there are more than :data:`MANY` unknowns, in one block or several, and fixed points find them in
+:data:`FEW` sweeps, these are taken: products with the inverse take most of what the fewer sweeps of Newton's
+method save, or more, and its matrices are longer than the step. Of long steps chords are not tried where
+momenta are compared, which Newton's method serves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from codegen.errors import MethodError
+from codegen.ir.differentiate import NotDifferentiable
+from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Kernel, Loop
+from codegen.ir.program import Program
+from codegen.kernel.operations import matrix_of, operations
+from codegen.kernel.schedule import METHODS, arrange
+from codegen.kernel.translate import is_long, to_kernel
+from codegen.printers.interface import Interface
+from codegen.printers.python.module import print_module
+from codegen.printers.recipe import Recipe
+from codegen.scene.problem import Problem
+from orderconds.errors import UnknownName
+
+AUTO = "auto"
+CHOICES = (AUTO, NEWTON, CHORD, FIXED_POINT)
+"""What a caller may ask for."""
+
+STEPS, LONGER, PARTS = 20, 8, 100
+"""Steps of a trial; how much longer steps of the second trial are; how many steps make the scene's span."""
+
+SWEEPS = 20
+"""The most sweeps that a longer step may take."""
+
+MANY, FEW = 20, 5.0
+"""In how many sweeps fixed points must find more than so many unknowns to be taken at once."""
+
+WEIGHTS = {"add": 1, "mul": 1, "div": 4}
+"""What operations cost; calls cost :data:`CALL`."""
+CALL = 15
+
+RELIABLE = {NEWTON: 0.8}
+"""How much less a solver must cost: how long a matrix serves depends on where the motion is."""
+
+
+@dataclass(frozen=True)
+class Choice:
+    """How one block is solved, and why."""
+
+    label: str
+    unknowns: int
+    solver: str
+    reason: str
+
+    def text(self) -> str:
+        """Say it in words."""
+        return f"{self.label}: {METHODS[self.solver]}, {self.unknowns} unknowns ({self.reason})"
+
+
+@dataclass(frozen=True)
+class _Trial:
+    """What a few steps took: sweeps a step by block, matrices a step and block, and whether all were made."""
+
+    sweeps: tuple[float, ...]
+    matrices: float
+    good: bool
+
+
+def known_solver(name: str) -> str:
+    """Return the name; an UnknownName where it is none of :data:`CHOICES`."""
+    if name not in CHOICES:
+        raise UnknownName(f"unknown solver {name}", expected=" or ".join(CHOICES))
+    return name
+
+
+def solved(
+    program: Program,
+    scene: Problem,
+    initial: tuple[float, ...],
+    asked: str = AUTO,
+    iterated: Kernel | None = None,
+) -> tuple[Kernel, tuple[Choice, ...]]:
+    """Return the kernel of a program with every block solved as ``asked``, and what was chosen.
+
+    ``initial`` is the state that trials start from; signals that are taken at run time are zero in them.
+    ``asked`` is one of :data:`CHOICES`; UnknownName for another, MethodError for Newton's method where a
+    function of the scene or group has no derivative here. ``iterated`` is the kernel with fixed points, for a
+    caller that has it.
+    """
+    known_solver(asked)
+    fixed = iterated or to_kernel(program, scene)
+    labels = [loop.label for loop in fixed.loops]
+    if not labels:
+        return fixed, ()
+    if asked == FIXED_POINT:
+        return fixed, _choices(fixed, dict.fromkeys(labels, "asked for"))
+    tried = _Tried(scene, initial)
+    if asked == AUTO:
+        tried.add(FIXED_POINT, fixed)
+        if tried.soon():
+            return fixed, _choices(fixed, tried.reasons_for_fixed_points())
+    refused: dict[str, str] = {}
+    for solver in (NEWTON, CHORD):
+        if asked not in (AUTO, solver):
+            continue
+        if solver == CHORD and (fixed.outlined or is_long(fixed.body)) and tried.serves(NEWTON):
+            continue
+        try:
+            kernel = to_kernel(program, scene, dict.fromkeys(labels, solver))
+        except (NotDifferentiable, ZeroDivisionError) as error:
+            refused[solver] = str(error)
+            continue
+        if asked == solver:
+            return kernel, _choices(kernel, dict.fromkeys(labels, "asked for"))
+        tried.add(solver, kernel)
+    if asked in refused:
+        raise MethodError(
+            f"{METHODS[asked]} for {program.name}: {refused[asked]}",
+            where=scene.name,
+            expected="functions whose derivatives are known",
+            hint=f"ask for --solver {FIXED_POINT}",
+        )
+    if len(tried.kernels) == 1:
+        return fixed, _choices(fixed, dict.fromkeys(labels, refused[NEWTON]))
+    chosen, reasons = tried.compared()
+    alike = set(chosen.values())
+    kernel = tried.kernels[alike.pop()] if len(alike) == 1 else to_kernel(program, scene, chosen)
+    return kernel, _choices(kernel, reasons)
+
+
+def _choices(kernel: Kernel, reasons: Mapping[str, str]) -> tuple[Choice, ...]:
+    return tuple(
+        Choice(loop.label, len(loop.unknowns), loop.solver, reasons[loop.label]) for loop in kernel.loops
+    )
+
+
+class _Tried:
+    """Kernels of one program by solver, each with its trials in usual and in longer steps."""
+
+    def __init__(self, scene: Problem, initial: tuple[float, ...]) -> None:
+        self.scene, self.initial = scene, initial
+        self.kernels: dict[str, Kernel] = {}
+        self.usual: dict[str, _Trial] = {}
+        self.far: dict[str, _Trial] = {}
+        self.work: dict[str, dict[str, dict[str, int]]] = {}
+
+    def add(self, solver: str, kernel: Kernel) -> None:
+        """Try a kernel."""
+        trials = _Trials(kernel, self.scene, self.initial)
+        self.kernels[solver] = kernel
+        self.usual[solver], self.far[solver] = trials.run(1), trials.run(LONGER)
+        self.work[solver] = operations(arrange(kernel))
+
+    def soon(self) -> bool:
+        """Whether fixed points solve a long step's many unknowns in few sweeps, and a longer step's at all.
+
+        A matrix of so many unknowns in one block costs more than all sweeps that a longer step may take.
+        """
+        usual, far = self.usual[FIXED_POINT], self.far[FIXED_POINT]
+        sizes = [len(loop.unknowns) for loop in self.kernels[FIXED_POINT].loops]
+        lasts = max(far.sweeps) <= SWEEPS or min(sizes) > MANY
+        if sum(sizes) <= MANY or not usual.good:
+            return False
+        return (max(usual.sweeps) <= FEW and far.good and lasts) or self._cheapest()
+
+    def _cheapest(self) -> bool:
+        """Whether Newton's method would cost more with two sweeps and one matrix in all steps of a trial."""
+        fixed, least = 0.0, 0.0
+        for k, loop in enumerate(self.kernels[FIXED_POINT].loops):
+            each, n = _weight(self.work[FIXED_POINT][loop.label]), len(loop.unknowns)
+            fixed += self.usual[FIXED_POINT].sweeps[k] * each
+            least += 2 * (each + 2 * n**2) + 2 * n**3 / STEPS
+        return fixed <= least
+
+    def reasons_for_fixed_points(self) -> dict[str, str]:
+        """Return the reason for each block where nothing else was tried."""
+        part = "substep" if self.kernels[FIXED_POINT].substeps else "step"
+        return {
+            loop.label: f"{self._sweeps(FIXED_POINT, k)} a {part}; no matrix of so many unknowns was tried"
+            for k, loop in enumerate(self.kernels[FIXED_POINT].loops)
+        }
+
+    def serves(self, solver: str) -> bool:
+        """Whether a solver was tried that compares momenta in every block, and settles."""
+        return (
+            solver in self.kernels
+            and self.usual[solver].good
+            and all(loop.newton is not None and loop.newton.residuals for loop in self.kernels[solver].loops)
+        )
+
+    def compared(self) -> tuple[dict[str, str], dict[str, str]]:
+        """Return the solver that serves each block best, and the reason for each block."""
+        kernels, usual, far = self.kernels, self.usual, self.far
+        able = [s for s in kernels if usual[s].good]
+        sure = [s for s in able if far[s].good and max(far[s].sweeps) <= SWEEPS] or able
+        chosen, reasons = {}, {}
+        for k, loop in enumerate(kernels[FIXED_POINT].loops):
+            cost, spelled = {}, {}
+            for solver in kernels:
+                cost[solver] = usual[solver].sweeps[k] * _weight(self.work[solver][loop.label])
+                spelled[solver] = self._sweeps(solver, k)
+                if solver != FIXED_POINT:
+                    matrix = _matrix(kernels[solver].loops[k], self.work[solver])
+                    made = usual[solver].matrices if solver == NEWTON else 1.0
+                    cost[solver] += made * matrix
+                    newton = kernels[solver].loops[k].newton
+                    own = f" (in C: {1 / newton.period:.2f})" if newton is not None and newton.period else ""
+                    spelled[solver] += f" and {made:.2f} matrices of {matrix}{own}"
+                if solver not in sure:
+                    lasting = (
+                        f"takes {max(far[solver].sweeps):.0f} sweeps"
+                        if far[solver].good
+                        else "does not settle"
+                    )
+                    spelled[solver] = (
+                        f"{lasting} with steps {LONGER} times as long"
+                        if solver in able
+                        else "does not settle"
+                    )
+            newton = kernels[NEWTON].loops[k].newton if NEWTON in kernels else None
+            compared = newton is not None and newton.residuals and NEWTON in able
+            best = (
+                NEWTON
+                if compared
+                else min(sure, key=lambda s: cost[s] / RELIABLE.get(s, 1.0))
+                if sure
+                else NEWTON
+            )
+            others = [f"{METHODS[s]}: {text}" for s, text in spelled.items() if s != best]
+            chosen[loop.label] = best
+            part = "substep" if kernels[FIXED_POINT].substeps else "step"
+            reasons[loop.label] = "; ".join([f"{spelled[best]} a {part}", *others])
+        return chosen, reasons
+
+    def _sweeps(self, solver: str, k: int) -> str:
+        """Spell what the sweeps over a block cost."""
+        each = _weight(self.work[solver][self.kernels[solver].loops[k].label])
+        return f"{self.usual[solver].sweeps[k]:.1f} sweeps of {each} operations"
+
+
+def _matrix(loop: Loop, work: Mapping[str, Mapping[str, int]]) -> int:
+    """Return what a matrix costs with its inversion."""
+    assert loop.newton is not None
+    inversion = 0 if loop.newton.inverted else 2 * len(loop.unknowns) ** 3
+    return _weight(work[matrix_of(loop.label)]) + inversion
+
+
+def _weight(counts: Mapping[str, int]) -> int:
+    return sum(n * WEIGHTS.get(name, CALL) for name, n in counts.items())
+
+
+class _Trials:
+    """A kernel printed as Python, without an error estimate, and run from the initial state."""
+
+    def __init__(self, kernel: Kernel, scene: Problem, initial: tuple[float, ...]) -> None:
+        kernel = replace(kernel, estimate=None)
+        self.interface = Interface.of(kernel, "trial_")
+        self.initial, self.span, self.repeated = initial, scene.span, max(1, len(kernel.substeps))
+        defaults = {name: float(scene.parameters[name]) for name in scene.runtime}
+        recipe = Recipe("trial", (), initial, defaults=defaults)
+        text = print_module(kernel, self.interface, recipe)["trial.py"]
+        self.module: dict[str, Any] = {"__name__": "trial"}
+        exec(compile(text, "trial.py", "exec"), self.module)
+        self.module["_continued"] = self._anew
+
+    def _anew(self, *arguments: Any) -> Any:
+        """Make a step without the solutions before it, and no more: what needs continuation is too long."""
+        for memory in arguments:
+            if isinstance(memory, self.module["_Memory"]):
+                memory.__init__()
+        return self.module["_checked"](*arguments)
+
+    def run(self, longer: int) -> _Trial:
+        """Make steps, so many times as long as usual: several where they are not."""
+        first, last = self.span
+        counts, good = self.module["Statistics"](), True
+        time = [float(first)] if self.interface.time else []
+        number = len(self.interface.inputs)
+        signals = [lambda t: (0.0,) * number] if number else []
+        steps, h = STEPS if longer == 1 else 1, float(longer * (last - first) / PARTS)
+        try:
+            self.module["run"](self.initial, *time, h, steps, *signals, statistics=counts)
+        except self.module["StepFailed"]:
+            good = False
+        newton = self.interface.newton
+        made = steps * self.repeated
+        matrices = counts.matrices / made / len(self.interface.blocks) if newton else 0.0
+        return _Trial(tuple(n / made for n in counts.sweeps), matrices, good)

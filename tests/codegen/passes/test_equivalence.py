@@ -1,0 +1,178 @@
+"""A pass that breaks a program is caught: by meaning where its types are right."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from sympy import Integer, Matrix, sqrt, symbols
+
+from codegen import passes
+from codegen.errors import SceneError
+from codegen.ir.number import Number
+from codegen.ir.program import Coefficient, Operation, Solve
+from codegen.ir.verify import IllFormed
+from codegen.passes.equivalence import Reference
+from tests.strategies import field_scene, full, hamiltonian_scene, lowered, same
+
+
+def mapped(program, change):
+    """The program with one function applied to every assignment, inside blocks as well."""
+
+    def inside(s):
+        return replace(s, body=tuple(map(change, s.body))) if isinstance(s, Solve) else change(s)
+
+    return replace(program, body=tuple(map(inside, program.body)))
+
+
+def fewer_brackets(assign):
+    if assign.operation.name == "dexpinv":
+        return replace(assign, operation=replace(assign.operation, order=assign.operation.order - 1))
+    return assign
+
+
+def slightly_off(assign):
+    if assign.operation.name != "lin":
+        return assign
+    first, *rest = assign.operation.coefficients
+    wrong = Coefficient(first.value + Number.rational(1, 2**28), first.power)
+    return replace(assign, operation=Operation("lin", (wrong, *rest)))
+
+
+def other_way_round(assign):
+    return replace(assign, args=assign.args[::-1]) if assign.operation.name == "mul" else assign
+
+
+def inverse(assign):
+    if assign.operation.name in ("Adt", "Adtinv"):
+        name = "Adtinv" if assign.operation.name == "Adt" else "Adt"
+        return replace(assign, operation=Operation(name))
+    return assign
+
+
+def without_dexpt(assign):
+    if assign.operation.name == "dexpt":
+        one = Coefficient(Number.rational(1))
+        return replace(assign, operation=Operation("lin", (one,)), args=assign.args[1:])
+    return assign
+
+
+CASES = [
+    ("rkmk", full(2), field_scene("S^2"), 1, fewer_brackets),
+    ("rkmk", "rk4", field_scene("S^2"), 2, fewer_brackets),
+    ("rkmk", "rk4", field_scene("GL(2)"), 4, fewer_brackets),
+    ("cg", "cg3", field_scene("S^2"), None, slightly_off),
+    ("vcg", "midpoint", hamiltonian_scene("SO(3)"), None, slightly_off),
+    ("vcg", full(2), hamiltonian_scene("SO(3)"), None, other_way_round),
+    ("vcg", full(2), hamiltonian_scene("GL(2)"), None, inverse),
+    ("vcg", "midpoint", hamiltonian_scene("SO(3)"), None, without_dexpt),
+]
+
+
+@pytest.mark.parametrize(("family", "tableau", "scene", "cutoff", "break_it"), CASES)
+def test_a_wrong_rewriting_is_seen(family, tableau, scene, cutoff, break_it):
+    view, program = lowered(family, tableau, scene, cutoff)
+    wrong = mapped(program, break_it)
+    assert wrong != program
+    assert Reference(program, view).differs(program) == ""
+    assert "moved by" in Reference(program, view).differs(wrong)
+
+
+def test_a_program_at_an_equilibrium_is_judged_elsewhere():
+    """Where the field vanishes every program stands still; the second point tells them apart."""
+    from codegen.groups import SO3, Rotation
+    from codegen.scene import FieldScene
+
+    y = Matrix(symbols("y0:3", real=True))
+    scene = FieldScene(
+        group=SO3(), action=Rotation(), y=y, f=Matrix([y[1], y[2], y[1] * y[2]]), y0=[1, 0, 0], span=(0, 1)
+    )
+    view, program = lowered("rkmk", full(2), scene, 1)
+    assert "moved by" in Reference(program, view).differs(mapped(program, fewer_brackets))
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["abelian", "fold_zeros", "value_numbering", "equal_unknowns", "blocks", "factor_linear", "fuse"],
+)
+def test_a_broken_pass_is_the_compilers_fault(monkeypatch, name):
+    view, program = lowered("vcg", full(2), hamiltonian_scene("SO(3)"))
+    broken = getattr(passes, name).run
+    monkeypatch.setattr(getattr(passes, name), "run", lambda p, *args: mapped(broken(p, *args), inverse))
+    with pytest.raises(IllFormed, match="changed the meaning"):
+        passes.optimise(program, view)
+
+
+def test_a_pass_that_breaks_the_types_is_caught_by_the_verifier(monkeypatch):
+    view, program = lowered("cg", "heun", field_scene("S^2"))
+    monkeypatch.setattr(passes.value_numbering, "run", lambda p: replace(p, body=p.body[1:]))
+    with pytest.raises(IllFormed, match=r"before it is defined|the starts"):
+        passes.optimise(program, view)
+
+
+def on_the_line(field, start):
+    from codegen.groups import LeftMultiplication, Rn
+    from codegen.scene import FieldScene
+
+    y = Matrix(symbols("y0:1", real=True))
+    f = [field(y[0])]
+    return FieldScene(group=Rn(1), action=LeftMultiplication(), y=y, f=f, y0=[start], span=(0, 1))
+
+
+@pytest.mark.parametrize("field", [lambda y: sqrt(y - 2), lambda y: y * 10**400], ids=["root", "overflow"])
+def test_a_field_that_is_not_there_around_the_initial_state_is_bad_input(field):
+    """The scene's own check sees it first where the field is not real there."""
+
+    def compared():
+        view, program = lowered("rk", "euler", on_the_line(field, 1))
+        return Reference(program, view)
+
+    with pytest.raises(SceneError, match=r"no step can be computed from|f at the initial state is no finite"):
+        compared()
+
+
+@pytest.mark.parametrize("power", [0, 9, 12, 200])
+def test_a_field_of_any_speed_is_compared_at_steps_that_show_a_difference(power):
+    scene = on_the_line(lambda y: y * Integer(10) ** power, 1)
+    view, program = lowered("rk", "rk4", scene)
+    other = lowered("rk", "heun", scene)[1]
+    assert Reference(program, view).differs(program) == ""
+    assert "moved by" in Reference(program, view).differs(other)
+
+
+@pytest.mark.parametrize("group", ["SO(3)", "R^3", "GL(2)", "Heisenberg"])
+@pytest.mark.parametrize("tableau", ["midpoint", "kutta3", full(2)])
+def test_all_passes_together_keep_vcg_exactly(group, tableau):
+    view, program = lowered("vcg", tableau, hamiltonian_scene(group))
+    new, reports = passes.optimise(program, view)
+    assert same(view, program, new, order=3)
+    assert reports
+
+
+@pytest.mark.parametrize("place", ["R^3", "S^2", "GL(2)"])
+@pytest.mark.parametrize(
+    ("family", "tableau", "cutoff"), [("cg", "cg3", None), ("cf", "cf4", None), ("rkmk", "rk4", 2)]
+)
+def test_all_passes_together_keep_field_methods_exactly(place, family, tableau, cutoff):
+    view, program = lowered(family, tableau, field_scene(place), cutoff)
+    new, _ = passes.optimise(program, view)
+    assert same(view, program, new)
+
+
+def test_reports_add_up():
+    view, program = lowered("vcg", "triple_jump", hamiltonian_scene("SO(3)"))
+    new, reports = passes.optimise(program, view)
+    counts = dict(program.counts())
+    for report in reports:
+        assert report.before == {k: v for k, v in counts.items() if v}
+        for name, k in report.removed.items():
+            counts[name] = counts.get(name, 0) - k
+    assert {k: v for k, v in counts.items() if v} == new.counts()
+    assert reports[-1].program == new
+
+
+@pytest.mark.parametrize("tableau", ["midpoint", "suzuki4", "gauss2", "kutta3", full(3)])
+def test_passes_leave_nothing_for_a_second_round(tableau):
+    view, program = lowered("vcg", tableau, hamiltonian_scene("SO(3)"))
+    once, _ = passes.optimise(program, view)
+    assert passes.optimise(once, view) == (once, ())
