@@ -399,7 +399,8 @@ def table(report: Report) -> str:
 def main(arguments: list[str] | None = None) -> int:
     """Print the report; return the exit status."""
     parser = argparse.ArgumentParser(description="Measure the structure of the packages.")
-    parser.add_argument("root", nargs="?", type=Path, default=Path(__file__).resolve().parents[1])
+    default = Path(__file__).resolve().parents[1]
+    parser.add_argument("root", nargs="?", type=Path, default=default, help="the folder of both packages")
     parser.add_argument("--json", action="store_true", help="print figures and violations as JSON")
     parser.add_argument("--files", action="store_true", help="print the counts of each file")
     options = parser.parse_args(arguments)
