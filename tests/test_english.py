@@ -50,7 +50,7 @@ PHRASES = {
 """A phrase, or the part of it that every form has, and what to write instead."""
 
 ARRAY = r"""TableauError\(f"a value of type \{"""
-"""The message on NumPy arrays, in the source; instead: NumPy arrays are not accepted here; pass nested lists."""
+"""The message on NumPy arrays; instead: NumPy arrays are not accepted here; pass nested lists."""
 
 WORDS = {
     r"told": "reported, or the noun",
