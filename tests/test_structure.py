@@ -131,6 +131,21 @@ def test_a_circle_of_imports_is_caught_at_any_level(tmp_path: Path, back: str) -
     assert "codegen/b.py:" in found
 
 
+def test_a_relative_import_in_a_package_starts_at_the_package(tmp_path: Path) -> None:
+    tree(tmp_path, codegen__r__package="from .a import x\nfrom . import a\n", codegen__a="import codegen.r\n")
+    assert violations(tmp_path) == []
+    (found,) = violations(tree(tmp_path, codegen__r__a="from . import y\n"))
+    assert found.startswith("codegen/r/__init__.py:1: 2 modules import each other")
+
+
+def test_circles_by_imports_inside_functions_are_figures_of_their_own(tmp_path: Path) -> None:
+    tree(tmp_path, codegen__a="import codegen.b\n", codegen__b="def f():\n    import codegen.a\n")
+    figures = structure.measure(tmp_path).figures
+    assert figures["imports inside functions"] == 1
+    assert figures["circles of imports"] == 1
+    assert figures["  of these without imports inside functions"] == 0
+
+
 def test_a_circle_through_three_files_and_a_package_is_printed(tmp_path: Path) -> None:
     tree(tmp_path, codegen__r__package="from codegen.a import x\n", codegen__a="import codegen.b\n")
     (found,) = violations(tree(tmp_path, codegen__b="from codegen.r import z\n"))
