@@ -13,7 +13,7 @@ from codegen.emitter import compile_method, emit_compiled
 from codegen.errors import MethodError
 from codegen.ir.domain import SeriesDomain
 from codegen.ir.interpret import interpret
-from codegen.lab.local_error import exact_flow, valuation
+from codegen.lab.orders.local_error import exact_flow, valuation
 from codegen.loader import Statistics, Status, StepFailed, load
 from codegen.lower import lower, problem_for
 from codegen.method import Method, with_estimate

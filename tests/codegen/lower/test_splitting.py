@@ -23,7 +23,7 @@ from codegen.flows.turn import Turn
 from codegen.groups import SO3, Rn
 from codegen.ir.domain import PreciseDomain, SeriesDomain
 from codegen.ir.number import Number
-from codegen.lab.local_error import local_error, valuation
+from codegen.lab.orders.local_error import local_error, valuation
 from codegen.lower import families_for, lower, problem_for
 from codegen.method import Method, parse
 from codegen.scene import HamiltonianScene
@@ -144,7 +144,7 @@ def test_flows_solve_the_equations_of_their_part_to_the_last_coefficient(name):
 def solution(scene, root, d, order):
     """The exact solution of one part, as power series."""
     from codegen.ir.differentiate import gradient
-    from codegen.lab.local_error import exact_flow
+    from codegen.lab.orders.local_error import exact_flow
     from codegen.scene.canonical_equations import force
 
     qs, mus = (block.symbols for block in scene.state)

@@ -242,7 +242,7 @@ class TestDerivatives:
             assert -slope(moved, mu) == n[a].coefficients[0]
 
     def test_the_energy_is_constant_along_the_flow(self):
-        from codegen.lab.local_error import exact_flow
+        from codegen.lab.orders.local_error import exact_flow
 
         scene, d = hamiltonian_scene("SO(3)"), SeriesDomain(QQ, 6)
         energy = scene.invariant(d, "energy", exact_flow(scene, QQ, 6))

@@ -12,7 +12,7 @@ from codegen.emitter import compile_method, emit_compiled
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.interpret import interpret
 from codegen.ir.operations import Advance
-from codegen.lab.converge import converge
+from codegen.lab.orders.convergence import converge
 from codegen.lab.reference import reference
 from codegen.lab.runner import Emitted
 from codegen.loader import Status, StepFailed

@@ -18,8 +18,8 @@ from codegen.ir.interpret import interpret
 from codegen.ir.operations import Advance
 from codegen.kernel.operations import operations
 from codegen.kernel.schedule import arrange
-from codegen.lab.converge import converge
-from codegen.lab.local_error import local_error, valuation
+from codegen.lab.orders.convergence import converge
+from codegen.lab.orders.local_error import local_error, valuation
 from codegen.lab.reference import reference
 from codegen.lab.runner import Emitted
 from codegen.lower import lower, problem_for
