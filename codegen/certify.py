@@ -61,17 +61,17 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
 
     classical = method.kind.abelian if scene is not None and scene.group.abelian else None
     if classical is not None:
-        (found,) = check(method.tableau, family=classical).orders
-        if found.decided:
-            return _certified(found, classical)
-    found = lowering(method.family).order(method, scene)
-    if not found.decided:
+        (order,) = check(method.tableau, family=classical).orders
+        if order.decided:
+            return _certified(order, classical)
+    order = lowering(method.family).order(method, scene)
+    if not order.decided:
         raise MethodError(
-            f"the order of {method.label} is undecided beyond {found.order}",
+            f"the order of {method.label} is undecided beyond {order.order}",
             expected="coefficients with more digits",
         )
-    return _certified(found)
+    return _certified(order)
 
 
-def _certified(found: FamilyOrder, classical: str = "") -> CertifiedOrder:
-    return CertifiedOrder(found.order, found.certificate, found.limit is not None, found.failing, classical)
+def _certified(order: FamilyOrder, classical: str = "") -> CertifiedOrder:
+    return CertifiedOrder(order.order, order.certificate, order.limit is not None, order.failing, classical)

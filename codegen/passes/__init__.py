@@ -84,9 +84,9 @@ class Optimiser:
         plain, reports = self.program, list(self.reports)
         for each in body_frame_passes(self.scene):
             self._run(each)
-        found = self.program, tuple(self.reports)
+        outcome = self.program, tuple(self.reports)
         self.program, self.reports = plain, reports
-        return found
+        return outcome
 
     def _run(self, each: Pass) -> None:
         old, new = self.program, verify(each.run(self.program))

@@ -44,7 +44,7 @@ def run(program: Program, scene: Problem) -> Program:
             letter = replace(letter, duration=Coefficient(duration, letter.duration.power))
         if not letter.duration.is_zero:
             kept.append(letter)
-    return program if len(kept) == len(letters) else spelled(program, kept)
+    return program if len(kept) == len(letters) else with_flows(program, kept)
 
 
 def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str], bool]) -> int | None:
@@ -74,7 +74,7 @@ def word(program: Program) -> list[Letter] | None:
     return letters if state == tuple(var for _, var in program.outputs) else None
 
 
-def spelled(program: Program, letters: Sequence[Letter]) -> Program:
+def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
     """Return the program that makes these flows, with the times of the old one."""
     body = [a for a in program.assigns() if isinstance(a.operation, Advance)]
     first = state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
