@@ -1,4 +1,4 @@
-"""Discrete gradient methods on groups, thesis section 2.6: they keep the energy exactly.
+"""Discrete gradient methods on groups, section 2.6 of Marthinsen's thesis: they keep the energy exactly.
 
 x1 = exp(h xi).x0 with xi = i_D omega at the midpoint exp(h xi/2).x0, where omega is the scene's bivector
 (:mod:`codegen.scene.energy`) and D a trivialised discrete differential, <D, eta> = H(x1) - H(x0), eta = h xi.

@@ -16,7 +16,7 @@ from orderconds.ring.protocol import Ring
 from orderconds.series.brackets import BracketProgram, Row
 
 _KNOWN: dict[tuple[Ring, tuple[str, ...]], BracketProgram] = {}
-"""Programs by ring and spelled coefficients: lowering and the certificate ask for the same one."""
+"""Programs by ring and coefficients as text: lowering and the certificate ask for the same one."""
 
 
 def bracket_program(method: Method) -> BracketProgram:

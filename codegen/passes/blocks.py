@@ -1,8 +1,8 @@
 """Blocks: the strongly connected components of the stage graph, each solved alone and in order.
 
-Exact. An edge leads from each assignment to those that read its values; an unknown stands for its image. A
-component without a cycle becomes plain assignments, one with a cycle a block of its own unknowns. So explicit
-methods lose their solver, and a composition tableau is solved stage by stage.
+Exact. An edge leads from each assignment to those that read its values; an unknown is represented by its
+image. A component without a cycle becomes plain assignments, one with a cycle a block of its own unknowns. So
+explicit methods lose their solver, and a composition tableau is solved stage by stage.
 """
 
 from __future__ import annotations

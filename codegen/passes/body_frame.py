@@ -68,7 +68,7 @@ class _Framing:
     program: Program
     names: dict[Var, Var] = field(default_factory=dict)
     relative: dict[Var, Var | None] = field(default_factory=dict)
-    """Of elements Q = q E: what stands for E, None where it is the identity."""
+    """The E of elements Q = q E, None where it is the identity."""
 
     def run(self) -> Program:
         program = self.program

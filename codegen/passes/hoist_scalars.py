@@ -1,7 +1,7 @@
 """Numbers taken out of linear maps and sums of sums: L(c x) = c L(x), and a sum inside a sum is one sum.
 
-Exact. A map is left with the value that other operations share, the number joins the coefficients of the sum
-that reads the map. Terms that stand in several sums in one proportion are added first, once for all of them.
+Exact. The map is applied to the value that other operations share; the number joins the coefficients of the
+sum that reads the map. Terms that several sums contain in one proportion are added once for all of them.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
 
 Pattern = tuple[tuple[int, Coefficient], ...]
-"""In which sums a value stands, and with what coefficient relative to the first."""
+"""The sums that a value is a term of, and its coefficient relative to the first."""
 
 
 def run(program: Program) -> Program:
