@@ -41,6 +41,7 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     parted = None if scene.inputs else part(program, scene)  # inputs are sampled step by step
     core = program if parted is None else parted.core
     candidates: list[tuple[Kernel, Problem, int]] = []
+    # Each variant is compiled twice: reordering alone, and with the critical path shortened.
     for group in scene.group.variants():
         problem = replace(scene, group=group)
         for chains in (ORDERED, SHORTENED):

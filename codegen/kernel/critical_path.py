@@ -92,6 +92,7 @@ class _Chains:
         self.nodes = list(walk(self.roots))
         for node in self.nodes:
             self._measure(node)
+        # Users before arguments: the longest chain that follows each node.
         for node in reversed(self.nodes):
             after = self.follow.setdefault(node.id, 0) + TIMES[node.op]
             for arg in node.args:
@@ -114,6 +115,7 @@ class _Chains:
             self.new[node.id] = plain
             if node.id in ends and node.op in ("add", "sub", "mul"):
                 short = self._expression(self._sum(node, self.level[node.id]), node.space)
+                # A sum over late values has more products, so it is taken only if it is ready earlier.
                 if self.ready[short.id] < self.ready[plain.id]:
                     self.new[node.id] = short
         return tuple(self.new[r.id] for r in self.roots)
@@ -155,6 +157,7 @@ class _Chains:
             return total
         if node.op == "mul":
             a, b = node.args
+            # Only one factor may be late, else the product is not linear in the late values.
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:

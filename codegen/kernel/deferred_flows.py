@@ -39,6 +39,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
     if letters is None:
         return None
     commute = commuting(scene)
+    # A flow for another time than h, or of a part with time, depends on its place in the step.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
     kept = [letter for letter in letters if letter.part not in free]
@@ -95,6 +96,7 @@ def _joined(
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
             if head.part == tail.part and i < j and timely:
                 pairs.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
+    # One leading time serves all deferred flows, so their durations must be the same.
     return [pair for pair in pairs if pair[2:] == pairs[0][2:]]
 
 

@@ -28,8 +28,8 @@ LONG, LONG_EXPLICIT = 700, 500
 """Steps with fewer assignments are not outlined: steps with implicit stages, and explicit steps.
 
 An explicit step has no loop, so its code fills the instruction cache sooner: with outlining cg:cg5 on the
-dipole has 545 lines, not 2345, and takes a third less time. To choose the numbers again, set both to 0 and compare
-``orderconds bench dipole`` for methods near these lengths."""
+dipole has 545 lines, not 2345, and takes a third less time. To choose the numbers again, set both to 0
+and compare ``orderconds bench dipole`` for methods near these lengths."""
 
 WORTH = 0.85
 """The outlined step is used if it has at most this fraction of the assignments.
@@ -71,6 +71,7 @@ class Outline:
             for node in walk(rewritten_roots):
                 if node.op == "call" and node.payload.endswith(".0"):
                     calls[node.payload[:-2]] = calls.get(node.payload[:-2], 0) + 1
+            # Simplification may remove calls; a function that is left with one call is dissolved.
             if all(calls.get(name, 0) > 1 for name in shapes):
                 self._verify(roots, rewritten_roots)
                 return rewritten_roots
@@ -88,6 +89,7 @@ class Outline:
             name = f"piece_{1 + len(self.outlined)}"
             shapes[name] = key
             inputs = [self.trees.inputs(tree) for tree in trees]
+            # An input that is the same constant in every call is no argument.
             fixed = [
                 x if x.op == "const" and all(x is y for y in others) else None
                 for x, *others in zip(*inputs, strict=True)

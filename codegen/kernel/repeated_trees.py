@@ -127,6 +127,7 @@ class Trees:
                     j = owner[user]
                     joined = self.key(self._join(trees[i], trees[j]))
                     pairs.setdefault((keys[i], keys[j], joined), []).append((i, j))
+            # Greedy: the pair of shapes that saves most lines is joined wherever it occurs.
             best, saved = None, 0
             for key, places in pairs.items():
                 gain = self._gain(key, places, count)
@@ -150,6 +151,7 @@ class Trees:
         if k < 2:
             return 0
         i, j = places[0]
+        # Trees of a shape that also occur elsewhere stay functions of their own: their lines are copied.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
         return k * 3 - copies
 

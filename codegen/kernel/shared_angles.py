@@ -31,6 +31,7 @@ class SharedArguments(ExprDomain):
 
     def call(self, function: str, *args: Expr) -> Expr:
         """Return a call node."""
+        # Only functions of angles: their calls are what a step spends most time on.
         if function.startswith("stumpff"):
             args = (self._first(args[0]),)
         return super().call(function, *args)

@@ -95,6 +95,7 @@ def _check_bivector(scene: Problem, method: Method) -> None:
         gamma = differential(scene, orbit.domain, y)
         image = bivector(scene, orbit.domain, y, gamma)
         f = scene.apply(orbit.domain, "field", None, (y,))[0]
+        # The bivector formula divides by |gamma|^2; it is right only where gamma = 0 implies f = 0.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             raise MethodError(
                 f"{method.label} on {scene.name}, whose energy is the same in all directions of the group",

@@ -46,6 +46,7 @@ def bracket_program(method: Method) -> BracketProgram:
             expected=f"an order up to {highest}",
             hint=f"write rkmk({order - 2}):{name}",
         )
+    # The bracket program is found by a search, so it is kept for the certificate.
     ring = method.ring
     key = (ring, tuple(ring.text(x) for row in (*tableau.A, tableau.b) for x in row))
     if key not in _KNOWN:

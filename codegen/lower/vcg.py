@@ -61,7 +61,7 @@ def _program(scene: Problem, method: Method) -> Program:
         for j in range(s):
             terms.append((stages.times_h(b[j]), carried(nu[j])))
             a = A[j][i]
-            if a.is_zero:
+            if a.is_zero:  # stage j does not depend on xi_i
                 continue
             x = build.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-a), xi[i])])
             moved = build.adjoint(f"m{i + 1}", E[j][i], nu[j], inverse=True)

@@ -68,11 +68,13 @@ def _added(program: Program) -> Program:
 
 def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     sums = {k: a for k, a in enumerate(body) if len(a.terms) > 1}
+    # Values with the same pattern of sums and relative coefficients can be added once.
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
+        # A value twice in one sum would have to be removed twice.
         distinct = len({k for k, _ in places}) == len(places)
         if len(places) > 1 and distinct and all(c.power >= 0 for _, c in relative):
             groups.setdefault((v.kind.value, relative), []).append((v, unit))

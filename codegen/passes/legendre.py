@@ -142,6 +142,7 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     """Append what the momentum from the unknown exceeds the other by, in the frame where that costs less."""
     replaced, computed = _values(build, route)
     given = route.base
+    # P is then a sum of functions of one ad, which costs less than the momentum before the adjoint map.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
@@ -169,6 +170,7 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     """Return the block with the values on a path taken from its unknown wherever else they are used."""
     replaced, _ = _values(build, route)
     fresh = build.take()
+    # The base is computed from other stages; replacing it would add operations and save none.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]  # a sum of many terms, which no other operation needs from the velocity
     own = {a.targets[0] for a in (*route.outward, route.velocity, *route.inward)}
