@@ -8,9 +8,9 @@ from typing import Any
 
 import click
 
-from orderconds.processes import in_processes
 from orderconds.commands.screen import counting, print_json, print_table
 from orderconds.commands.variadic import Variadic
+from orderconds.processes import in_processes
 
 
 @click.command("stability", cls=Variadic, short_help="Try stiff and extreme cases; say what held.")

@@ -11,7 +11,7 @@ import hashlib
 import json
 
 from codegen.artifact import write_text
-from codegen.build import cache_directory
+from codegen.cache_entry import cache_directory
 from codegen.ir.domain import PreciseDomain
 from codegen.lab.reference import AGREEMENT, BITS, DIGITS, RUNS, Reference, reference
 from codegen.lab.straight_line_field import velocity

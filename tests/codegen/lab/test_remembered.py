@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from codegen import scenes
-from codegen.build import cache_directory
+from codegen.cache_entry import cache_directory
 from codegen.lab.reference import reference
 from codegen.lab.remembered import remembered
 
