@@ -108,6 +108,7 @@ def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
             signal.signal(getattr(signal, name), signal.SIG_DFL)
     threading.Thread(target=_follow_parent, daemon=True).start()
     while job := connection.recv():
+        answer: tuple[Result | None, Exception | None]
         try:
             answer = work(*job), None
         except Exception as error:

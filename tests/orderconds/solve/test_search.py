@@ -56,7 +56,6 @@ def test_the_checkpoint_is_used_and_not_computed_again(tmp_path: Path) -> None:
 
 
 def test_two_processes_give_the_same_file_as_one() -> None:
-    pytest.importorskip("joblib")
     alone = solve(ORDER).found
     together = solve(Order("vcg", 3, Spec(3), seed=3, minimised=True, starts=256, processes=2)).found
     assert alone is not None
@@ -66,7 +65,6 @@ def test_two_processes_give_the_same_file_as_one() -> None:
 
 def test_a_dask_cluster_gives_the_same_batches() -> None:
     distributed = pytest.importorskip("distributed")
-    pytest.importorskip("joblib")
     with distributed.LocalCluster(
         n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None
     ) as cluster:
@@ -76,7 +74,6 @@ def test_a_dask_cluster_gives_the_same_batches() -> None:
 
 
 def test_a_cluster_that_does_not_answer_is_named() -> None:
-    pytest.importorskip("joblib")
     with pytest.raises(InputError, match=r"no cluster answers|not installed"):
         list(batches(SEARCH, 2, Checkpoint(None, SEARCH), cluster="tcp://127.0.0.1:1"))
 
