@@ -21,7 +21,6 @@ import click
 from orderconds import __version__
 from orderconds.errors import InputError, UnknownName
 from orderconds.exit_status import Run, catch_signals, current_run, past_click
-from orderconds.processes import terminate_children
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
@@ -158,7 +157,6 @@ class Program(click.Group):
             raise
         except BaseException as error:
             status = run.end(error)
-            terminate_children()
         sys.exit(status)
 
 
