@@ -31,7 +31,6 @@ EXCEPTIONS = {
     ("orderconds/families/__init__.py", "MODULES"): "the registry of families",
     ("orderconds/families/*.py", "formats"): "the file formats a family reads, some named as families",
     ("orderconds/tableau/formats.py", "FORMATS"): "the registry of file formats, some named as families",
-    ("codegen/lower/__init__.py", "LOWERINGS"): "the registry of lowerings",
     ("codegen/groups/__init__.py", "LISTED"): "the registry of groups",
     ("codegen/groups/__init__.py", ""): "the module of each group, for lazy imports",
     ("codegen/scenes/__init__.py", "GALLERY"): "the registry of scenes",
@@ -74,7 +73,7 @@ def groups() -> frozenset[str]:
 def names() -> dict[str, frozenset[str]]:
     """The names that the program knows, by kind."""
     return {
-        "family": frozenset(families.names()) | frozenset(codegen.lower.LOWERINGS),
+        "family": frozenset(families.names()) | frozenset(codegen.lower.names()),
         "group": groups(),
         "scene": frozenset(entry["name"] for entry in codegen.scenes.listing()),
         "tableau": frozenset(library.available()),
