@@ -114,7 +114,17 @@ def test_an_emission_that_stops_leaves_no_temporary_file(
 def test_without_a_compiler_one_message_says_what_to_install(tmp_path: Path) -> None:
     environment = {**os.environ, "PATH": str(tmp_path), "PYTHONPATH": str(ROOT)}
     environment.pop("CC", None)
-    command = [sys.executable, "-m", "orderconds", "converge", "free_rigid_body", "-m", "cf4", "--target", "c"]
+    command = [
+        sys.executable,
+        "-m",
+        "orderconds",
+        "converge",
+        "free_rigid_body",
+        "-m",
+        "cf4",
+        "--target",
+        "c",
+    ]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == (
@@ -126,6 +136,16 @@ def test_an_almost_empty_environment_is_enough(tmp_path: Path) -> None:
     """No HOME, no locale: the home folder is the account's, or the cache a temporary one."""
     environment = {"PATH": os.environ["PATH"], "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(tmp_path)}
     environment |= {"LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0"}
-    command = [sys.executable, "-m", "orderconds", "converge", "free_rigid_body", "-m", "cf4", "--target", "c"]
+    command = [
+        sys.executable,
+        "-m",
+        "orderconds",
+        "converge",
+        "free_rigid_body",
+        "-m",
+        "cf4",
+        "--target",
+        "c",
+    ]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
