@@ -44,10 +44,12 @@ BUILT_IN = {
     ),
     "derive": ("orderconds.commands.derive", "Print the independent order conditions of a family."),
     "list": ("orderconds.commands.list", "List families, tableaux, and what other packages offer."),
+    "modified": ("orderconds.commands.modified", "Print the modified equation of a method."),
     "refine": (
         "orderconds.commands.refine",
         "Sharpen the decimals of a tableau by Newton's method and prove them.",
     ),
+    "series": ("orderconds.commands.series", "Print the BCH, Magnus or dexp series in a basis of brackets."),
     "solve": ("orderconds.commands.solve", "Find a method, prove its order, and write its tableau."),
     "table": ("orderconds.commands.table", "The library as a Markdown table; keep it current in a file."),
     "trees": ("orderconds.commands.trees", "Enumerate, draw and explain trees, forests and Lyndon words."),

@@ -12,7 +12,6 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -47,7 +46,7 @@ SINGULAR = 1e6
 
 @dataclass(frozen=True)
 class Search:
-    """What is searched: everything that the result depends on."""
+    """A search: everything that its result depends on."""
 
     family: str
     order: int
@@ -56,16 +55,20 @@ class Search:
     seed: int = 0
     minimised: bool = False
 
-    def described(self) -> dict[str, Any]:
+    def described(self) -> dict[str, object]:
         """Return the search as plain data, as a checkpoint keeps it."""
         record = asdict(self)
         record["spec"] = {key: str(x) if key == "size" else x for key, x in record["spec"].items()}
         return dict(json.loads(json.dumps(record)))
 
 
+BatchRecord = tuple[int, str, list[tuple[str, list[str]]]]
+"""A batch as plain data: number, least norm, solutions; doubles as hexadecimal text."""
+
+
 @dataclass(frozen=True)
 class Batch:
-    """What a batch found: ``solutions`` as (score, free coefficients), the best first.
+    """The result of a batch: ``solutions`` as (score, free coefficients), the best first.
 
     The score is the principal error, or the largest coefficient where that would cost too much. ``best`` is
     the least residual norm of all starts.
@@ -75,12 +78,13 @@ class Batch:
     best: float
     solutions: tuple[tuple[float, tuple[float, ...]], ...] = ()
 
-    def as_json(self) -> list[Any]:
+    def as_json(self) -> BatchRecord:
         """Return plain data; doubles keep all their bits."""
-        return [self.number, self.best.hex(), [[s.hex(), [x.hex() for x in p]] for s, p in self.solutions]]
+        solutions = [(s.hex(), [x.hex() for x in p]) for s, p in self.solutions]
+        return self.number, self.best.hex(), solutions
 
     @staticmethod
-    def read(record: Sequence[Any]) -> Batch:
+    def read(record: BatchRecord) -> Batch:
         """Return the batch that :meth:`as_json` wrote."""
         number, best, solutions = record
         read = tuple((float.fromhex(s), tuple(map(float.fromhex, p))) for s, p in solutions)
@@ -88,7 +92,7 @@ class Batch:
 
 
 def run_batch(search: Search, number: int) -> Batch:
-    """Return what batch ``number`` finds.
+    """Return the result of batch ``number``.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> found = run_batch(search, 0)
@@ -114,7 +118,7 @@ def run_batch(search: Search, number: int) -> Batch:
 
 
 def _score(problem: Problem, point: Floats) -> float:
-    """Return by what solutions are compared; less is better."""
+    """Return the score of a solution; less is better."""
     if problem.order <= CHEAP:
         return float(np.linalg.norm(problem.error.values(point[None])[0]))
     return float(np.abs(problem.coefficients.values(point[None])).max())
@@ -129,7 +133,7 @@ class Checkpoint:
     batches: dict[int, Batch] = field(default_factory=dict)
 
     def load(self) -> None:
-        """Read what an interrupted search left; raises InputError where it was another search."""
+        """Read the batches of an interrupted search; raises InputError where it was another search."""
         if self.path is None or not self.path.exists():
             return
         try:
@@ -173,7 +177,7 @@ class Checkpoint:
 
 
 def write_whole(path: Path, text: str) -> None:
-    """Write a file under another name first, so that nobody ever sees half of it.
+    """Write a file under another name first, so that a half-written file is never visible.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
