@@ -135,16 +135,16 @@ def read(directory: str | Path, module: str = "", target: str = "") -> Artifact:
 
 
 def _read(folder: Path, entries: list[dict[str, Any]], module: str, target: str) -> Artifact:
-    found = [e for e in entries if module in ("", e["module"]) and target in ("", e["target"])]
-    if len(found) != 1:
+    chosen = [e for e in entries if module in ("", e["module"]) and target in ("", e["target"])]
+    if len(chosen) != 1:
         known = ", ".join(f"{e['module']} ({e['target']})" for e in entries)
         raise InputError(
-            f"{len(found)} modules answer to {module or 'any name'} ({target or 'any target'})",
+            f"{len(chosen)} modules answer to {module or 'any name'} ({target or 'any target'})",
             where=str(folder),
             expected=f"one of {known}" if known else "a folder that emit wrote",
         )
     files: dict[str, str] = {}
-    for name, sha256 in found[0]["files"].items():
+    for name, sha256 in chosen[0]["files"].items():
         try:
             content = content_of(folder / name, limit=MAX_WRITTEN_BYTES)
         except OSError as problem:
@@ -154,9 +154,9 @@ def _read(folder: Path, entries: list[dict[str, Any]], module: str, target: str)
             files[name] = content.decode(errors="replace")
             what = "" if hashlib.sha256(content).hexdigest() == sha256 else "was changed"
         if what:
-            hint = f"type: {found[0].get('command', 'orderconds emit')}"
+            hint = f"type: {chosen[0].get('command', 'orderconds emit')}"
             raise InputError(f"{name} {what} since it was emitted", where=str(folder), hint=hint)
-    return Artifact(files, found[0])
+    return Artifact(files, chosen[0])
 
 
 def write_text(path: Path, text: str) -> Path:

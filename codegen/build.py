@@ -63,9 +63,9 @@ def _find(named: str, path: str) -> Compiler:
         if shutil.which(words[0], path=path):
             return _identify(tuple(words))
     where = "$CC" if named.strip() else "PATH"
-    found = f"{candidates[0][0]} is not there" if named.strip() else "no C compiler"
+    message = f"{candidates[0][0]} is not there" if named.strip() else "no C compiler"
     raise CompilerMissing(
-        found, where=where, expected="cc, gcc or clang", hint="install one, or set CC to its command"
+        message, where=where, expected="cc, gcc or clang", hint="install one, or set CC to its command"
     )
 
 
@@ -101,9 +101,9 @@ def build(
     directory, lasting = cache_directory(), True
     while again or recall(directory / file) is None:
         try:
-            with working_directory(directory) as made:
-                compile_files(files, made, made / "out", (*flags, "-fPIC", "-shared"), compiler)
-                keep(directory / file, (made / "out").read_bytes())
+            with working_directory(directory) as folder:
+                compile_files(files, folder, folder / "out", (*flags, "-fPIC", "-shared"), compiler)
+                keep(directory / file, (folder / "out").read_bytes())
             break
         except OSError as error:
             if error.errno not in UNWRITABLE or not lasting:

@@ -122,8 +122,8 @@ def working_directory(folder: Path) -> Iterator[Path]:
     """
     _sweep(folder)
     temporary = tempfile.TemporaryDirectory(dir=folder, prefix=WORKING, ignore_cleanup_errors=True)
-    with temporary as made, locked(Path(made), wait=False):
-        yield Path(made)
+    with temporary as name, locked(Path(name), wait=False):
+        yield Path(name)
 
 
 def _sweep(folder: Path) -> None:

@@ -53,8 +53,11 @@ def test_results_come_in_the_order_of_the_jobs() -> None:
 
 
 def test_what_a_job_raises_is_raised_here_and_the_others_end() -> None:
-    with pytest.raises(ValueError, match="invalid literal"):
+    with pytest.raises(ValueError, match="invalid literal") as caught:
         list(in_processes(fail, ["1", "x", *map(str, range(50))], 2))
+    (note,) = caught.value.__notes__
+    assert "in a worker process" in note
+    assert "in fail\n" in note
 
 
 def test_an_iteration_that_is_left_early_waits_for_no_job() -> None:

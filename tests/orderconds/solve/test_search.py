@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -96,22 +97,27 @@ asyncio.run(main())
 """
 
 
-def test_a_scheduler_that_dies_is_one_error(capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_scheduler_that_dies_is_one_error_and_the_checkpoint_stays(tmp_path: Path) -> None:
     pytest.importorskip("distributed")
+    words = ["vcg", "--stages", "3", "--order", "3", "--minimise", "error", "--starts", "1000000"]
+    checkpoint = tmp_path / "found.toml.search"
     with subprocess.Popen(
-        [sys.executable, "-c", SCHEDULER],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        text=True,
+        [sys.executable, "-c", SCHEDULER], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
     ) as scheduler:
         assert scheduler.stdout is not None
         address = scheduler.stdout.readline().strip()
-        found = batches(SEARCH, 10_000, Checkpoint(None, SEARCH), cluster=address)
-        assert next(found) == run_batch(SEARCH, 0)
-        scheduler.kill()
-        with pytest.raises(InputError, match=f"--dask {address}: the scheduler went away.*start it again"):
-            list(found)
-    assert capfd.readouterr().err == ""
+        command = [sys.executable, "-m", "orderconds", "solve", *words, "--dask", address]
+        with subprocess.Popen(
+            [*command, "-o", str(tmp_path / "found.toml")], stderr=subprocess.PIPE, text=True
+        ) as search:
+            while search.poll() is None and not checkpoint.exists():
+                time.sleep(0.01)
+            scheduler.kill()
+            _, err = search.communicate(timeout=60)
+    assert search.returncode == 2
+    assert err.startswith(f"orderconds: --dask {address}: the scheduler went away; ")
+    assert err.count("\n") == 1
+    assert checkpoint.exists()
 
 
 @pytest.mark.slow
