@@ -7,7 +7,7 @@ import math
 from codegen.groups import LeftMultiplication
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr
-from codegen.ir.program import Kind
+from codegen.ir.values import Kind
 from codegen.lab.scalars import Evaluate, Vector
 from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import Problem

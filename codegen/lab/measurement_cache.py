@@ -18,7 +18,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TypeVar
 
-from codegen.build import cache_directory
+from codegen.cache_entry import cache_directory
 
 T = TypeVar("T")
 
@@ -97,7 +97,7 @@ class MeasurementCache:
 
 
 def user_cache() -> MeasurementCache:
-    """Return the cache of this user, in :func:`codegen.build.cache_directory`."""
+    """Return the cache of this user, in :func:`codegen.cache_entry.cache_directory`."""
     return MeasurementCache(cache_directory() / "measurements")
 
 

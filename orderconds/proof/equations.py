@@ -14,8 +14,8 @@ makes the others follow is verified exactly, on the file and not on its decimals
 ``low-storage``  a 2N scheme: on a group it has the order that it has on a vector space (see below).
 ``simplifying``  B(p), C(q), D(r) imply order min(p, q + r + 1, 2q + 2) (Butcher 1964; Hairer, Norsett and
                  Wanner, Theorem II.7.4).
-``spelling``     coefficients of the file that are spelled by others make it one of a sub-family, in which
-                 some of the conditions follow from the others (:mod:`orderconds.proof.subfamily`).
+``spelling``     coefficients given by formulas in others define a sub-family, in which some of the
+                 conditions follow from the others (:mod:`orderconds.proof.subfamily`).
 
 2N schemes. With y_j, k_j, f_j the values of Y_j, K_j, F(Y_j) on a word or tree, k_j = A_j k_{j-1} + f_j and
 y_{j+1} = y_j + B_j k_j on single trees, D_j = y_j(t) k_j(u) - y_j(u) k_j(t) is not changed by y_j ->
@@ -32,7 +32,6 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
 
 from orderconds import families
 from orderconds.conditions import OrderCondition
@@ -46,7 +45,7 @@ from orderconds.tableau import Magnus, Method, RungeKutta, Tableau
 from orderconds.tableau.evaluate import evaluate, rounded_and_exact
 from orderconds.tableau.properties import properties
 from orderconds.tableau.simplifying import simplifying, simplifying_order
-from orderconds.tableau.unknowns import Proof
+from orderconds.tableau.unknowns import Proof, RootedRing
 
 LOW_STORAGE_ORDER = 5
 """Up to here the tests compute that 2N schemes have no conditions but those of rooted trees."""
@@ -65,7 +64,7 @@ class Equations:
     """The conditions that do not follow from others, for the reduction ``spelling``."""
 
     def __call__(
-        self, point: Sequence[Element], ring: Any, places: Sequence[int] | None = None
+        self, point: Sequence[Element], ring: RootedRing, places: Sequence[int] | None = None
     ) -> list[Element]:
         """Return left-hand sides less right-hand sides; ``point`` are the unknowns' values in ``ring``.
 

@@ -1,13 +1,14 @@
-"""The conditions that are independent for every method spelled like a file: the reduction ``spelling``.
+"""Independent conditions of the sub-family that a file's formulas define: the reduction ``spelling``.
 
-Coefficients of a file that are spelled by others, ``b3 = "1 - b1 - b2"``, restrict it to a sub-family, and of
-the family's conditions fewer are independent there. Those are found as for a whole family
-(:mod:`orderconds.series.action_rank`): a condition is left out if its value, at random members of the
-sub-family and at the exact flow, is one combination of those of its order that are kept and of products of
-kept ones of lower order. Where the kept ones hold, it then holds. Computed modulo two primes, the larger set
-kept: too many would refuse a proof; that none is missing holds up to chance, about the number of columns over
-2^31. Where a file has several radicals they are random numbers too, which makes the sub-family larger and the
-statement stronger.
+Coefficients given by formulas in others, as ``b3 = "1 - b1 - b2"``, restrict a family to a sub-family, in
+which fewer of its conditions are independent. They are found as for a whole family
+(:mod:`orderconds.series.action_rank`). A condition is left out if its value, at random members of the
+sub-family and at the exact flow, is one combination of kept conditions of its order and of products of kept
+conditions of lower order. It then holds where the kept conditions hold.
+
+The computation is done modulo two primes, and the larger set is kept. Too many conditions would refuse a
+proof. The probability that one is missing is about the number of columns over 2^31. Where a file has several
+radicals, they are random numbers too: the sub-family is then larger and the statement stronger.
 """
 
 from __future__ import annotations
@@ -31,10 +32,10 @@ Reading = Callable[[Method, Ring], Method]
 """Turns a file's method over a ring into the method that a family evaluates."""
 
 FIRST = 40
-"""Members to begin with: a sub-family mostly has few conditions."""
+"""Random members in the first attempt: most sub-families have few conditions."""
 
 SPARE = 24
-"""Members beyond the number of columns, so that chance does not hide a dependence."""
+"""Random members beyond the number of columns, against accidental dependence."""
 
 
 def independent_conditions(
@@ -101,7 +102,7 @@ def _independent(
 
 @dataclass(frozen=True)
 class _Value:
-    """What a condition's left-hand side is at random members and at the exact flow."""
+    """The left-hand side of a condition at random members and at the exact flow."""
 
     members: Sample
     flow: int
@@ -113,7 +114,7 @@ class _Value:
         return [*self.members.ring.coordinates(self.members), self.flow]
 
     def is_constant(self) -> bool:
-        """Say whether it is that of the flow for all members: a condition that holds by the spelling."""
+        """Whether all members have the value of the flow: the condition holds in the sub-family."""
         return self.members.ring.constant(self.members) == self.flow
 
 
@@ -125,7 +126,7 @@ def _sampled(
     count: int,
     read: Reading | None,
 ) -> list[_Value]:
-    """Return the values at so many random members and at the flow."""
+    """Return the values at ``count`` random members and at the flow."""
     ring = _Members(prime, count, Random(prime), alone=len(radicals(spelled)) == 1)
     known = {u.constant: ring.random(ring.generator) for u in spelled.decimals()}
     method = spelled.method(ring, known)[0]

@@ -1,4 +1,4 @@
-"""The whole way: refuse what cannot be, search, and write the best method that can be proved."""
+"""A search from start to end: prove infeasibility, or search and write the best method that can be proved."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import shlex
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from orderconds.errors import InputError
 from orderconds.proof.krawczyk import NotProved
@@ -14,7 +13,7 @@ from orderconds.solve.abscissae import WHERE
 from orderconds.solve.ansatz import structures
 from orderconds.solve.certify_solution import Found, certify_solution
 from orderconds.solve.elimination import Infeasible, infeasible
-from orderconds.solve.problem import find_problem
+from orderconds.solve.problem import Problem, find_problem
 from orderconds.solve.search import BATCH, Batch, Checkpoint, Search, batches
 from orderconds.solve.spec import Spec
 
@@ -24,7 +23,7 @@ PLAIN, MINIMISED = 4096, 1024
 
 @dataclass
 class Outcome:
-    """What a search came to: a method, a proof that there is none, or neither.
+    """The outcome of a search: a method, a proof that there is none, or neither.
 
     ``best`` is the least residual norm of all starts, ``tried`` says in words what was done.
     """
@@ -38,7 +37,7 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Order:
-    """What is to be solved, and how much work may be spent on it."""
+    """A search and the work that may be spent on it."""
 
     family: str
     order: int
@@ -75,7 +74,7 @@ class Order:
 
 
 def solve(order: Order, report: Callable[[str], object] = str) -> Outcome:
-    """Return what is found; ``report`` is told how far the search is.
+    """Return the outcome; ``report`` receives lines about the progress.
 
     Raises :class:`~orderconds.errors.InputError` for contradictory options.
 
@@ -153,7 +152,7 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
 
 
 def _finished(
-    problem: Any, seen: list[Batch], order: Order, source: str, refused: str
+    problem: Problem, seen: list[Batch], order: Order, source: str, refused: str
 ) -> tuple[Found | None, str]:
     """Return the best solution that can be proved, or why the last could not be."""
     solutions = sorted((s for batch in seen for s in batch.solutions), key=lambda found: found[0])

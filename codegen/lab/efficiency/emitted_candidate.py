@@ -13,6 +13,7 @@ from pathlib import Path
 from codegen.build import compile_files, find_compiler
 from codegen.certify import certified_order
 from codegen.emitter import Compiled, compile_method
+from codegen.ir.operations import Operation
 from codegen.ir.program import Assign
 from codegen.lab.distance import distance
 from codegen.lab.efficiency.work_precision import (
@@ -30,12 +31,6 @@ from codegen.loader import Statistics
 from codegen.method import Method
 from codegen.printers.c.module import FLAGS
 from codegen.scene.problem import Problem
-
-EVALUATIONS = frozenset({"field", "fieldt", "hamilton", "hamiltont", "force", "forcet", "differential"})
-"""Operations that evaluate a scene; in the body frame a velocity and a force make one evaluation."""
-
-EXPONENTIALS = frozenset({"exp", "actexp", "flow", "flowt", "flowfor", "flowtfor"})
-"""Operations that compute an exponential or an exact flow."""
 
 
 @dataclass
@@ -121,23 +116,23 @@ class EmittedCandidate:
             seconds=times[0] if times else None,
             spread=times[-1] / times[0] - 1 if times and times[0] else None,
             ns_per_step=1e9 * times[0] / steps if times else None,
-            evaluations=None if failure else self._count(EVALUATIONS, steps, iterations),
-            exponentials=None if failure else self._count(EXPONENTIALS, steps, iterations),
+            evaluations=None if failure else self._count(lambda o: o.evaluates_scene, steps, iterations),
+            exponentials=None if failure else self._count(lambda o: o.exponentials, steps, iterations),
             iterations=None if failure else sum(iterations),
             emission_seconds=self.emission_seconds,
             compile_seconds=self.compile_seconds,
             failure=failure,
         )
 
-    def _count(self, names: frozenset[str], steps: int, iterations: Sequence[int]) -> int:
+    def _count(self, cost: Callable[[Operation], int], steps: int, iterations: Sequence[int]) -> int:
         """Return how often operations are executed: once a step outside blocks, once an iteration inside."""
         total, block = 0, 0
         parts = steps * max(1, len(self.compiled.program.substeps))
         for statement in self.compiled.program.body:
             if isinstance(statement, Assign):
-                total += parts * (statement.operation.name in names)
+                total += parts * cost(statement.operation)
                 continue
-            inside = sum(a.operation.name in names for a in statement.body)
+            inside = sum(cost(a.operation) for a in statement.body)
             total += inside * iterations[block]
             block += 1
         return total

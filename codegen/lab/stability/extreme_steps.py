@@ -29,7 +29,7 @@ from codegen.emitter import Compiled
 from codegen.groups import Rotation
 from codegen.ir.domain import FloatDomain, NotConverged, PreciseDomain
 from codegen.ir.interpret import flatten, interpret
-from codegen.ir.program import Kind
+from codegen.ir.values import Kind
 from codegen.lab.runner import Emitted, split_state
 from codegen.lab.scalars import Scalar, Vector
 from codegen.loader import InterpretedIntegrator, StepFailed

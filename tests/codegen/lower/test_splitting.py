@@ -244,15 +244,16 @@ def test_a_nystroem_splitting_has_its_order_where_the_bracket_vanishes_and_less_
 
 def test_a_step_frozen_in_time_is_caught():
     """The control: a program whose kicks all see the time of the start has order one."""
-    from codegen.ir.program import Coefficient
+    from codegen.ir.operations import Advance
+    from codegen.ir.values import Coefficient
 
     scene = SCENES["driven particle"]()
     method = parse("splitting:strang", families_for(scene))
     program = lower(scene, method)
     still = Coefficient(Number.rational(0))
     body = tuple(
-        replace(a, operation=replace(a.operation, coefficients=(still,)))
-        if a.operation.name == "advance"
+        replace(a, operation=replace(a.operation, coefficient=still))
+        if isinstance(a.operation, Advance)
         else a
         for a in program.body
     )

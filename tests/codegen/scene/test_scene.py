@@ -12,7 +12,7 @@ from codegen import scenes
 from codegen.errors import SceneError
 from codegen.groups import SO3, LeftMultiplication, Rn, Rotation
 from codegen.ir.domain import ExprDomain, FloatDomain, PreciseDomain, SeriesDomain
-from codegen.ir.program import Kind
+from codegen.ir.values import Kind
 from codegen.scene import FieldScene, HamiltonianScene, param
 from codegen.scene.run_time import with_runtime
 from orderconds.errors import InputError, UnknownName

@@ -13,7 +13,9 @@ from codegen.certify import CertifiedOrder
 from codegen.emitter import compile_method
 from codegen.groups import SO3, Rotation
 from codegen.ir.number import Number
-from codegen.ir.program import Assign, Coefficient
+from codegen.ir.operations import Advance
+from codegen.ir.program import Assign
+from codegen.ir.values import Coefficient
 from codegen.lab.orders.convergence import Convergence, converge
 from codegen.lab.reference import Reference, reference
 from codegen.lab.runner import Interpreted, runner
@@ -218,8 +220,8 @@ def test_stage_times_frozen_at_the_beginning_of_the_step_give_order_one(
     scene, end = spin
     compiled = compile_method(scene, "rkmk(2):rk4")
     frozen = tuple(
-        replace(s, operation=replace(s.operation, coefficients=(Coefficient(Number.rational(0)),)))
-        if isinstance(s, Assign) and s.operation.name == "advance"
+        replace(s, operation=replace(s.operation, coefficient=Coefficient(Number.rational(0))))
+        if isinstance(s, Assign) and isinstance(s.operation, Advance)
         else s
         for s in compiled.program.body
     )

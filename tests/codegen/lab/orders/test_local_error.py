@@ -13,7 +13,9 @@ import pytest
 from codegen.certify import certified_order
 from codegen.errors import SceneError
 from codegen.ir.number import Number
-from codegen.ir.program import Coefficient, Operation, Solve
+from codegen.ir.operations import InverseDexpSlope, Linear
+from codegen.ir.program import Solve
+from codegen.ir.values import Coefficient
 from codegen.lab.orders.local_error import leading_term, local_error, predicted, valuation
 from codegen.lower import lower, problem_for
 from codegen.method import Method
@@ -205,18 +207,18 @@ def test_without_the_derivative_of_dexpinv_vrkmk_loses_its_order():
     scene, method = hamiltonian_scene("SO(3)"), Method("vrkmk", shipped("kutta3"), 1)
     view, right = problem_for(scene, method), lower(scene, method)
 
-    made = {x.targets[0].name for x in right.assigns() if x.operation.name == "P"}
+    made = {x.targets[0].name for x in right.assigns() if isinstance(x.operation, InverseDexpSlope)}
 
     def altered(factor):
         def change(assign):
-            if assign.operation.name != "lin":
+            if not isinstance(assign.operation, Linear):
                 return assign
             pairs = zip(assign.operation.coefficients, assign.args, strict=True)
             scaled = tuple(
                 Coefficient(c.value * Number.rational(factor), c.power) if a.name in made else c
                 for c, a in pairs
             )
-            return replace(assign, operation=Operation("lin", scaled))
+            return replace(assign, operation=Linear(scaled))
 
         body = tuple(
             replace(s, body=tuple(map(change, s.body))) if isinstance(s, Solve) else change(s)

@@ -13,7 +13,9 @@ from click.testing import CliRunner
 from codegen.commands.converge import command
 from codegen.emitter import Optimised
 from codegen.ir.number import Number
-from codegen.ir.program import Assign, Coefficient, Program
+from codegen.ir.operations import Advance
+from codegen.ir.program import Assign, Program
+from codegen.ir.values import Coefficient
 from codegen.lab.orders.strict_protocol import stated_order, strict
 from codegen.lab.orders.strict_scenes import fields, hamiltonians
 from codegen.lower import names
@@ -58,10 +60,10 @@ def altered(change: Callable[[Assign], Assign]) -> Callable[[Optimised], Optimis
 
 def frozen(assign: Assign) -> Assign:
     """Stage times stand still at the beginning of the step."""
-    if assign.operation.name != "advance":
+    if not isinstance(assign.operation, Advance):
         return assign
-    still = (Coefficient(Number.rational(0)),)
-    return replace(assign, operation=replace(assign.operation, coefficients=still))
+    still = Coefficient(Number.rational(0))
+    return replace(assign, operation=replace(assign.operation, coefficient=still))
 
 
 CONTROLS = {
