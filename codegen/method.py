@@ -84,12 +84,9 @@ class Method:
         return decided and all(self.ring.is_zero(x) is True for x in above)
 
     def commutator_free(self) -> CommutatorFree:
-        """Return stages and update as products of exponentials, a Butcher tableau as Crouch-Grossman.
-
-        A Crouch-Grossman method is given by a Butcher tableau only.
-        """
+        """Return stages and update as products of exponentials, a Butcher tableau as Crouch-Grossman."""
         method = self.tableau.read_as(("cf",))
-        if isinstance(method, CommutatorFree) and self.family != "cg":
+        if isinstance(method, CommutatorFree):
             return method
         return self.runge_kutta().as_crouch_grossman(self.ring)
 

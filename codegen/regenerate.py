@@ -10,6 +10,7 @@ from typing import Any
 from codegen.artifact import MANIFEST, Artifact, entries_of, manifest_text, write_text
 from codegen.emitter import compile_method, emit_compiled
 from orderconds.errors import InputError
+from orderconds.input_file import MAX_WRITTEN_BYTES, content_of, read_text
 
 LIST = Path(__file__).with_name("regenerate.toml")
 KEYS = ("scene", "method", "targets")
@@ -35,11 +36,10 @@ def entries(path: Path = LIST) -> list[Entry]:
 
     A file without modules is no list: by it everything that stands in ``generated/`` would be stale.
     """
+    text = read_text(path, "a list of modules")
     try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise InputError("no such file", where=str(path), expected="a list of modules") from None
-    except ValueError as error:  # TOML that is wrong, or bytes that are no text
+        data = tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
         raise InputError(f"this is not TOML: {error}", where=str(path)) from None
     modules = data.get("module", [])
     if set(data) != {"module"} or not isinstance(modules, list) or not modules:

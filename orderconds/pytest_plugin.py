@@ -59,7 +59,7 @@ class TableauItem(pytest.Item):
 
     def runtest(self) -> None:
         """Check the file; :class:`ClaimFails` with what the command would print."""
-        from orderconds.check import check
+        from orderconds.checking import check
 
         complete, certified = (bool(self.config.getoption(flag)) for flag in FLAGS[1:])
         report = check(self.path, complete=complete, certified=certified)

@@ -95,11 +95,11 @@ def _on_scene(
 
 def _by_protocol(methods: tuple[str, ...], stated: int | None, as_json: bool) -> list[Convergence]:
     from codegen.lab.strict import stated_order, strict
-    from codegen.lower import LOWERINGS
+    from codegen.lower import names
     from codegen.method import parse
 
     found: list[Convergence] = []
-    for method in [parse(spelling, tuple(LOWERINGS)) for spelling in methods]:
+    for method in [parse(spelling, names()) for spelling in methods]:
         with counting(f"{method.label}") as tell:
             for result in strict(method, stated_order(method, stated), tell):
                 found.append(result)

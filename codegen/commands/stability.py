@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from orderconds.commands.processes import in_processes
+from orderconds.processes import in_processes
 from orderconds.commands.screen import counting, print_json, print_table
 from orderconds.commands.variadic import Variadic
 

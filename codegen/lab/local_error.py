@@ -24,7 +24,6 @@ from codegen.lab.elementary import (
 )
 from codegen.method import Method
 from codegen.scene.problem import Problem
-from orderconds import families
 from orderconds.families.action_family import ActionFamily
 from orderconds.families.ordered_forests import scale
 from orderconds.ring import PowerSeries
@@ -110,7 +109,7 @@ def _residuals(method: Method, power: int) -> list[tuple[Any, Element]]:
     family = family_of(method)
     conditions = family.all_conditions(power)
     coefficients = method.tableau.read_as(family.formats)
-    found = families.residuals(family, coefficients, method.ring, conditions)
+    found = family.residuals(coefficients, method.ring, conditions)
     return [(c.key, x) for c, x in zip(conditions, found, strict=True) if method.ring.is_zero(x) is not True]
 
 

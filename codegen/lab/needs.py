@@ -14,8 +14,7 @@ from codegen.artifact import Artifact
 from codegen.emitter import Compiled
 from codegen.lab.contest import Row
 from codegen.lab.ranking import seconds_to
-from codegen.lower import OF_PARTS, ON_COTANGENT
-from orderconds.tableau.properties import symplectic
+from codegen.lower import lowering
 
 DECADES = (3, 6, 9, 12)
 """Accuracies that are asked about: errors of 10^-decade."""
@@ -70,11 +69,7 @@ def is_symplectic(compiled: Compiled) -> bool:
     scene, method = compiled.scene, compiled.method
     if not scene.is_hamiltonian or method.adaptive:
         return False
-    if method.family in ON_COTANGENT | OF_PARTS:
-        return True
-    if not scene.group.abelian or method.family == "discrete_gradient":
-        return False
-    return symplectic(method.tableau.abelian(), method.tableau.ring) is True
+    return lowering(method.family).symplectic(scene, method)
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from codegen.lab.battery import battery
 from codegen.lab.converge import Convergence, converge
 from codegen.lab.remembered import remembered
 from codegen.lab.runner import Interpreted
-from codegen.lower import ON_COTANGENT
+from codegen.lower import lowering
 from codegen.method import Method
 
 DIGITS = 50
@@ -36,7 +36,7 @@ def strict(
     method: Method, stated: CertifiedOrder, tell: Callable[[str], object] = str, spoil: Spoil = lambda c: c
 ) -> Iterator[Convergence]:
     """Yield what a method shows on each scene of the battery; ``spoil`` puts a fault into its program."""
-    for scene in battery(method.family in ON_COTANGENT):
+    for scene in battery(lowering(method.family).hamiltonian):
         tell(f"{method.label} on {scene.name}")
         compiled = spoil(optimise_method(scene, method))
         yield converge(Interpreted(compiled, DIGITS), stated, remembered(scene))

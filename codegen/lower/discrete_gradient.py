@@ -14,30 +14,68 @@ tableau; the order is two where sum b_i c_i = 1/2, else one. The unknown is xi.
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
 from codegen.errors import MethodError
 from codegen.ir.number import Number
 from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
+from codegen.lower.base import Objection
+from codegen.lower.field import FieldLowering
 from codegen.lower.stages import Stages
 from codegen.method import Method
 from codegen.scene.energy import ENERGY, bivector, differential, energy_of
 from codegen.scene.problem import Problem, orbit_of
 
+if TYPE_CHECKING:
+    from orderconds.checking import FamilyOrder
+    from orderconds.families import Family
+
 HALF = Number.rational(1, 2)
+HIGHEST_ORDER = 2
 
 
-def lower(scene: Problem, method: Method) -> Program:
-    """Return the program of a discrete gradient method.
+class DiscreteGradient(FieldLowering):
+    """Discrete gradient methods."""
 
-    :class:`codegen.errors.MethodError` for a scene without an energy, one that depends on time, and one whose
-    energy does not change in any direction of the group at a point where the field does not vanish.
-    """
-    if not keeps_energy(scene):
-        found = "which depends on time" if not scene.autonomous else "which has no energy"
-        raise MethodError(
-            f"{method.label} on {scene.name}, {found}",
-            expected=f"a Hamiltonian scene without time, or a field with an invariant called {ENERGY}",
-        )
-    _check_bivector(scene, method)
+    family = "discrete_gradient"
+
+    def objection(self, scene: Problem) -> Objection | None:
+        """Return why the family does not take a scene: it needs an energy that the field keeps."""
+        expected = f"a Hamiltonian scene without time, or a field with an invariant called {ENERGY}"
+        if not scene.autonomous:
+            return Objection(", which depends on time", expected)
+        return Objection(", which has no energy", expected) if energy_of(scene) is None else None
+
+    def lower(self, problem: Problem, method: Method) -> Program:
+        """Return the program.
+
+        :class:`codegen.errors.MethodError` for a scene whose energy does not change in any direction of the
+        group at a point where the field does not vanish.
+        """
+        _check_bivector(problem, method)
+        return _program(problem, method)
+
+    def symplectic(self, scene: Problem, method: Method) -> bool:
+        """Return False: no method keeps both the energy and the symplectic form."""
+        return False
+
+    def conditions(self, method: Method, scene: Problem | None = None) -> Family:
+        """Return the conditions of Runge-Kutta methods.
+
+        Up to order two they are those of this family: sum b_i = 1 and sum b_i c_i = 1/2.
+        """
+        from orderconds import families
+
+        return families.get("rk")
+
+    def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
+        """Return the order, which is two at most."""
+        found = super().order(method, scene)
+        return replace(found, order=min(found.order, HIGHEST_ORDER), failing=(), limit=None)
+
+
+def _program(scene: Problem, method: Method) -> Program:
     tableau = method.runge_kutta()
     y = Var("y", Kind.POINT)
     stages = Stages(scene, method, (y,))
@@ -66,11 +104,6 @@ def lower(scene: Problem, method: Method) -> Program:
         return {"y": moved("1", ONE.value, shared["f"])}
 
     return stages.program([xi], images, lambda: [stages.f("k0", y, None)], update)
-
-
-def keeps_energy(scene: Problem) -> bool:
-    """Whether a scene has an energy that its field keeps."""
-    return scene.autonomous and energy_of(scene) is not None
 
 
 def _check_bivector(scene: Problem, method: Method) -> None:

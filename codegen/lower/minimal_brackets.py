@@ -25,7 +25,7 @@ def bracket_program(method: Method) -> BracketProgram:
     above :data:`codegen.method.FEWEST_UP_TO`.
     """
     from orderconds import families
-    from orderconds.check import family_order
+    from orderconds.checking import family_order
     from orderconds.series.bracket_rows import with_fewer_terms
     from orderconds.series.brackets import fewest_brackets
 

@@ -17,14 +17,34 @@ The unknowns are the xi_i and n_i.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
-from codegen.lower.variational import begin
+from codegen.lower.variational import VariationalLowering, begin
 from codegen.method import Method
 from codegen.scene.problem import Problem
 
+if TYPE_CHECKING:
+    from orderconds.families import Family
 
-def lower(scene: Problem, method: Method) -> Program:
-    """Return the program of an SLGI method; :class:`orderconds.errors.ZeroWeight` where some b_i = 0."""
+
+class SymplecticIntegrator(VariationalLowering):
+    """Symplectic Lie group integrators of section 2.5 of Marthinsen's thesis."""
+
+    family = "slgi"
+
+    def lower(self, problem: Problem, method: Method) -> Program:
+        """Return the program of an SLGI method; :class:`orderconds.errors.ZeroWeight` where some b_i = 0."""
+        return _program(problem, method)
+
+    def conditions(self, method: Method, scene: Problem | None = None) -> Family:
+        """Return the conditions of VRKMK without brackets, which the method is."""
+        from orderconds import families
+
+        return families.get("vrkmk(0)")
+
+
+def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs
     do, s = stages.builder, tableau.s

@@ -1,4 +1,4 @@
-"""What variational lowerings on T*G begin with: a Butcher tableau whose weights are not zero, q and mu."""
+"""Variational lowerings on T*G: they take Hamiltonian scenes, and their steps are symplectic."""
 
 from __future__ import annotations
 
@@ -7,11 +7,31 @@ from collections.abc import Sequence
 from codegen.errors import MethodError
 from codegen.ir.number import Number
 from codegen.ir.program import Kind, Var
+from codegen.lower.base import Lowering, Objection
 from codegen.lower.stages import Stages
 from codegen.method import Method
 from codegen.scene.problem import Problem
 from orderconds.errors import ZeroWeight
 from orderconds.tableau import RungeKutta
+
+
+class VariationalLowering(Lowering):
+    """A family that discretises Hamilton's principle on a group; it sees (q, mu) and the Hamiltonian."""
+
+    hamiltonian = True
+    preference = 1  # a Hamiltonian scene is usually integrated for long times, which needs symplectic steps
+
+    def objection(self, scene: Problem) -> Objection | None:
+        """Return why the family does not take a scene."""
+        return None if scene.is_hamiltonian else Objection("", "a Hamiltonian scene")
+
+    def problem(self, scene: Problem, method: Method) -> Problem:
+        """Return the scene itself."""
+        return scene
+
+    def symplectic(self, scene: Problem, method: Method) -> bool:
+        """Return True: discrete Hamiltonian flows are symplectic maps."""
+        return True
 
 
 def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list[Number]], list[Number]]:

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from codegen.ir.number import Number
 from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
 from codegen.lower.stages import Stages
-from codegen.lower.variational import nonzero
+from codegen.lower.variational import VariationalLowering, nonzero
 from codegen.method import Method
 from codegen.scene.problem import Problem
 
@@ -38,8 +38,18 @@ class _Product:
     partial: tuple[Var, ...]
 
 
-def lower(scene: Problem, method: Method) -> Program:
-    """Return the program of a VCF method; :class:`orderconds.errors.ZeroWeight` where some b_i = 0."""
+class VariationalCommutatorFree(VariationalLowering):
+    """Variational commutator-free methods."""
+
+    family = "vcf"
+    repeats_substeps = True
+
+    def lower(self, problem: Problem, method: Method) -> Program:
+        """Return the program of a VCF method; :class:`orderconds.errors.ZeroWeight` where some b_i = 0."""
+        return _program(problem, method)
+
+
+def _program(scene: Problem, method: Method) -> Program:
     rows, update = _coefficients(method)
     s = len(rows)
     b = _weights(method, update, s)

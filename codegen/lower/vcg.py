@@ -15,14 +15,24 @@ terms are kept apart here, one a coefficient; where a_ji = b_i and E_j^{i-1} = e
 from __future__ import annotations
 
 from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
-from codegen.lower.variational import begin
+from codegen.lower.variational import VariationalLowering, begin
 from codegen.method import Method
 from codegen.scene.problem import Problem
 from orderconds.ring.protocol import Element
 
 
-def lower(scene: Problem, method: Method) -> Program:
-    """Return the program of a VCG method; :class:`orderconds.errors.ZeroWeight` where some b_i = 0."""
+class VariationalCrouchGrossman(VariationalLowering):
+    """Variational Crouch-Grossman methods."""
+
+    family = "vcg"
+    repeats_substeps = True
+
+    def lower(self, problem: Problem, method: Method) -> Program:
+        """Return the program of a VCG method; :class:`orderconds.errors.ZeroWeight` where some b_i = 0."""
+        return _program(problem, method)
+
+
+def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs
     do, s = stages.builder, tableau.s

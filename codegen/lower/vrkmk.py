@@ -18,17 +18,26 @@ terms cancel that cancel on an abelian group.
 from __future__ import annotations
 
 from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
-from codegen.lower.variational import begin, brackets
+from codegen.lower.variational import VariationalLowering, begin, brackets
 from codegen.method import Method
 from codegen.scene.problem import Problem
 
 
-def lower(scene: Problem, method: Method) -> Program:
-    """Return the program of a VRKMK method with cut-off ``method.cutoff``.
+class VariationalMuntheKaas(VariationalLowering):
+    """Variational Runge-Kutta-Munthe-Kaas methods."""
 
-    :class:`orderconds.errors.ZeroWeight` where some b_i = 0, :class:`codegen.errors.MethodError` without a
-    cut-off: a program has finitely many brackets.
-    """
+    family = "vrkmk"
+
+    def lower(self, problem: Problem, method: Method) -> Program:
+        """Return the program of a VRKMK method with cut-off ``method.cutoff``.
+
+        :class:`orderconds.errors.ZeroWeight` where some b_i = 0, :class:`codegen.errors.MethodError` without
+        a cut-off: a program has finitely many brackets.
+        """
+        return _program(problem, method)
+
+
+def _program(scene: Problem, method: Method) -> Program:
     r = brackets(method)
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs

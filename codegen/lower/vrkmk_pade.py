@@ -17,22 +17,47 @@ from __future__ import annotations
 
 from fractions import Fraction
 from math import factorial
+from typing import TYPE_CHECKING
 
 from codegen.ir.number import Number
 from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
-from codegen.lower.variational import begin, brackets
+from codegen.lower.base import order_without_names
+from codegen.lower.variational import VariationalLowering, begin, brackets
 from codegen.method import Method
 from codegen.scene.problem import Problem
+
+if TYPE_CHECKING:
+    from orderconds.checking import FamilyOrder
+    from orderconds.families import Family
 
 Terms = list[tuple[Coefficient, Var]]
 
 
-def lower(scene: Problem, method: Method) -> Program:
-    """Return the program with ``method.cutoff`` brackets in dexp.
+class VariationalMuntheKaasPade(VariationalLowering):
+    """VRKMK with the inverse of dexp cut off."""
 
-    :class:`orderconds.errors.ZeroWeight` where some b_i = 0, :class:`codegen.errors.MethodError` without a
-    cut-off: a program has finitely many brackets.
-    """
+    family = "vrkmk_pade"
+
+    def lower(self, problem: Problem, method: Method) -> Program:
+        """Return the program with ``method.cutoff`` brackets in dexp.
+
+        :class:`orderconds.errors.ZeroWeight` where some b_i = 0, :class:`codegen.errors.MethodError` without
+        a cut-off: a program has finitely many brackets.
+        """
+        return _program(problem, method)
+
+    def conditions(self, method: Method, scene: Problem | None = None) -> Family:
+        """Return the conditions for the cut-off of the method."""
+        from orderconds.families.vrkmk_pade import VariationalMuntheKaasPade as Conditions
+
+        return Conditions(method.cutoff or 0)
+
+    def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
+        """Return the order; the conditions that fail have no index sums to name them by."""
+        return order_without_names(method, self.conditions(method, scene))
+
+
+def _program(scene: Problem, method: Method) -> Program:
     r = brackets(method)
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs

@@ -17,6 +17,7 @@ from codegen.errors import SceneError
 from codegen.scene.extended_phase_space import extended
 from codegen.scene.problem import Problem
 from orderconds.errors import InputError, UnknownName
+from orderconds.input_file import read_bytes
 
 GALLERY = (
     "actuated_rigid_body",
@@ -64,8 +65,7 @@ def _load(name: str) -> Problem:
             expected=f"one of {', '.join(GALLERY)}, or the path of a Python file that defines `scene`",
             hint=f"did you mean {close[0]}?" if (close := get_close_matches(name, GALLERY, n=1)) else "",
         )
-    if not path.is_file():
-        raise SceneError("no such file", where=name, expected="a Python file that defines `scene`")
+    read_bytes(path, "a Python file that defines `scene`", error=SceneError)  # regular and of bounded size
     try:
         # What a scene prints is for its author; stdout is for what the command was asked for.
         with redirect_stdout(sys.stderr):
@@ -101,7 +101,7 @@ def about(name: str) -> str:
     name = name.removesuffix(EXTENDED)
     spec = find_spec(f"codegen.scenes.{name}") if name in GALLERY else None
     path = Path(spec.origin) if spec is not None and spec.origin else Path(name)
-    return ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+    return ast.get_docstring(ast.parse(read_bytes(path, error=SceneError))) or ""
 
 
 def listing() -> list[dict[str, str]]:

@@ -15,11 +15,12 @@ import click
 from msgspec import Struct
 
 from orderconds.commands import screen
-from orderconds.commands.processes import in_processes
 from orderconds.errors import InputError, TableauError
+from orderconds.input_file import read_text
+from orderconds.processes import in_processes
 
 if TYPE_CHECKING:
-    from orderconds.check import FamilyOrder, Report
+    from orderconds.checking import FamilyOrder, Report
     from orderconds.proof.certificate import Certificate
     from orderconds.tableau.work import Work
 
@@ -130,7 +131,7 @@ class _Outcome(Struct, frozen=True):
 
 def _checked(job: _Job) -> _Outcome:
     """Check one tableau. What cannot be read is told: the other files are still worth checking."""
-    from orderconds.check import check
+    from orderconds.checking import check
 
     try:
         report = check(
@@ -156,8 +157,8 @@ def _excused(arguments: Sequence[str]) -> set[str]:
     names = set[str]()
     for argument in arguments:
         listed = Path(argument) / "DECIMAL"
-        if os.path.isdir(argument) and listed.is_file():
-            lines = listed.read_text(encoding="utf-8").splitlines()
+        if os.path.isdir(argument) and listed.exists():
+            lines = read_text(listed, 'lines "NAME: reason"').splitlines()
             names |= {line.partition(":")[0].strip() for line in lines if not line.startswith("#")}
     return names
 
@@ -255,6 +256,9 @@ def _print_failing(family: FamilyOrder) -> None:
         click.echo(f"  {family.family}: the coefficients have too few digits to decide order {n}")
         return
     count = len(family.failing)
+    if not count:
+        click.echo(f"  {family.family}: no method of this family has order {n}")
+        return
     told = "1 condition" if count == 1 else f"{count} conditions"
     click.echo(f"  {family.family}: {told} of order {n} not met")
     shown = 1 if family.verdict == "holds" else SHOWN

@@ -9,7 +9,7 @@ import click
 from orderconds.commands import screen
 
 if TYPE_CHECKING:
-    from orderconds.derive import Derivation
+    from orderconds.derivation import Derivation
 
 FORMATS = ("text", "latex", "sympy", "json")
 
@@ -39,7 +39,7 @@ def command(
     as_json: bool,
 ) -> int:
     """Print the independent order conditions of FAMILY (rk, vcg, "rkmk(1)", ...) up to an order."""
-    from orderconds.derive import derive
+    from orderconds.derivation import derive
 
     if explicit and stages is None:
         raise click.UsageError("--explicit says how the tableau of --stages S is filled; give --stages too")
@@ -48,9 +48,9 @@ def command(
     with screen.working(f"deriving {family} to order {order}"):
         derivation = derive(family, order, every=every)
         if stages is not None:
-            from orderconds.written_out import write_out
+            from orderconds.stage_expansion import expand_stages
 
-            derivation = write_out(derivation, stages, explicit=explicit)
+            derivation = expand_stages(derivation, stages, explicit=explicit)
     match "json" if as_json else form:
         case "json":
             _print_json(derivation, explain)

@@ -74,14 +74,10 @@ def listing(kind: str) -> Callable[[], Records]:
 
 
 def _families() -> Records:
-    from importlib import import_module
-    from inspect import getdoc
-
     from orderconds import families
 
-    for name in families.names():
-        told = getdoc(import_module(families.MODULES[name])) or ""
-        yield {"name": name, "about": told.partition("\n")[0]}
+    for name in families.installed_names():
+        yield {"name": name, "about": families.family_class(name).description}
 
 
 def _tableaux() -> Records:

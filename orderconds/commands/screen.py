@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from orderconds.exit_status import current_run
+
 if TYPE_CHECKING:
     from orderconds.explain.lines import Style
 
@@ -89,9 +91,7 @@ def print_json(value: Any) -> None:
       "order": 4
     }
     """
-    import json
-
-    click.echo(json.dumps(value, indent=2, allow_nan=False))
+    current_run().print_document(value)
 
 
 def print_table(columns: Sequence[str], rows: Sequence[Sequence[str]], indent: int = 0) -> None:

@@ -53,8 +53,8 @@ if TYPE_CHECKING:
 def command(family: str, output: str | None, as_json: bool, **options: Any) -> int:
     """Find a method of FAMILY with so many stages and an order, prove it, and write its tableau.
 
-    Exits with 0 if a method was found and proved, 1 if none was, or none exists, 2 for wishes that make no
-    sense. The same seed gives the same file, however many processes there are. What is finished when the
+    Exits with 0 if a method was found and proved, 1 if none was, or none exists, 2 for contradictory
+    options. The same seed gives the same file, however many processes there are. What is finished when the
     search is interrupted is kept in the checkpoint, and the same command goes on from there.
     """
     # One thread a process: results then do not depend on how many there are.
@@ -66,11 +66,11 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
     try:
         with screen.working(f"searching {family}") as report:
             outcome = solve(order, report)
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as interrupt:
         path = order.checkpoint
-        kept = f"; what is finished is kept in {path}" if path is not None and path.exists() else ""
-        click.echo(f"orderconds: interrupted{kept}", err=True)
-        return 130
+        if path is not None and path.exists():
+            interrupt.add_note(f"finished starts are kept in {path}; the same command goes on from there")
+        raise
     if outcome.found is not None and output is not None:
         put(output, outcome.found.text.encode())
     if as_json:
@@ -82,9 +82,9 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
 
 def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
     from orderconds.solve.solver import Order
-    from orderconds.solve.wishes import Wishes
+    from orderconds.solve.spec import Spec
 
-    wishes = Wishes(
+    spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},
         **{key: options[key] for key in ("fix", "positive", "exponentials", "inner")},
         size=_size(options["size"]),
@@ -99,7 +99,7 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
     return Order(
         family,
         options["order"],
-        wishes,
+        spec,
         seed=options["seed"],
         minimised=options["minimise"] is not None,
         starts=options["starts"],
@@ -126,7 +126,7 @@ def _size(text: str | None) -> Fraction | None:
 def _record(order: Order, outcome: Outcome, output: str | None) -> dict[str, Any]:
     verdict = "found" if outcome.found else "infeasible" if outcome.none else "nothing found"
     record: dict[str, Any] = {"verdict": verdict, "family": order.family, "order": order.order}
-    record |= {"stages": order.wishes.stages, "seed": order.seed, "command": order.command()}
+    record |= {"stages": order.spec.stages, "seed": order.seed, "command": order.command()}
     if outcome.none is not None:
         return {**record, "proof": outcome.none.as_json()}
     record |= {"tried": outcome.tried, "best_residual": outcome.best}
@@ -159,7 +159,7 @@ def _print(order: Order, outcome: Outcome, output: str | None) -> None:
 
 
 def _stages(order: Order) -> str:
-    return f"{order.wishes.stages} stage" + ("" if order.wishes.stages == 1 else "s")
+    return f"{order.spec.stages} stage" + ("" if order.spec.stages == 1 else "s")
 
 
 def _print_proof(order: Order, proof: Infeasible) -> None:

@@ -70,7 +70,7 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> di
 
 def _computed_order(tableau: Tableau) -> int:
     """Return the order of the embedded weights on vector spaces, the least that a file can state if none."""
-    from orderconds.check import family_order
+    from orderconds.checking import family_order
     from orderconds.families import get
 
     lower = tableau.lower()
@@ -104,7 +104,7 @@ def name_of(path: str | Path) -> str:
 def convert(tableau: Tableau) -> dict[str, Any]:
     """Return a tableau as the keys and values of its file, in which nothing is lost.
 
-    >>> from orderconds.check import read
+    >>> from orderconds.checking import read
     >>> convert(read("heun"))["b"]
     ['1/2', '1/2']
     """

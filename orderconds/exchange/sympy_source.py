@@ -102,7 +102,7 @@ def _cells(value: Any) -> Any:
 def to_sympy(tableau: Tableau) -> dict[str, Any]:
     """Return the coefficients as SymPy matrices by name (imports SymPy).
 
-    >>> from orderconds.check import read
+    >>> from orderconds.checking import read
     >>> to_sympy(read("heun"))["b"]
     Matrix([[1/2, 1/2]])
     """

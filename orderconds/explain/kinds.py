@@ -15,6 +15,7 @@ from orderconds.conditions import OrderCondition
 from orderconds.errors import UnknownName
 from orderconds.explain.diagram import Diagram
 from orderconds.explain.lines import Style, draw
+from orderconds.families import Family
 
 
 @dataclass(frozen=True)
@@ -23,8 +24,8 @@ class Kind:
 
     ``members`` enumerates those of an order and ``count`` finds their number another way, from generating
     functions; ``text`` spells a member, ``diagram`` makes it drawable, ``names`` spells the elementary
-    differential or Hamiltonian it names. ``family`` is a family whose conditions belong to these trees: all
-    of them, or with ``independent`` an independent set.
+    differential or Hamiltonian it names. With ``independent`` the members carry an independent set of
+    conditions of the family that illustrates the kind, else all of its conditions.
 
     >>> kind = get("rooted")
     >>> [(kind.text(tree), kind.names(tree)) for tree in kind.members(3)]
@@ -36,12 +37,20 @@ class Kind:
     text: Callable[[Any], str]
     diagram: Callable[[Any], Diagram]
     names: Callable[[Any], str]
-    family: str
+    name: str
     independent: bool = False
+
+    def family(self) -> Family:
+        """Return the family that illustrates this kind with its conditions."""
+        for name in families.names():
+            found = families.family_class(name)
+            if self.name in found.illustrates:
+                return found()
+        raise UnknownName(f"no family illustrates the trees {self.name!r}", expected="a registered family")
 
     def conditions(self, order: int) -> dict[Any, OrderCondition]:
         """Return the family's condition of each member."""
-        family = families.get(self.family)
+        family = self.family()
         found = family.conditions(order) if self.independent else family.all_conditions(order)
         return {condition.key: condition for condition in found}
 
@@ -93,14 +102,14 @@ def of_family(label: str) -> Kind | None:
     >>> of_family("rkmk(1)").text(b"\0\1\0")
     '[.] .'
     """
-    name = getattr(families.get(label), "trees", None)
+    name = families.get(label).trees
     return None if name is None else get(name)
 
 
 def named_by(condition: OrderCondition) -> str:
     """Return the elementary differential or Hamiltonian that a condition names, or else its tree's text.
 
-    >>> from orderconds.derive import derive
+    >>> from orderconds.derivation import derive
     >>> print(*map(named_by, derive("vcg", order=2).conditions))
     H H_q(H_m)
     """
@@ -118,7 +127,7 @@ def _rooted() -> Kind:
         levels.text,
         diagram.plain,
         differentials.differential,
-        "rk",
+        "rooted",
     )
 
 
@@ -132,7 +141,7 @@ def _ordered() -> Kind:
         levels.text,
         diagram.plain,
         differentials.frozen_differential,
-        "cg",
+        "ordered",
     )
 
 
@@ -146,7 +155,7 @@ def _forests() -> Kind:
         levels.text,
         diagram.plain,
         differentials.frozen_differential,
-        "cg",
+        "forests",
     )
 
 
@@ -163,7 +172,13 @@ def _lyndon() -> Kind:
         return counts.lyndon_word_count(order, counts.ordered_tree_count)
 
     return Kind(
-        words, count, levels.text, diagram.plain, differentials.frozen_differential, "cg", independent=True
+        words,
+        count,
+        levels.text,
+        diagram.plain,
+        differentials.frozen_differential,
+        "lyndon",
+        independent=True,
     )
 
 
@@ -177,7 +192,7 @@ def _bicoloured() -> Kind:
         bicoloured.text,
         diagram.coloured,
         differentials.partitioned_differential,
-        "prk",
+        "bicoloured",
     )
 
 
@@ -191,7 +206,7 @@ def _free() -> Kind:
         levels.text,
         diagram.plain,
         differentials.hamiltonian,
-        "symplectic_rk",
+        "free",
     )
 
 
@@ -205,7 +220,7 @@ def _essential() -> Kind:
         levels.text,
         diagram.plain,
         differentials.hamiltonian,
-        "symplectic_rk",
+        "essential",
         independent=True,
     )
 
@@ -220,7 +235,7 @@ def _directed() -> Kind:
         directed.text,
         diagram.with_directions,
         differentials.directed_hamiltonian,
-        "sprk",
+        "directed",
     )
 
 
@@ -235,7 +250,7 @@ def _directed_rooted() -> Kind:
         diagram.with_directions,
         # An edge of the second kind leads to a white vertex; the root may have either colour.
         lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),
-        "prk_same_weights",
+        "directed-rooted",
     )
 
 
@@ -249,7 +264,7 @@ def _alternating() -> Kind:
         bicoloured.text,
         diagram.coloured,
         differentials.separable_hamiltonian,
-        "sprk_separable",
+        "alternating",
     )
 
 
@@ -263,22 +278,22 @@ def _action() -> Kind:
         str,
         diagram.action,
         action_trees.hamiltonian,
-        "vcg",
+        "action",
     )
 
 
 def _graded() -> Kind:
-    return _lyndon_words("composition", lambda weight: weight, lambda order: range(1, order + 1), str, " ")
+    return _lyndon_words("graded", lambda weight: weight, lambda order: range(1, order + 1), str, " ")
 
 
 def _letters() -> Kind:
     return _lyndon_words(
-        "splitting", lambda letter: 1, lambda order: range(2), "ABCDEFGHIJKLMNOPQRSTUVWXYZ".__getitem__, ""
+        "letters", lambda letter: 1, lambda order: range(2), "ABCDEFGHIJKLMNOPQRSTUVWXYZ".__getitem__, ""
     )
 
 
 def _lyndon_words(
-    family: str,
+    name: str,
     weigh: Callable[[int], int],
     letters: Callable[[int], Iterable[int]],
     spell: Callable[[int], str],
@@ -294,7 +309,7 @@ def _lyndon_words(
         lambda word: between.join(map(spell, word)),
         lambda word: diagram.word(word, spell),
         lambda word: differentials.bracket(word, spell),
-        family,
+        name,
         independent=True,
     )
 

@@ -7,14 +7,18 @@ even r >= 2, since B_{r+1} = 0.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
 from functools import lru_cache
 from math import factorial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, ClassVar, Self
 
 from orderconds.conditions import OrderCondition
-from orderconds.errors import InputError
-from orderconds.families.ordered_forests import OrderedForestFamily, lyndon_forests, scale
+from orderconds.families.base import Key, expect
+from orderconds.families.dexpinv_cut import DexpinvCut
+from orderconds.families.ordered_forests import OrderedForestFamily, longest_word, lyndon_forests, scale
+from orderconds.families.registry import register
+from orderconds.families.rk import has_weights
 from orderconds.formula import (
     Formula,
     Total,
@@ -29,6 +33,10 @@ from orderconds.formula import (
 )
 from orderconds.ring.protocol import Ring
 from orderconds.series.dexpinv import DexpinvSeries, dexpinv_terms
+from orderconds.series.lie_butcher import ForestSeries
+from orderconds.tableau.methods import RungeKutta
+from orderconds.tableau.products import Method
+from orderconds.tableau.record import Tableau
 from orderconds.trees.counts import rooted_tree_count
 from orderconds.trees.levels import Forest, branches, trees_of
 
@@ -38,7 +46,8 @@ if TYPE_CHECKING:
     from orderconds.ring.residues import Residues
 
 
-class MuntheKaasFamily(OrderedForestFamily):
+@register
+class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
     """Runge-Kutta-Munthe-Kaas methods, given by a Runge-Kutta tableau.
 
     >>> for condition in MuntheKaasFamily(cutoff=1).conditions(3):
@@ -49,19 +58,29 @@ class MuntheKaasFamily(OrderedForestFamily):
     """
 
     name = "rkmk"
-    formats: tuple[str, ...] = ("rk",)
-    search_limit = 7
+    description = (
+        "Runge-Kutta-Munthe-Kaas methods with dexpinv cut after the power r: ``rkmk(r)``; without r it "
+        "is not cut."
+    )
+    formats = ("rk",)
+    implies: ClassVar[Mapping[str, str]] = {"rk": "a vector space is a group"}
+    unknowns = "rk"
+    minimal_brackets = 6
 
-    def __init__(self, cutoff: int | None = None) -> None:
-        self.cutoff = cutoff
+    def series(self, method: Method, ring: Ring) -> ForestSeries:
+        """Return the series of a step of a tableau (A, b)."""
+        tableau = expect(method, RungeKutta)
+        return DexpinvSeries(ring, tableau.A, tableau.b, self.cutoff)
 
-    def label(self) -> str:
-        """Return ``rkmk(r)``, or ``rkmk`` when dexpinv is not cut."""
-        return self.name if self.cutoff is None else f"{self.name}({self.cutoff})"
+    @classmethod
+    def claimable(cls, tableau: Tableau) -> Self | None:
+        """Tableaux (A, b)."""
+        return cls() if has_weights(tableau) else None
 
-    def series(self, method: Any, ring: Ring) -> DexpinvSeries:
-        """Return the series of a step; ``method`` has ``A`` and ``b`` over ``ring``."""
-        return DexpinvSeries(ring, method.A, method.b, self.cutoff)
+    def longest_word(self, key: Key) -> int:
+        """Return the length of the longest word of branches in a forest."""
+        assert isinstance(key, bytes)
+        return longest_word(key)
 
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return those of :meth:`conditions` that do not follow from the others and from lower ones.
@@ -161,16 +180,3 @@ def _essential(cutoff: int | None, order: int) -> tuple[tuple[Forest, ...], ...]
         return DexpinvSeries(ring, A, [ring.random(generator) for _ in range(order)], cutoff)
 
     return independent_forests(random_series, [lyndon_forests(n) for n in range(1, order + 1)])
-
-
-def create(cutoff: int | None = None) -> MuntheKaasFamily:
-    """Return the family with dexpinv cut after the power ``cutoff``, or uncut.
-
-    Raises :class:`~orderconds.errors.InputError` for a negative cutoff.
-
-    >>> create(cutoff=1).label(), create().label()
-    ('rkmk(1)', 'rkmk')
-    """
-    if cutoff is not None and not (isinstance(cutoff, int) and cutoff >= 0):
-        raise InputError(f"cutoff {cutoff!r}", where="family rkmk", expected="an integer >= 0")
-    return MuntheKaasFamily(cutoff)

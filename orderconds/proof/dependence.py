@@ -15,8 +15,8 @@ from typing import Any
 
 from orderconds.conditions import OrderCondition
 from orderconds.families import Family
-from orderconds.proof.draws import Draws
 from orderconds.proof.exact_member import Combination, Monomial, Reading, Surd, constants
+from orderconds.ring.draws import Draws
 from orderconds.ring.reconstruct import rational_number
 from orderconds.ring.samples import Sample, Samples, echelon
 from orderconds.series.monomials import products

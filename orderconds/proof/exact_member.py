@@ -1,9 +1,7 @@
-"""One member of a file's sub-family, exact: numbers of 128 bits in place of its decimals and radicals.
+"""Conditions at one random member of a file's sub-family, exactly: where combinations of them are verified.
 
-An identity between rational functions of degree at most D that is false holds at a point drawn from 2^128
-values a coordinate with probability at most D / 2^128 (Schwartz 1980; Zippel 1979). The numbers come from a
-digest of the file, so that a search for a file whose own point deceives has no chance either. Arithmetic is
-over Q, or over Q(sqrt(d)) where the square root of a rational is the file's one radical: no prime enters.
+The member is that of :mod:`orderconds.tableau.random_member`, over Q, or over Q(sqrt(d)) where the square
+root of a rational is the only radical of the file.
 """
 
 from __future__ import annotations
@@ -15,19 +13,16 @@ from functools import reduce
 from operator import mul
 from typing import Any
 
-from flint import fmpq
-
 from orderconds.conditions import OrderCondition
-from orderconds.errors import InputError, TableauError
+from orderconds.errors import TableauError
 from orderconds.families import Family, in_ring
-from orderconds.proof.draws import Draws
+from orderconds.ring.draws import Draws
 from orderconds.ring.protocol import Element, Ring
-from orderconds.ring.rationals import QQ
 from orderconds.ring.tower import DegreeError, Tower
 from orderconds.tableau.evaluate import NamedRoot, evaluate_in, rounded_and_exact
 from orderconds.tableau.grammar import Constant
-from orderconds.tableau.indeterminates import radicals
 from orderconds.tableau.products import Method
+from orderconds.tableau.random_member import OUTSIDE, RandomMember, radicals
 from orderconds.tableau.unknowns import Spelled
 
 Reading = Callable[[Method, Ring], Method]
@@ -38,9 +33,6 @@ Monomial = tuple[OrderCondition, ...]
 
 Combination = Mapping[Monomial, tuple[Fraction, Fraction]]
 """Monomials with their coefficients x + y sqrt(d)."""
-
-BITS = 128
-"""Size of the numbers drawn; a degree stays far below 2^40, since values are bounded in size."""
 
 
 @dataclass(frozen=True)
@@ -59,8 +51,8 @@ def lone_square_root(spelled: Spelled) -> Surd | None:
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["sqrt(12)"]\\n'
     >>> proof = Tableau.loads(text + '[proof]\\nconditions = "rk"\\norder = 1').proof
     >>> found = lone_square_root(proof.spelled)
-    >>> found.radicand, found.root * found.root
-    (Fraction(12, 1), Algebraic(12))
+    >>> found.radicand, found.ring.text(found.root * found.root)
+    (Fraction(12, 1), '12')
     """
     different = radicals(spelled)
     if len(different) != 1 or different[0].exponent.denominator != 2:
@@ -120,15 +112,41 @@ def exact_member(
 
     None where it cannot be evaluated: its numbers explode, or a divisor is zero.
     """
-    scalars = _Scalars(draws, surd)
     try:
-        values = evaluate_in(scalars, spelled.expressions, spelled.numbers, spelled.where)
-        method: Any = spelled.build(values, scalars.ring)[0]
-        member = method if read is None else read(method, scalars.ring)
-        left = family.evaluate(member, scalars.ring, conditions)
-    except (InputError, ZeroDivisionError):
+        method, ring = _member(spelled, draws, surd)
+        left = family.evaluate(method if read is None else read(method, ring), ring, conditions)
+    except OUTSIDE:
         return None
-    return ExactMember(scalars.ring, dict(zip(conditions, left, strict=True)), surd)
+    return ExactMember(ring, dict(zip(conditions, left, strict=True)), surd)
+
+
+def _member(spelled: Spelled, draws: Draws, surd: Surd | None) -> tuple[Method, Ring]:
+    if surd is None:
+        ring = RandomMember(spelled, draws)
+        return ring.method(), ring
+    values = evaluate_in(_Scalars(spelled, draws, surd), spelled.expressions, spelled.numbers, spelled.where)
+    return spelled.build(values, surd.ring)[0], surd.ring
+
+
+class _Scalars:
+    """Numbers drawn over the field that a square root generates."""
+
+    def __init__(self, spelled: Spelled, draws: Draws, surd: Surd) -> None:
+        self._drawn, self._surd = RandomMember(spelled, draws), surd
+
+    def constant(self, value: Fraction, unit: Fraction) -> Element:
+        if unit:
+            return self._surd.ring.rational(int(self._drawn.variable(Constant(value, unit)).p))
+        return self._surd.ring.rational(value.numerator, value.denominator)
+
+    def root(self, x: Element, index: int) -> Element:
+        return self._surd.root
+
+    def named_root(self, minpoly: Any, near: Fraction, unit: Fraction, name: str) -> Element:
+        return self._surd.ring.rational(int(self._drawn.named_root(minpoly, near, unit, name).p))
+
+    def size(self, x: Any) -> int:
+        return self._drawn.size(x) if self._surd.ring.name == "QQ" else Tower().size(x)
 
 
 def constants(spelled: Spelled) -> Iterator[Constant]:
@@ -145,39 +163,3 @@ def constants(spelled: Spelled) -> Iterator[Constant]:
             yield from (Constant(c) for c in x.minpoly)
         else:
             yield from rounded_and_exact(x)
-
-
-class _Scalars:
-    """Rationals as the file has them; decimals, radicals and named roots drawn, each once."""
-
-    def __init__(self, draws: Draws, surd: Surd | None) -> None:
-        self._draws, self._surd = draws, surd
-        self.ring: Ring = QQ if surd is None else surd.ring
-
-    def constant(self, value: Fraction, unit: Fraction) -> Element:
-        if unit:
-            return self._drawn(f"decimal {value} {unit}")
-        return self.ring.rational(value.numerator, value.denominator)
-
-    def root(self, x: Element, index: int) -> Element:
-        if self._surd is not None and index == 2:
-            return self._surd.root
-        return self._drawn(f"root {index} {self.ring.text(x)}")
-
-    def named_root(self, minpoly: Any, near: Fraction, unit: Fraction, name: str) -> Element:
-        return self._drawn(f"named {name}")
-
-    def size(self, x: Any) -> int:
-        """Return the bits of the largest integer in x."""
-        if isinstance(x, fmpq):
-            return max(int(x.p).bit_length(), int(x.q).bit_length())
-        polynomial = x.polynomial
-        return max(int(polynomial.numer().height_bits()), int(polynomial.denom().bit_length()))
-
-    def _drawn(self, name: str) -> Element:
-        return self.ring.rational(self._draws.number(name, BITS))
-
-
-def description(family: Family, spelled: Spelled, order: int) -> str:
-    """Return a text that fixes every function of which dependences are computed."""
-    return repr((family.label(), order, [*spelled.expressions.items()], [*spelled.numbers.items()]))

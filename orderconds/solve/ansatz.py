@@ -9,13 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from orderconds import families
 from orderconds.errors import InputError
-from orderconds.solve.wishes import Wishes
+from orderconds.families import Family
+from orderconds.solve.spec import Spec
 from orderconds.tableau import Tableau
 from orderconds.tableau.unknowns import Spelled
+
+if TYPE_CHECKING:
+    from orderconds.solve.parametrise import Layout
 
 
 @dataclass(frozen=True)
@@ -85,46 +89,50 @@ def _place(name: str) -> tuple[Any, ...]:
     return (letters != "m", letters != "b", letters, [int(x) for x in name[len(letters) :].split("_") if x])
 
 
-def ansatz(family: str, wishes: Wishes, structure: str = "full", name: str = "found") -> Ansatz:
-    """Return the ansatz of a family, by its label, with these wishes.
+def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found") -> Ansatz:
+    """Return the ansatz of a family, by its label, for a specification.
 
-    Raises :class:`~orderconds.errors.InputError` for wishes that contradict each other or that the family
+    Raises :class:`~orderconds.errors.InputError` for options that contradict each other or that the family
     cannot meet.
 
-    >>> found = ansatz("rk", Wishes(stages=2, explicit=True, fix=("a21=1/2",)))
+    >>> found = ansatz("rk", Spec(stages=2, explicit=True, fix=("a21=1/2",)))
     >>> found.free, found.body[2]
     (('b1', 'b2'), 'A = [[], ["1/2"]]')
     """
-    from orderconds.solve.layouts import LAYOUTS
-
-    layout = LAYOUTS.get(families.get(family).name)
-    if layout is None:
-        raise InputError(
-            f"no search in family {family!r}", where="solve", expected=f"one of {', '.join(LAYOUTS)}"
-        )
-    if wishes.stages < 1:
-        raise InputError(f"{wishes.stages} stages", where="--stages", expected="at least one")
-    return layout(family, wishes, structure, name)
+    found = families.get(family)
+    layout = _layout(found)
+    if spec.stages < 1:
+        raise InputError(f"{spec.stages} stages", where="--stages", expected="at least one")
+    return layout.ansatz(found, spec, structure, name)
 
 
-def structures(family: str, wishes: Wishes) -> tuple[str, ...]:
+def structures(family: str, spec: Spec) -> tuple[str, ...]:
     """Return the structures in which a search of this family begins, the most promising first.
 
-    >>> structures("vcg", Wishes(stages=3)), structures("cg", Wishes(stages=3))
+    >>> structures("vcg", Spec(stages=3)), structures("cg", Spec(stages=3))
     (('abscissae', 'full'), ('full',))
     """
-    name = families.get(family).name
-    if name == "vcf" and wishes.symmetric:
-        return ("symmetric gauss", "symmetric abscissae", "symmetric")
-    if name in ("vcg", "vcf") and not wishes.explicit:
-        return ("abscissae", "full")
-    return ("symmetric",) if name == "cf" and wishes.symmetric else ("full",)
+    found = families.get(family)
+    return _layout(found).structures(found, spec)
+
+
+def _layout(family: Family) -> Layout:
+    from orderconds.solve.parametrise import LAYOUTS
+
+    if family.unknowns not in LAYOUTS:
+        searched = [n for n in families.names() if families.family_class(n).unknowns in LAYOUTS]
+        raise InputError(
+            f"no search in family {family.label()!r}",
+            where="solve",
+            expected=f"one of {', '.join(searched)}",
+        )
+    return LAYOUTS[family.unknowns]
 
 
 def renamed(found: Ansatz, name: str) -> Ansatz:
     """Return the same ansatz with another name in its file.
 
-    >>> renamed(ansatz("rk", Wishes(stages=1)), "mine").body[0]
+    >>> renamed(ansatz("rk", Spec(stages=1)), "mine").body[0]
     'name = "mine"'
     """
     body = (f'name = "{name}"', *found.body[1:])

@@ -65,11 +65,11 @@ class Infeasible:
 def infeasible(problem: Problem) -> Infeasible | None:
     """Return a proof that no real method solves the conditions, or None where this finds none.
 
-    >>> from orderconds.solve.wishes import Wishes
+    >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem
-    >>> print(infeasible(find_problem("vcg", 3, Wishes(stages=2), "full")).reason)
+    >>> print(infeasible(find_problem("vcg", 3, Spec(stages=2), "full")).reason)
     3*b2^2 - 3*b2 + 1 = 0 has no real root (Sturm)
-    >>> print(infeasible(find_problem("rk", 3, Wishes(stages=2, explicit=True), "full")).reason)
+    >>> print(infeasible(find_problem("rk", 3, Spec(stages=2, explicit=True), "full")).reason)
     1 = 0 is false
     """
     names = problem.ansatz.free

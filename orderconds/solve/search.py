@@ -20,8 +20,8 @@ from orderconds.errors import InputError
 from orderconds.solve.least_squares import least_squares, rank
 from orderconds.solve.minimise import minimise
 from orderconds.solve.problem import Problem, find_problem
+from orderconds.solve.spec import Spec
 from orderconds.solve.tape import Floats
-from orderconds.solve.wishes import Wishes
 
 BATCH = 64
 """Starts of a batch."""
@@ -47,7 +47,7 @@ class Search:
 
     family: str
     order: int
-    wishes: Wishes
+    spec: Spec
     structure: str
     seed: int = 0
     minimised: bool = False
@@ -55,7 +55,7 @@ class Search:
     def described(self) -> dict[str, Any]:
         """Return the search as plain data, as a checkpoint keeps it."""
         record = asdict(self)
-        record["wishes"] = {key: str(x) if key == "size" else x for key, x in record["wishes"].items()}
+        record["spec"] = {key: str(x) if key == "size" else x for key, x in record["spec"].items()}
         return dict(json.loads(json.dumps(record)))
 
 
@@ -86,12 +86,12 @@ class Batch:
 def run_batch(search: Search, number: int) -> Batch:
     """Return what batch ``number`` finds.
 
-    >>> search = Search("rk", 2, Wishes(stages=2, explicit=True), "full")
+    >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> found = run_batch(search, 0)
     >>> len(found.solutions) > 0, found == run_batch(search, 0)
     (True, True)
     """
-    problem = find_problem(search.family, search.order, search.wishes, search.structure)
+    problem = find_problem(search.family, search.order, search.spec, search.structure)
     generator = np.random.default_rng([search.seed, number])
     points, norms = least_squares(problem.system, problem.starts(generator, BATCH))
     solved = np.flatnonzero(norms < POLISHED)
@@ -191,7 +191,7 @@ def batches(
     ``cluster``, are started for the others. Raises :class:`~orderconds.errors.InputError` for a cluster that
     does not answer.
 
-    >>> search = Search("rk", 2, Wishes(stages=2, explicit=True), "full")
+    >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> [batch.number for batch in batches(search, 2, Checkpoint(None, search))]
     [0, 1]
     """

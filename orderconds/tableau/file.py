@@ -14,6 +14,7 @@ import msgspec
 from msgspec import Struct
 
 from orderconds.errors import InputError, TableauError
+from orderconds.input_file import read_bytes
 from orderconds.tableau.evaluate import Definition, NamedRoot, evaluate
 from orderconds.tableau.formats import (
     FORMATS,
@@ -34,7 +35,6 @@ from orderconds.tableau.properties import PROPERTIES
 from orderconds.tableau.record import Claims, File, OrderClaim, Tableau
 from orderconds.tableau.unknowns import Proof, Spelled
 
-MAX_BYTES = 1_000_000
 MAX_NAME = 64
 KEYS = frozenset(("family", "A", "b", "stage", "update", "low_storage", "gamma", "alpha", "exponents"))
 """A file with one of these keys is meant as a tableau."""
@@ -78,23 +78,14 @@ def text_of(path: str | Path) -> str:
 
 
 def bytes_of(path: str | Path) -> bytes:
-    """Return what a file holds, refused where it is too large for a tableau, or has no end.
+    """Return the content of a regular file, refused where it is too large for a tableau.
 
     >>> from orderconds.tableau import find
     >>> bytes_of(find("kutta3"))[:4]
     b'name'
     """
-    try:
-        with Path(path).open("rb") as stream:  # devices and pipes tell no size beforehand
-            read = stream.read(MAX_BYTES + 1)
-    except OSError as problem:
-        reason = (problem.strerror or "unreadable").lower()
-        raise TableauError(reason, where=str(path), expected="a tableau file") from None
-    if len(read) > MAX_BYTES:
-        raise TableauError(
-            "a file too large for a tableau", where=str(path), expected=f"at most {MAX_BYTES} bytes"
-        )
-    return read.removeprefix(BOM_UTF8)  # some editors and spreadsheets put one before the text
+    content = read_bytes(path, "a tableau file", error=TableauError)
+    return content.removeprefix(BOM_UTF8)  # some editors and spreadsheets put one before the text
 
 
 def meant_as_tableau(path: str | Path) -> bool:

@@ -16,7 +16,7 @@ from codegen.groups import SO3, Rotation
 from codegen.ir.domain import FloatDomain
 from codegen.lab.local_error import local_error, valuation
 from codegen.loader import Status, StepFailed, load
-from codegen.lower import LOWERINGS, lower, problem_for
+from codegen.lower import lower, names, problem_for
 from codegen.method import Method
 from codegen.passes import optimise
 from codegen.scene import FieldScene, HamiltonianScene, param, signal
@@ -65,7 +65,7 @@ def start_of(scene):
 
 
 def test_every_family_is_tried():
-    assert sorted({*METHODS, *ELSEWHERE}) == sorted(LOWERINGS)
+    assert sorted({*METHODS, *ELSEWHERE}) == sorted(names())
 
 
 @pytest.mark.parametrize("target", ["c", "python"])

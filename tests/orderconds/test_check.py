@@ -193,7 +193,7 @@ def test_at_most_five_tableaux_of_the_library_are_decimals_each_with_a_reason() 
 @pytest.mark.parametrize("name", ["rk4", "vcg4_s6", "cf5_s7", "cf_magnus8", "lobatto3ab5"])
 def test_a_check_imports_no_numerical_library(name: str) -> None:
     code = (
-        "import sys; from orderconds.check import check; check(sys.argv[1]);"
+        "import sys; from orderconds.checking import check; check(sys.argv[1]);"
         "print([m for m in ('sympy', 'networkx', 'numpy', 'scipy', 'matplotlib') if m in sys.modules])"
     )
     found = subprocess.run([sys.executable, "-c", code, name], check=True, capture_output=True, text=True)

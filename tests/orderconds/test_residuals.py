@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 from orderconds import families
-from orderconds.check import read
-from orderconds.residuals import Failure, judge
+from orderconds.checking import read
+from orderconds.checking.residuals import Failure, judge
 from orderconds.ring import QQ, Balls, NumberField
 
 
@@ -96,5 +96,5 @@ def test_orders_evaluated_one_after_the_other_are_those_evaluated_alone(name: st
         for method, ring in ((tableau.method, tableau.ring), (enclosed, balls), (read("rk4").method, QQ)):
             conditions = kept.conditions(n)
             alone = families.residuals(families.get(label), method, ring, conditions)
-            together = families.residuals(kept, method, ring, conditions)
+            together = kept.residuals(method, ring, conditions)
             assert [ring.text(x) for x in together] == [ring.text(x) for x in alone]

@@ -5,8 +5,7 @@ from __future__ import annotations
 import pytest
 
 from orderconds import Tableau, check
-from orderconds.check import read
-from orderconds.served import served, unclaimed
+from orderconds.checking import read, unclaimed
 from orderconds.tableau import available
 
 

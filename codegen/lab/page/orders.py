@@ -15,7 +15,7 @@ from codegen.lab.study import MethodStudy
 from codegen.lab.typeset import typeset
 from codegen.scene.problem import Problem
 from orderconds.conditions import OrderCondition
-from orderconds.derive import derive
+from orderconds.derivation import derive
 from orderconds.families import names
 
 DEEPEST = 4

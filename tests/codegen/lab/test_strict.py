@@ -16,14 +16,14 @@ from codegen.ir.number import Number
 from codegen.ir.program import Assign, Coefficient, Program
 from codegen.lab.battery import fields, hamiltonians
 from codegen.lab.strict import stated_order, strict
-from codegen.lower import LOWERINGS
+from codegen.lower import names
 from codegen.method import Method, parse
 
 INVALID = Path(__file__).parents[2] / "invalid"
 
 
 def method(spelling: str) -> Method:
-    return parse(spelling, tuple(LOWERINGS))
+    return parse(spelling, names())
 
 
 def verdicts(spelling: str, stated: int | None = None, spoil: Callable[[Optimised], Optimised] = lambda c: c):

@@ -234,4 +234,4 @@ def test_a_file_without_end_is_refused() -> None:
     for arguments in (["check", "/dev/zero"], ["convert", "/dev/zero", "--from", "csv"]):
         result = CliRunner().invoke(program, arguments)
         assert result.exit_code == 2
-        assert "too large for a tableau" in result.output
+        assert "/dev/zero: not a regular file" in result.output

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 
-from orderconds.check import check
+from orderconds.checking import check
 from orderconds.cli import program
 
 

@@ -8,7 +8,7 @@ from itertools import pairwise
 import pytest
 
 from orderconds import families
-from orderconds.derive import derive
+from orderconds.derivation import derive
 from orderconds.errors import UnknownName
 from orderconds.explain import kinds
 from orderconds.explain.diagram import Diagram, Vertex, action, plain

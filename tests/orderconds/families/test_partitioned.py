@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from orderconds import families
-from orderconds.check import check
+from orderconds.checking import check
 from orderconds.errors import InputError, TableauError
 from orderconds.formula.brute_force import value
 from orderconds.ring import QQ, PowerSeries, Residues

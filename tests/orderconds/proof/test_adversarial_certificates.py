@@ -6,7 +6,7 @@ from random import Random
 
 import pytest
 
-from orderconds.check import check
+from orderconds import check
 from orderconds.proof.certificate import certify
 from orderconds.proof.krawczyk import NotProved
 from orderconds.tableau import Tableau
@@ -99,3 +99,31 @@ def test_a_spelling_of_exploding_degree_is_no_proof() -> None:
     text = one_stage(f"1/2 + z - {tiny}", "1 + w8 - w8", f'w0 = "1 + z - {tiny}"\n{powers}', f"{tiny}~")
     with pytest.raises(NotProved):
         certify(Tableau.loads(text))
+
+
+GAUSS = """name = "weighted"
+family = "rk"
+A = [["1/4", "1/4 - r/6"], ["1/4 + r/6", "1/4"]]
+b = ["w", "1 - w"]
+numbers = { w = "0.50000000~", r = "sqrt(3)" }
+[proof]
+conditions = "rk"
+order = 4
+reduction = "spelling"
+"""
+
+
+def test_combinations_over_the_field_of_one_square_root_are_verified() -> None:
+    assert certify(Tableau.loads(GAUSS)).equations == 1
+    assert certified(GAUSS, "rk") == [(4, "ball")]
+    assert certified(GAUSS.replace("sqrt(3)", f"sqrt(3 + {INVISIBLE})"), "rk") == []
+
+
+def test_combinations_with_coefficients_of_many_digits_are_verified() -> None:
+    many = COMPOSITION.replace('b2 = "1 - 2*b1"', 'b2 = "1 - 2*b1 + 0*b1/0.123456789012345678901234567891"')
+    assert certified(many, "vcg") == [(4, "ball")]
+    scaled = COMPOSITION.replace("b1 = ", "k = ").replace(
+        'b2 = "1 - 2*b1"',
+        'b1 = "1.123456789012345678901234567*(k - 1) + 1 - 0.123456789012345678901234567*(k-1)", b2 = "1 - 2*b1"',
+    )
+    assert certified(scaled, "vcg") == [(4, "ball")]

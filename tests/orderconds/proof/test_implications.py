@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from orderconds.check import check, family_order
+from orderconds.checking import check, family_order
 from orderconds.families import get
 from orderconds.proof.implications import least_order, settled
-from orderconds.proof.simplifying import simplified_order
 from orderconds.tableau import RungeKutta, Tableau, find
 from orderconds.tableau.collocation import construct
+from orderconds.tableau.simplifying import simplified_order
 
 
 @pytest.mark.parametrize(

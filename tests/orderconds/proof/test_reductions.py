@@ -6,11 +6,11 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
+from orderconds.proof.reductions import Reductions, reductions
 
 from orderconds import families
-from orderconds.check import family_order, read
+from orderconds.checking import family_order, read
 from orderconds.proof import reductions as module
-from orderconds.proof.reductions import Reductions, reductions
 from orderconds.ring import QQ
 from orderconds.series.action_lie import MuntheKaasActionSeries
 from orderconds.series.action_switching import representatives

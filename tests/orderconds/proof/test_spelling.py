@@ -5,25 +5,25 @@ from __future__ import annotations
 import pytest
 
 from orderconds import families
-from orderconds.check import check
+from orderconds.checking import check
 from orderconds.proof.certificate import certify
 from orderconds.proof.krawczyk import NotProved
-from orderconds.proof.spelling import independent_conditions
+from orderconds.proof.subfamily import independent_conditions
 from orderconds.solve.ansatz import ansatz
-from orderconds.solve.wishes import Wishes
+from orderconds.solve.spec import Spec
 from orderconds.tableau import Tableau, find
 from orderconds.tableau.file import text_of
 
 
-def counts(family: str, order: int, wishes: Wishes, structure: str) -> list[int]:
-    found = ansatz(family, wishes, structure)
+def counts(family: str, order: int, spec: Spec, structure: str) -> list[int]:
+    found = ansatz(family, spec, structure)
     conditions = independent_conditions(families.get(found.family), found.spelled(), order)
     return [sum(c.order == n for c in conditions) for n in range(1, order + 1)]
 
 
 @pytest.mark.parametrize(("family", "expected"), [("rk", [1, 1, 2, 4]), ("vcg", [1, 1, 6, 25])])
 def test_a_free_tableau_has_the_conditions_of_the_family(family: str, expected: list[int]) -> None:
-    assert counts(family, 4, Wishes(4), "full") == expected
+    assert counts(family, 4, Spec(4), "full") == expected
 
 
 def test_compositions_of_midpoints_have_one_condition_at_every_odd_order_first() -> None:
@@ -36,14 +36,14 @@ def test_compositions_of_midpoints_have_one_condition_at_every_odd_order_first()
 
 
 def test_right_abscissae_leave_few_conditions() -> None:
-    assert counts("vcg", 4, Wishes(4), "abscissae") == [0, 0, 1, 3]
-    assert counts("vcf", 4, Wishes(3), "abscissae") == [0, 0, 1, 4]
+    assert counts("vcg", 4, Spec(4), "abscissae") == [0, 0, 1, 3]
+    assert counts("vcf", 4, Spec(3), "abscissae") == [0, 0, 1, 4]
 
 
 def test_symmetric_methods_have_conditions_of_odd_order_only() -> None:
-    assert counts("vcf", 4, Wishes(2), "symmetric")[1::2] == [0, 0]
-    assert counts("cf", 4, Wishes(2, symmetric=True), "symmetric")[1::2] == [0, 0]
-    assert counts("rk", 4, Wishes(3, symmetric=True), "full")[1::2] == [0, 0]
+    assert counts("vcf", 4, Spec(2), "symmetric")[1::2] == [0, 0]
+    assert counts("cf", 4, Spec(2, symmetric=True), "symmetric")[1::2] == [0, 0]
+    assert counts("rk", 4, Spec(3, symmetric=True), "full")[1::2] == [0, 0]
 
 
 FILE = """name = "spelled"

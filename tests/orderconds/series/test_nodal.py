@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 from flint import arb, fmpq
 
-from orderconds.check import read
+from orderconds.checking import read
 from orderconds.families.elementary_weights import conjugate
 from orderconds.ring import QQ
 from orderconds.ring.precision import precision

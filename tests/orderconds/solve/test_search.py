@@ -14,10 +14,10 @@ from orderconds.solve.minimise import minimise
 from orderconds.solve.problem import find_problem
 from orderconds.solve.search import Batch, Checkpoint, Search, batches, run_batch, write_whole
 from orderconds.solve.solver import Order, solve
-from orderconds.solve.wishes import Wishes
+from orderconds.solve.spec import Spec
 
-SEARCH = Search("vcg", 3, Wishes(3), "abscissae", seed=3, minimised=True)
-ORDER = Order("vcg", 3, Wishes(3), seed=3, minimised=True, starts=256)
+SEARCH = Search("vcg", 3, Spec(3), "abscissae", seed=3, minimised=True)
+ORDER = Order("vcg", 3, Spec(3), seed=3, minimised=True, starts=256)
 
 
 def test_batches_survive_being_written() -> None:
@@ -34,7 +34,7 @@ def test_a_killed_search_resumed_gives_the_same_file(tmp_path: Path) -> None:
     record = json.loads(path.read_text())
     assert len(record["batches"]) == 2
     resumed = solve(
-        Order(ORDER.family, 3, ORDER.wishes, seed=3, minimised=True, starts=256, checkpoint=path)
+        Order(ORDER.family, 3, ORDER.spec, seed=3, minimised=True, starts=256, checkpoint=path)
     ).found
     assert resumed is not None
     assert resumed.text == whole.text
@@ -54,7 +54,7 @@ def test_the_checkpoint_is_used_and_not_computed_again(tmp_path: Path) -> None:
 def test_two_processes_give_the_same_file_as_one() -> None:
     pytest.importorskip("joblib")
     alone = solve(ORDER).found
-    together = solve(Order("vcg", 3, Wishes(3), seed=3, minimised=True, starts=256, processes=2)).found
+    together = solve(Order("vcg", 3, Spec(3), seed=3, minimised=True, starts=256, processes=2)).found
     assert alone is not None
     assert together is not None
     assert together.text == alone.text
@@ -80,7 +80,7 @@ def test_a_cluster_that_does_not_answer_is_named() -> None:
 def test_another_search_does_not_take_over_a_checkpoint(tmp_path: Path) -> None:
     path = tmp_path / "checkpoint"
     Checkpoint(path, SEARCH).add(Batch(0, 1.0))
-    other = Checkpoint(path, Search("vcg", 3, Wishes(3), "abscissae", seed=4))
+    other = Checkpoint(path, Search("vcg", 3, Spec(3), "abscissae", seed=4))
     with pytest.raises(InputError, match="another search"):
         other.load()
     path.write_text("{")
@@ -98,8 +98,8 @@ def test_a_file_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
 
 
 def test_minimising_stays_on_the_family_and_goes_down() -> None:
-    problem = find_problem("vcf", 4, Wishes(2), "abscissae")
-    start = np.array(run_batch(Search("vcf", 4, Wishes(2), "abscissae"), 0).solutions[-1][1])
+    problem = find_problem("vcf", 4, Spec(2), "abscissae")
+    start = np.array(run_batch(Search("vcf", 4, Spec(2), "abscissae"), 0).solutions[-1][1])
     before = float(np.linalg.norm(problem.error.values(start[None])[0]))
     point, size = minimise(problem, start)
     assert np.abs(problem.tape.values(point[None])).max() < 1e-12
@@ -122,9 +122,9 @@ def test_least_squares_says_when_there_is_no_solution() -> None:
 
 
 def test_bounds_hold() -> None:
-    wishes = Wishes(4, explicit=True, positive=("b", "a32"), size=None)
-    for score, point in run_batch(Search("rk", 4, wishes, "full"), 0).solutions:
-        problem = find_problem("rk", 4, wishes, "full")
+    spec = Spec(4, explicit=True, positive=("b", "a32"), size=None)
+    for score, point in run_batch(Search("rk", 4, spec, "full"), 0).solutions:
+        problem = find_problem("rk", 4, spec, "full")
         values = problem.coefficients.values(np.array([point]))[0]
         named = dict(zip(problem.ansatz.cells, values, strict=False))
         assert min(named[f"b{i}"] for i in range(1, 5)) > 0.009

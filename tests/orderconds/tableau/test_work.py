@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from orderconds import check
-from orderconds.check import read
+from orderconds.checking import read
 from orderconds.tableau import Tableau
 from orderconds.tableau.work import Work, work
 

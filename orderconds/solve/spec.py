@@ -10,7 +10,7 @@ from orderconds.errors import InputError
 
 
 @dataclass(frozen=True)
-class Wishes:
+class Spec:
     """What a user asks of a method: the options of ``orderconds solve``.
 
     ``exponentials`` are those of the update of a commutator-free method, ``inner`` those of each of its
@@ -30,14 +30,14 @@ class Wishes:
     rkn: bool = False
 
 
-def refuse(family: str, wishes: Wishes, options: Sequence[str]) -> None:
+def refuse(family: str, spec: Spec, options: Sequence[str]) -> None:
     """Raise :class:`~orderconds.errors.InputError` for an option that has no meaning in a family.
 
-    >>> refuse("rk", Wishes(stages=2), ("rkn",))
+    >>> refuse("rk", Spec(stages=2), ("rkn",))
     """
-    plain = Wishes(wishes.stages)
+    plain = Spec(spec.stages)
     for option in options:
-        if getattr(wishes, option) != getattr(plain, option):
+        if getattr(spec, option) != getattr(plain, option):
             raise InputError(
                 f"family {family} has no methods with --{option}", where="solve", expected="other options"
             )

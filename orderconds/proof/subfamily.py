@@ -17,8 +17,9 @@ from __future__ import annotations
 from orderconds.conditions import OrderCondition
 from orderconds.families import Family
 from orderconds.proof.dependence import dependences
-from orderconds.proof.draws import Draws
-from orderconds.proof.exact_member import Reading, description, exact_member, lone_square_root
+from orderconds.proof.exact_member import Reading, exact_member, lone_square_root
+from orderconds.ring.draws import Draws
+from orderconds.tableau.random_member import description
 from orderconds.tableau.unknowns import Spelled
 
 
@@ -39,7 +40,7 @@ def independent_conditions(
     """
     candidates = decisive_conditions(family, order)
     everything = tuple(c for of_order in candidates for c in of_order)
-    draws = Draws(description(family, spelled, order))
+    draws = Draws(family.label(), str(order), description(spelled))
     surd = lone_square_root(spelled)
     member = exact_member(family, spelled, everything, draws, surd, read)
     if member is None:
@@ -60,5 +61,4 @@ def decisive_conditions(family: Family, order: int) -> list[tuple[OrderCondition
     >>> [len(of_order) for of_order in decisive_conditions(families.get("vcg"), 3)]
     [1, 2, 10]
     """
-    decisive = getattr(family, "decisive_conditions", family.conditions)
-    return [decisive(n) for n in range(1, order + 1)]
+    return [family.decisive_conditions(n) for n in range(1, order + 1)]

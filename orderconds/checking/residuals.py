@@ -12,18 +12,22 @@ from dataclasses import dataclass, field
 from decimal import Context, Decimal
 from functools import cache, cached_property, partial
 from math import factorial
-from typing import Any
+from typing import TYPE_CHECKING
 
 from flint import fmpq
 
-from orderconds import families
 from orderconds.conditions import OrderCondition
 from orderconds.families import Family
-from orderconds.families.once import Once
+from orderconds.families.memo import Memo
 from orderconds.ring import Balls, Element, NumberField, Ring
 from orderconds.ring.decimals import endpoints, rational_decimal
 from orderconds.ring.field import Algebraic
 from orderconds.series.nodal import nodal_algebra
+from orderconds.tableau.methods import PartitionedRungeKutta, RungeKutta
+from orderconds.tableau.products import Method
+
+if TYPE_CHECKING:
+    from flint import arb
 
 RESOLUTION = Decimal("1e-3")
 """A ball supports a condition of order n only when its radius is at most this part of 1/n!, the smallest
@@ -36,9 +40,6 @@ ENCLOSING = Balls(BITS)
 DIGITS = 20
 ROUNDED = Context(prec=DIGITS)
 
-OVER_Q = ("rk", "prk", "prk_same_weights", "sprk")
-"""Families that use :mod:`orderconds.series.nodal`."""
-
 
 @dataclass(frozen=True, eq=False)
 class Failure:
@@ -47,7 +48,7 @@ class Failure:
     condition: OrderCondition
     ring: Ring = field(repr=False)
     exact: Callable[[], Element] = field(repr=False)
-    enclosure: Any = field(default=None, repr=False)
+    enclosure: arb | None = field(default=None, repr=False)
     """A flint ball around the value, where it is known without it."""
 
     @cached_property
@@ -99,7 +100,11 @@ class Failure:
 
 
 def judge(
-    family: Family, method: Any, ring: Ring, conditions: Sequence[OrderCondition], balls_first: bool = False
+    family: Family,
+    method: Method,
+    ring: Ring,
+    conditions: Sequence[OrderCondition],
+    balls_first: bool = False,
 ) -> tuple[set[str], tuple[Failure, ...]]:
     """Return the verdicts that occur, and the conditions that fail.
 
@@ -108,7 +113,8 @@ def judge(
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss2 = Tableau.load(find("gauss2"))
-    >>> cg = families.get("cg")
+    >>> from orderconds.families import get
+    >>> cg = get("cg")
     >>> for first in (False, True):
     ...     verdicts, failing = judge(cg, gauss2.method, gauss2.ring, cg.conditions(3), first)
     ...     print(sorted(verdicts), [(f.condition.tree, f.residual) for f in failing])
@@ -117,7 +123,7 @@ def judge(
     """
     if balls_first and isinstance(ring, NumberField) and conditions and not _over_q(family, method, ring):
         return _by_balls(family, method, ring, conditions)
-    residuals = families.residuals(family, method, ring, conditions)
+    residuals = family.residuals(method, ring, conditions)
     judged = [_verdict(ring, x, c.order) for c, x in zip(conditions, residuals, strict=True)]
     failing = tuple(
         Failure(condition, ring, partial(_itself, residual))
@@ -128,13 +134,13 @@ def judge(
 
 
 def _by_balls(
-    family: Family, method: Any, ring: NumberField, conditions: Sequence[OrderCondition]
+    family: Family, method: Method, ring: NumberField, conditions: Sequence[OrderCondition]
 ) -> tuple[set[str], tuple[Failure, ...]]:
     balls = ENCLOSING
     enclosed = _ENCLOSED(method, ring)
-    around = families.residuals(family, enclosed, balls, conditions)
+    around = family.residuals(enclosed, balls, conditions)
     doubtful = [c for c, x in zip(conditions, around, strict=True) if balls.is_zero(x) is not False]
-    exact = iter(families.residuals(family, method, ring, doubtful))
+    exact = iter(family.residuals(method, ring, doubtful))
     on_demand = _OnDemand(family, method, ring, conditions)
     verdicts, failing = set[str](), []
     for place, (condition, ball) in enumerate(zip(conditions, around, strict=True)):
@@ -147,23 +153,28 @@ def _by_balls(
     return verdicts | ({"fails"} if failing else set()), tuple(failing)
 
 
-def _enclosed(method: Any, ring: Any) -> Any:
+def _enclosed(method: Method, ring: Ring) -> Method:
+    assert isinstance(ring, NumberField)
     return method.map(cache(lambda x: ENCLOSING.enclose(ring.ball(x, BITS))))
 
 
-_ENCLOSED = Once(_enclosed)
+_ENCLOSED = Memo(_enclosed)
 
 
-def _over_q(family: Family, method: Any, ring: NumberField) -> bool:
+def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
     """Say whether the family evaluates the method without arithmetic in the field, faster than in balls."""
-    return family.name in OVER_Q and nodal_algebra(ring, (method.A,), method.b) is not None
+    if not (family.over_rationals and isinstance(method, RungeKutta | PartitionedRungeKutta)):
+        return False
+    return nodal_algebra(ring, (method.A,), method.b) is not None
 
 
 class _OnDemand:
     """Exact residuals: the first that is asked for alone, all others together when a second one is."""
 
-    def __init__(self, family: Family, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> None:
-        self._evaluate = partial(families.residuals, family, method, ring)
+    def __init__(
+        self, family: Family, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
+    ) -> None:
+        self._evaluate = partial(family.residuals, method, ring)
         self._conditions = conditions
         self._known: dict[int, Element] = {}
 
@@ -178,7 +189,7 @@ class _OnDemand:
         return (k for k in range(len(self._conditions)) if k not in self._known)
 
 
-def _rational(x: Element) -> Any:
+def _rational(x: Element) -> fmpq | None:
     """Return an exact number as a quotient, None where it is none or a ball."""
     if isinstance(x, Algebraic):
         return x.rational_value if x.is_rational else None

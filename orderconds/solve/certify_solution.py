@@ -16,7 +16,7 @@ from fractions import Fraction
 import numpy as np
 from flint import arb, arb_mat
 
-from orderconds.check import check
+from orderconds.checking import check, claimable_families
 from orderconds.proof.certificate import certify
 from orderconds.proof.krawczyk import NotProved, jets
 from orderconds.proof.refine import decimal_places
@@ -24,7 +24,6 @@ from orderconds.ring import Ring
 from orderconds.ring.jets import Jets
 from orderconds.ring.precision import precision
 from orderconds.ring.traces import evaluate
-from orderconds.served import served
 from orderconds.solve.ansatz import Ansatz, renamed
 from orderconds.solve.closed_form import Spelling, spellings
 from orderconds.solve.least_squares import least_squares
@@ -33,7 +32,7 @@ from orderconds.solve.search import CHEAP, POLISHED
 from orderconds.solve.tape import Floats
 from orderconds.tableau import CommutatorFree, Method, Stage, Tableau, dumps
 from orderconds.tableau.grammar import Constant
-from orderconds.tableau.indeterminates import radicals
+from orderconds.tableau.random_member import radicals
 from orderconds.tableau.properties import properties
 from orderconds.tableau.record import Claims, OrderClaim
 from orderconds.tableau.toml_text import toml_text
@@ -72,15 +71,15 @@ class Found:
     error: float | None
 
 
-def finish(
+def certify_solution(
     problem: Problem, point: Sequence[float], name: str, source: str, *, minimised: bool = False
 ) -> Found:
     """Return the file of a solution near ``point``; raises NotProved where nothing can be proved.
 
-    >>> from orderconds.solve.wishes import Wishes
+    >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem
-    >>> problem = find_problem("rk", 2, Wishes(stages=2, explicit=True), "full")
-    >>> found = finish(problem, [0.27, 0.73, 0.68], "two", "an example")
+    >>> problem = find_problem("rk", 2, Spec(stages=2, explicit=True), "full")
+    >>> found = certify_solution(problem, [0.27, 0.73, 0.68], "two", "an example")
     >>> found.certificate, found.text.splitlines()[2:4]
     ('exact', ['A = [[], ["1"]]', 'b = ["1/2", "1/2"]'])
     """
@@ -294,17 +293,16 @@ def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Found:
         certify(tableau)
     claims: list[OrderClaim] = []
     certificate, holds = "", False
-    for name in served(tableau):
-        cutoffs: Sequence[int | None] = (0, 1, 2) if name in ("rkmk", "vrkmk") else (None,)
+    for family in claimable_families(tableau):
         reached = 0
-        for cutoff in cutoffs:
-            label = name if cutoff is None else f"{name}({cutoff})"
+        for variant in family.claimed_variants():
+            label = variant.label()
             order = check(tableau, label).orders[0]
             if order.certificate == "decimal" or order.order <= reached:
                 break
             reached = order.order
-            claims.append(OrderClaim(name, cutoff, order.order))
-            if name == problem.ansatz.family or label == problem.ansatz.family:
+            claims.append(variant.claim(order.order))
+            if problem.ansatz.family in (family.label(), label):
                 certificate, holds = order.certificate, order.order >= problem.order
     if not certificate:
         order = check(tableau, problem.ansatz.family).orders[0]
@@ -323,19 +321,20 @@ def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Found:
 
 
 def principal_error(tableau: Tableau, family: str, order: int) -> float | None:
-    """Return the 2-norm of the residuals of this order, as :func:`principal_residuals` names them.
+    """Return the 2-norm of the residuals of this order.
 
-    >>> from orderconds.check import read
+    Which they are is a question of the family (:meth:`orderconds.families.Family.principal_residuals`).
+
+    >>> from orderconds.checking import read
     >>> round(principal_error(read("suzuki4"), "vcg", 5), 6)
     0.054372
     """
     from orderconds import families
     from orderconds.ring.traces import Traces
-    from orderconds.solve.problem import principal_residuals
     from orderconds.solve.tape import Tape
 
     found = families.get(family)
-    if found.name in ("vcf", "vcg") and order > 6:
+    if found.principal_error_limit is not None and order > found.principal_error_limit:
         return None
     proved = certify(tableau).tableau if tableau.proof is not None else tableau
     numbers: list[float] = []
@@ -360,5 +359,7 @@ def principal_error(tableau: Tableau, family: str, order: int) -> float | None:
 
     method = proved.method.map(traced)
     read = replace(proved, ring=ring, method=method).read_as(found.formats)
-    tape = Tape(principal_residuals(found, read, ring, order), width)
+    if read is None:
+        return None
+    tape = Tape(found.principal_residuals(read, ring, order), width)
     return float(np.linalg.norm(tape.values(np.array([numbers]))[0]))

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
 
 from flint import fmpq_poly
 
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.nodal import NodalAlgebra, nodal_algebra
 from orderconds.tableau.methods import RungeKutta
-from orderconds.tableau.properties import symplectic
 
 
 def simplifying_order(B: int, C: int, D: int) -> int:
@@ -22,7 +20,7 @@ def simplifying_order(B: int, C: int, D: int) -> int:
     return min(B, C + D + 1, 2 * C + 2)
 
 
-def simplifying(method: Any, ring: Ring, assumptions: Mapping[str, int]) -> Iterator[Element]:
+def simplifying(method: RungeKutta, ring: Ring, assumptions: Mapping[str, int]) -> Iterator[Element]:
     """Yield the simplifying assumptions B(p), C(q), D(r), for k = 1, ... up to p, q, r.
 
     B: sum b_i c_i^(k-1) = 1/k; C: sum_j a_ij c_j^(k-1) = c_i^k/k, where k = 1 defines c;
@@ -54,20 +52,14 @@ def _dot(x: Sequence[Element], y: Sequence[Element], ring: Ring) -> Element:
     return sum((p * q for p, q in zip(x, y, strict=True)), ring.zero)
 
 
-def simplified_order(method: RungeKutta, ring: Ring, order: int) -> int:
-    """Return an order that a tableau of this order under ``rk`` has under ``sprk``, seen without trees.
-
-    Where ahat = a, it is the same. Otherwise C(m) and D(m) of a with B(2m) give C(m) and D(m) of ahat, by its
-    definition; trees with edges of both kinds then simplify as those with one do in Butcher's theorem, since
-    c = chat, and the order is at least min(p, 2m + 1) (Jay 1996, for Lobatto pairs).
+def highest_assumptions(method: RungeKutta, ring: Ring, order: int) -> int:
+    """Return the highest m with 2m <= ``order`` for which C(m) and D(m) hold.
 
     >>> from orderconds.tableau.collocation import construct
     >>> radau = construct("radau2a", 3)
-    >>> simplified_order(radau.method, radau.ring, 5)
-    5
+    >>> highest_assumptions(radau.method, radau.ring, 5)
+    2
     """
-    if symplectic(method, ring) is True:
-        return order
     algebra = nodal_algebra(ring, (method.A,), method.b)
 
     def holds(m: int) -> bool:
@@ -78,7 +70,7 @@ def simplified_order(method: RungeKutta, ring: Ring, order: int) -> int:
     m = 0
     while 2 * (m + 1) <= order and holds(m + 1):
         m += 1
-    return min(order, 2 * m + 1)
+    return m
 
 
 def _simplifies(algebra: NodalAlgebra, m: int) -> bool:

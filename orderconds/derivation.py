@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import chain
-from typing import Any
 
 from orderconds import families
 from orderconds.conditions import OrderCondition
@@ -32,7 +31,7 @@ class Derivation:
         """All conditions, by increasing order."""
         return tuple(chain.from_iterable(self.by_order))
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, object]:
         """Return the JSON object of ``orderconds derive --format json``."""
         return {
             "family": self.family,
@@ -42,12 +41,12 @@ class Derivation:
         }
 
 
-def derive(family: str, order: int, *, every: bool = False, **options: Any) -> Derivation:
+def derive(family: str, order: int, *, every: bool = False, **options: int | None) -> Derivation:
     """Derive the independent order conditions of ``family`` up to ``order``; with ``every`` all trees'.
 
     ``options`` are the family's own, as ``cutoff`` of RKMK; they may stand in the name too: ``"rkmk(1)"``.
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family and
-    :class:`~orderconds.errors.InputError` for an order below 1.
+    :class:`~orderconds.errors.InputError` for an order below 1, or beyond the highest that the family has.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation.counts

@@ -1,4 +1,4 @@
-"""How the coefficients of each kind of tableau are named, constrained and laid out in a file."""
+"""The parametrisation of methods in a search: coefficients named, constrained and laid out in a file."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from orderconds.errors import InputError
+from orderconds.families import Family
 from orderconds.solve.abscissae import (
     WHERE,
     commutator_free_times,
@@ -16,13 +17,13 @@ from orderconds.solve.abscissae import (
 )
 from orderconds.solve.ansatz import Ansatz
 from orderconds.solve.linear import Constraint, Elimination, equal, equality, named, spell, sum_to_one, zero
-from orderconds.solve.wishes import Wishes, refuse
+from orderconds.solve.spec import Spec, refuse
 
 
-def _eliminated(names: Sequence[str], wishes: Wishes, constraints: Sequence[Constraint]) -> Elimination:
+def _eliminated(names: Sequence[str], spec: Spec, constraints: Sequence[Constraint]) -> Elimination:
     """Return the coefficients after a layout's own constraints and those of ``--fix``."""
     found = Elimination(tuple(names))
-    fixed = [equality(text) for text in wishes.fix]
+    fixed = [equality(text) for text in spec.fix]
     for constraint in fixed:
         for name in constraint.form:
             if name and name not in names:
@@ -71,30 +72,36 @@ def _row(cells: _Cells, names: Sequence[str], full: bool = False) -> str:
     return "[" + ", ".join(f'"{x}"' for x in spelled) + "]"
 
 
-def _runge_kutta(family: str, wishes: Wishes, structure: str, name: str) -> Ansatz:
-    refuse(family, wishes, ("rkn", "exponentials", "inner"))
-    s = wishes.stages
+def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
+    """Return the ansatz of tableaux (A, b).
+
+    >>> from orderconds.families import get
+    >>> runge_kutta(get("rk"), Spec(stages=1), "full", "m").free
+    ('b1', 'a11')
+    """
+    refuse(family.label(), spec, ("rkn", "exponentials", "inner"))
+    s = spec.stages
     A = [[named("a", i + 1, j + 1) for j in range(s)] for i in range(s)]
     b = [named("b", i + 1) for i in range(s)]
     names = [*b, *(x for line in A for x in line)]
     constraints = []
-    if wishes.explicit or wishes.dirk:
-        why = "--explicit" if wishes.explicit else "--dirk"
-        last = 0 if wishes.explicit else 1
+    if spec.explicit or spec.dirk:
+        why = "--explicit" if spec.explicit else "--dirk"
+        last = 0 if spec.explicit else 1
         constraints += [zero(A[i][j], why) for i in range(s) for j in range(i + last, s)]
-    if wishes.symmetric:
+    if spec.symmetric:
         constraints += [equal("--symmetric", (1, b[s - 1 - i]), (-1, b[i])) for i in range(s // 2)]
         constraints += [
             equal("--symmetric", (1, A[s - 1 - i][s - 1 - j]), (1, A[i][j]), (-1, b[j]))
             for i in range(s)
             for j in range(s)
         ]
-    if wishes.fsal:
+    if spec.fsal:
         constraints += [equal("--fsal", (1, A[s - 1][j]), (-1, b[j])) for j in range(s)]
         constraints += [zero(A[0][j], "--fsal") for j in range(s)]
     if structure == "abscissae":
         constraints.append(sum_to_one(b))
-    found = _eliminated(names, wishes, constraints)
+    found = _eliminated(names, spec, constraints)
     extra = {}
     if structure == "abscissae":
         weights = [_Cells(found).written(x) for x in b]
@@ -108,7 +115,8 @@ def _runge_kutta(family: str, wishes: Wishes, structure: str, name: str) -> Ansa
         *_matrix(rows),
         f"b = {_row(cells, b, full=True)}",
     )
-    return Ansatz(family, name, structure, body, free, cells.numbers(names), cells.unknown(names))
+    label = family.solved_as(spec.rkn)
+    return Ansatz(label, name, structure, body, free, cells.numbers(names), cells.unknown(names))
 
 
 def _fixed(A: Sequence[Sequence[str]], found: Elimination) -> dict[str, str]:
@@ -130,20 +138,26 @@ def _matrix(rows: Sequence[str]) -> list[str]:
     return [line] if len(line) <= 110 else ["A = [", *(f"  {x}," for x in rows), "]"]
 
 
-def _commutator_free(family: str, wishes: Wishes, structure: str, name: str) -> Ansatz:
+def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
+    """Return the ansatz of stages and an update that are products of exponentials.
+
+    >>> from orderconds.families import get
+    >>> commutator_free(get("cf"), Spec(stages=1, exponentials=1, inner=1), "full", "m").free
+    ('b1_1', 'a1_1_1')
+    """
     from orderconds.solve.paths import full_paths, symmetric_paths
 
-    refuse(family, wishes, ("rkn", "fsal"))
+    refuse(family.label(), spec, ("rkn", "fsal"))
     make = symmetric_paths if structure.startswith("symmetric") else full_paths
-    stages, update, names, constraints = make(wishes)
+    stages, update, names, constraints = make(spec)
     extra: dict[str, str] = {}
     if structure.endswith("abscissae"):
         constraints.append(sum_to_one([x for line in update for x in line]))
-    totals = _gauss(wishes.stages) if structure.endswith("gauss") else {}
+    totals = _gauss(spec.stages) if structure.endswith("gauss") else {}
     if totals:
         constraints += _totals(stages, update, totals)
         names = [*totals, *names]
-    found = _eliminated(names, wishes, constraints)
+    found = _eliminated(names, spec, constraints)
     extra |= {name: text for name, text in totals.items() if name in found.free}
     if structure == "abscissae":
         extra = _abscissae(stages, update, found)
@@ -158,7 +172,8 @@ def _commutator_free(family: str, wishes: Wishes, structure: str, name: str) -> 
         tail += ["[[stage]]", *_exponentials(stage, cells)]
     tail += ["[update]", *_exponentials(update, cells)]
     body = (f'name = "{name}"', 'family = "cf"')
-    return Ansatz(family, name, structure, body, free, numbers, cells.unknown(names), tuple(tail))
+    label = family.solved_as(spec.rkn)
+    return Ansatz(label, name, structure, body, free, numbers, cells.unknown(names), tuple(tail))
 
 
 def _abscissae(
@@ -251,9 +266,15 @@ def _exponentials(rows: Sequence[Sequence[str]], cells: _Cells) -> list[str]:
     return [text] if len(text) <= 110 else ["exp = [", *(f"  {x}," for x in spelled), "]"]
 
 
-def _composition(family: str, wishes: Wishes, structure: str, name: str) -> Ansatz:
-    refuse(family, wishes, ("rkn", "fsal", "explicit", "dirk", "exponentials", "inner"))
-    s = wishes.stages
+def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
+    """Return the ansatz of compositions whose steps read the same backwards and sum to one.
+
+    >>> from orderconds.families import get
+    >>> composition(get("composition"), Spec(stages=3), "full", "m").free
+    ('g1',)
+    """
+    refuse(family.label(), spec, ("rkn", "fsal", "explicit", "dirk", "exponentials", "inner"))
+    s = spec.stages
     gamma = [named("g", i + 1) for i in range(s)]
     total = Constraint("the steps sum to 1", {**dict.fromkeys(gamma, Fraction(1)), "": Fraction(-1)})
     mirrored = [
@@ -264,7 +285,7 @@ def _composition(family: str, wishes: Wishes, structure: str, name: str) -> Ansa
     found = Elimination(tuple(order))
     found.impose(mirrored)
     names = [x for x in order if x not in found.solved]
-    found = _eliminated(order, wishes, [*mirrored, total])
+    found = _eliminated(order, spec, [*mirrored, total])
     cells = _Cells(found)
     body = (
         f'name = "{name}"',
@@ -272,17 +293,22 @@ def _composition(family: str, wishes: Wishes, structure: str, name: str) -> Ansa
         'base = "symmetric-2"',
         f"gamma = {_row(cells, gamma, full=True)}",
     )
-    return Ansatz(
-        "symmetric_composition", name, structure, body, found.free, cells.numbers(order), cells.unknown(names)
-    )
+    label = family.solved_as(spec.rkn)
+    return Ansatz(label, name, structure, body, found.free, cells.numbers(order), cells.unknown(names))
 
 
-def _splitting(family: str, wishes: Wishes, structure: str, name: str) -> Ansatz:
-    refuse(family, wishes, ("fsal", "explicit", "dirk", "exponentials", "inner"))
-    s = wishes.stages
+def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
+    """Return the ansatz of splittings T + V that begin and end with T.
+
+    >>> from orderconds.families import get
+    >>> splitting(get("splitting"), Spec(stages=1), "full", "m").free
+    ('a1',)
+    """
+    refuse(family.label(), spec, ("fsal", "explicit", "dirk", "exponentials", "inner"))
+    s = spec.stages
     a, b = ([named(x, i + 1) for i in range(n)] for x, n in (("a", s + 1), ("b", s)))
     constraints = []
-    if wishes.symmetric:
+    if spec.symmetric:
         constraints += [
             equal("--symmetric", (1, x[len(x) - 1 - i]), (-1, x[i]))
             for x in (a, b)
@@ -293,7 +319,7 @@ def _splitting(family: str, wishes: Wishes, structure: str, name: str) -> Ansatz
         Constraint("the steps of a part sum to 1", {**dict.fromkeys(x, Fraction(1)), "": Fraction(-1)})
         for x in (a, b)
     ]
-    found = _eliminated(order, wishes, constraints)
+    found = _eliminated(order, spec, constraints)
     cells = _Cells(found)
     steps = [f'["T", "{cells.written(a[0])}"]']
     for i in range(s):
@@ -302,18 +328,64 @@ def _splitting(family: str, wishes: Wishes, structure: str, name: str) -> Ansatz
         f'name = "{name}"',
         'family = "splitting"',
         'parts = ["T", "V"]',
-        *(['rkn = "V"'] if wishes.rkn else []),
+        *(['rkn = "V"'] if spec.rkn else []),
         "step = [",
         *(f"  {x}," for x in steps),
         "]",
     )
-    label = "rkn" if wishes.rkn else family
+    label = family.solved_as(spec.rkn)
     return Ansatz(label, name, structure, body, found.free, cells.numbers(order), cells.unknown(order))
 
 
-LAYOUTS: dict[str, Callable[[str, Wishes, str, str], Ansatz]] = {
-    **dict.fromkeys(("rk", "cg", "rkmk", "vcg", "vrkmk", "sprk", "symplectic_rk"), _runge_kutta),
-    **dict.fromkeys(("cf", "vcf"), _commutator_free),
-    **dict.fromkeys(("composition", "symmetric_composition"), _composition),
-    **dict.fromkeys(("splitting", "rkn"), _splitting),
+def tableau_structures(family: Family, spec: Spec) -> tuple[str, ...]:
+    """Return the structures of tableaux (A, b) in which a search begins, the most promising first.
+
+    >>> from orderconds.families import get
+    >>> [tableau_structures(get(name), Spec(stages=3)) for name in ("vcg", "cg")]
+    [('abscissae', 'full'), ('full',)]
+    """
+    return ("abscissae", "full") if family.equal_abscissae and not spec.explicit else ("full",)
+
+
+def path_structures(family: Family, spec: Spec) -> tuple[str, ...]:
+    """Return the structures of commutator-free methods.
+
+    >>> from orderconds.families import get
+    >>> path_structures(get("vcf"), Spec(stages=3, symmetric=True))
+    ('symmetric gauss', 'symmetric abscissae', 'symmetric')
+    """
+    if not spec.symmetric:
+        return tableau_structures(family, spec)
+    first = ("symmetric gauss", "symmetric abscissae") if family.equal_abscissae else ()
+    return (*first, "symmetric")
+
+
+def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:
+    """Return the one structure of compositions and splittings.
+
+    >>> from orderconds.families import get
+    >>> one_structure(get("splitting"), Spec(stages=3))
+    ('full',)
+    """
+    return ("full",)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How the coefficients of one tableau format are parametrised.
+
+    ``ansatz`` takes a family, what is asked of the method, a structure and a name; ``structures`` returns the
+    structures in which a search begins.
+    """
+
+    ansatz: Callable[[Family, Spec, str, str], Ansatz]
+    structures: Callable[[Family, Spec], tuple[str, ...]]
+
+
+LAYOUTS = {
+    "rk": Layout(runge_kutta, tableau_structures),
+    "cf": Layout(commutator_free, path_structures),
+    "composition": Layout(composition, one_structure),
+    "splitting": Layout(splitting, one_structure),
 }
+"""Tableau format to its layout: :attr:`orderconds.families.Family.unknowns` names one of them."""
