@@ -97,6 +97,21 @@ def family_order(
     return _Search(family, method, tableau.ring, spared).run(claimed, required, bound, brief)
 
 
+def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
+    """Return the one condition of this order that fails first in the family, where a method does not meet it.
+
+    >>> from orderconds.families import get
+    >>> from orderconds.tableau import find
+    >>> gauss3 = Tableau.load(find("gauss3"))
+    >>> [failure.condition.tree for failure in first_failing(gauss3, get("vrkmk(1)"), 4)]
+    ['o(o|L(o o))']
+    """
+    condition = family.first_unmet(order)
+    if condition is None:
+        return ()
+    return judge(family, _method(tableau, family), tableau.ring, [condition])[1]
+
+
 @dataclass(frozen=True)
 class _Search:
     """A family, a method as the family reads it, and the conditions of it that need not be evaluated."""

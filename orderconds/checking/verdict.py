@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orderconds import families
-from orderconds.checking.order import FamilyOrder, family_order
+from orderconds.checking.order import FamilyOrder, family_order, first_failing
 from orderconds.checking.report import EmbeddedOrder, Report
 from orderconds.errors import InputError
 from orderconds.families import Family
@@ -96,7 +96,8 @@ def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | Non
         bound = None if label == own else _bound(family, known)
         found[label] = family_order(lower, family, claimed, None, bound, _proved(known), brief=True)
     orders = {label: family.order for label, family in found.items()}
-    return EmbeddedOrder(claimed, orders, own, found[own].failing)
+    certificates = {label: family.certificate for label, family in found.items()}
+    return EmbeddedOrder(claimed, orders, certificates, own, found[own].failing)
 
 
 def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
@@ -107,9 +108,11 @@ def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
     from orderconds.proof.krawczyk import NotProved
 
     try:
-        return certify(tableau), []
+        proof = certify(tableau)
     except NotProved as problem:
         return None, [f"no proof: {problem}"]
+    hint = "orderconds refine writes its digits"
+    return proof, [f"the decimal {misrounded}; {hint}" for misrounded in proof.misrounded]
 
 
 def _orders(
@@ -127,6 +130,8 @@ def _orders(
             bound = _bound(family, found)
             order = family_order(tableau, family, claimed, required, bound, _proved(found))
             known = _certified(order, family, facts)
+            if known.limit is not None and not beside:
+                known = _beyond(tableau, family, known, facts)
         else:
             known = replace(known, claimed=claimed, required=required)
         found.append(known)
@@ -139,11 +144,33 @@ def _beside(
     """Return families, beside those wanted, from whose orders a claim beyond a family's limit may follow."""
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
-    labels = {family.label() for family, _ in wanted}
+    return _bounding(tableau, {family.label() for family, _ in wanted})
+
+
+def _bounding(tableau: Tableau, labels: Collection[str]) -> list[tuple[Family, int | None]]:
+    """Return the families that bound the orders of others, but for those named, with their claims."""
     from orderconds.checking.claimable import claimable_families
 
     bounding = (f for f in claimable_families(tableau) if f.bounds_others and f.label() not in labels)
     return [(family, tableau.claims.order(family.name)) for family in bounding]
+
+
+def _beyond(tableau: Tableau, family: Family, ended: FamilyOrder, facts: tuple[Fact, ...]) -> FamilyOrder:
+    """Return the order where theorems decide it beyond the end of the search, else ``ended``.
+
+    They bound it from below; from above, the order in another family does, or one condition that fails.
+    """
+    if ended.certificate == "decimal":
+        return ended
+    found = [family_order(tableau, other, claim) for other, claim in _bounding(tableau, [family.label()])]
+    known = _settled(tableau, family, found, facts)
+    if known is not None:
+        return replace(known, claimed=ended.claimed, required=ended.required)
+    from orderconds.proof.implications import least_order
+
+    least = least_order((*facts, *_proved(found).items()), family)
+    failing = first_failing(tableau, family, least + 1) if least >= ended.order else ()
+    return replace(ended, order=least, failing=failing, limit=None) if failing else ended
 
 
 def _bound(family: Family, found: Sequence[FamilyOrder]) -> FamilyOrder | None:

@@ -21,6 +21,7 @@ from orderconds.processes import in_processes
 
 if TYPE_CHECKING:
     from orderconds.checking import FamilyOrder, Report
+    from orderconds.checking.report import EmbeddedOrder
     from orderconds.proof.certificate import Certificate
     from orderconds.tableau.work import Work
 
@@ -197,8 +198,7 @@ def _print_report(report: Report, *, detailed: bool) -> None:
     for broken in report.broken_claims:
         click.echo(f"  claim fails: {broken}")
     if report.embedded is not None:
-        told = ", ".join(f"{order} ({label})" for label, order in report.embedded.orders.items())
-        click.echo(f"  embedded row: order {told}")
+        click.echo(f"  embedded row: order {_embedded(report.embedded)}")
     if report.proof is not None:
         click.echo(f"  proof: {_proof(report.proof)}")
     if report.work:
@@ -209,6 +209,14 @@ def _print_report(report: Report, *, detailed: bool) -> None:
         names = [name for name, why in report.undecided.items() if why == reason]
         click.echo(f"  undecided: {', '.join(names)} ({reason})")
     click.echo()
+
+
+def _embedded(embedded: EmbeddedOrder) -> str:
+    """Return the orders of an embedded row and their certificates, each certificate once."""
+    groups: dict[str, list[str]] = {}
+    for label, order in embedded.orders.items():
+        groups.setdefault(embedded.certificates[label], []).append(f"{order} ({label})")
+    return "; ".join(f"{', '.join(orders)}, certificate: {name}" for name, orders in groups.items())
 
 
 def _work(work: dict[str, Work]) -> str:

@@ -259,6 +259,10 @@ class Family(ABC):
         """Return a family with fewer conditions that imply all of this one's for this method, or None."""
         return None
 
+    def first_unmet(self, order: int) -> OrderCondition | None:
+        """Return the condition that fails first where no member of the family has this order, or None."""
+        return None
+
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
         """Return which trees do not see the cut of dexpinv, None for a family without one."""
         return None

@@ -82,6 +82,12 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         assert isinstance(key, bytes)
         return longest_word(key)
 
+    def first_unmet(self, order: int) -> OrderCondition | None:
+        """Return the condition of the word ``[.] . ... .``, on which a cut of dexpinv shows first."""
+        if self.cutoff is None or order < 3:
+            return None
+        return self._of([b"\0\1" + b"\0" * (order - 2)])[0]
+
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return those of :meth:`conditions` that do not follow from the others and from lower ones.
 

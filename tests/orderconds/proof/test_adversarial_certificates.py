@@ -124,6 +124,50 @@ def test_combinations_with_coefficients_of_many_digits_are_verified() -> None:
     assert certified(many, "vcg") == [(4, "ball")]
     scaled = COMPOSITION.replace("b1 = ", "k = ").replace(
         'b2 = "1 - 2*b1"',
-        'b1 = "1.123456789012345678901234567*(k - 1) + 1 - 0.123456789012345678901234567*(k-1)", b2 = "1 - 2*b1"',
+        'm = "123456789012345678901234567/1000", b1 = "k + m*(k - 1) - m*(k - 1)", b2 = "1 - 2*b1"',
     )
     assert certified(scaled, "vcg") == [(4, "ball")]
+
+
+def midpoint(digits: str, pins: str = "") -> str:
+    return (
+        f'name = "m"\nfamily = "rk"\nA = [["a"]]\nb = ["1"]\nnumbers = {{ a = "{digits}~" }}\n'
+        f'[proof]\nconditions = "rk"\norder = 2\n{pins}[claims]\nrk = 2\n'
+    )
+
+
+def test_pins_that_name_every_decimal_are_a_message() -> None:
+    report = check(Tableau.loads(midpoint("0.50000000", 'pins = ["a"]\n')))
+    assert report.verdict == "fails"
+    assert report.broken_claims[0].startswith("no proof: pins name every decimal")
+    assert report.orders[0].certificate == "decimal"
+
+
+@pytest.mark.parametrize("digits", ["0.5", "0.50", "0.5000000000000000000000000"])
+def test_digits_that_are_the_solution_rounded_hold(digits: str) -> None:
+    assert check(Tableau.loads(midpoint(digits))).verdict == "holds"
+
+
+@pytest.mark.parametrize(("digits", "right"), [("0.4", "0.5"), ("0.499", "0.500"), ("0.6", "0.5")])
+def test_digits_that_are_not_the_solution_rounded_fail(digits: str, right: str) -> None:
+    report = check(Tableau.loads(midpoint(digits)))
+    assert report.verdict == "fails"
+    (broken,) = report.broken_claims
+    assert broken.startswith(f"the decimal a = {digits}~ is not the solution, which rounds to {right}~")
+
+
+def test_embedded_orders_carry_a_certificate() -> None:
+    embedded = check("dormand_prince5", "rk").embedded
+    assert embedded is not None
+    assert embedded.as_json()["certificates"] == {"rk": "exact"}
+    rounded = midpoint("0.5").replace("[proof]", '[embedded]\nb = ["0.9999999999~"]\norder = 1\n[proof]')
+    found = check(Tableau.loads(rounded.partition("[proof]")[0])).embedded
+    assert found is not None
+    assert found.certificates == {"rk": "decimal"}
+
+
+def test_an_order_beyond_the_search_is_decided_by_theorem_and_one_condition() -> None:
+    for family in ("vrkmk(4)", "rkmk(4)"):
+        (found,) = check("gauss4", family).orders
+        assert (found.order, found.certificate, found.limit) == (7, "exact", None)
+        assert found.failing[0].condition.order == 8
