@@ -43,13 +43,6 @@ class CertifiedOrder:
         return f"{least}{self.order}, certificate: {self.certificate}{explained}{where}"
 
 
-ON_ABELIAN_GROUPS = {
-    **dict.fromkeys(("rkmk", "cg", "cf"), "rk"),
-    **dict.fromkeys(("vcg", "vrkmk", "vrkmk_pade", "slgi"), "sprk"),
-}
-"""The family that another one is where brackets vanish and exponentials are sums."""
-
-
 def family_of(method: Method) -> Family:
     """Return the family whose order conditions hold for what is compiled."""
     from orderconds import families
@@ -66,8 +59,8 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
     """
     from orderconds.checking import check
 
-    classical = ON_ABELIAN_GROUPS.get(method.family, "") if scene is not None and scene.group.abelian else ""
-    if classical:
+    classical = method.kind.abelian if scene is not None and scene.group.abelian else None
+    if classical is not None:
         (found,) = check(method.tableau, family=classical).orders
         if found.decided:
             return _certified(found, classical)

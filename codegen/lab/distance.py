@@ -11,7 +11,8 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from codegen.groups import SO3, MatrixGroup, Product
+from codegen.groups import LieGroup, Product
+from codegen.groups.capabilities import MatrixElements
 from codegen.ir.program import Kind
 from codegen.scene.problem import Problem
 
@@ -34,12 +35,11 @@ def distance(scene: Problem, state: Sequence[Any], exact: Sequence[Any]) -> floa
     return total
 
 
-def _norm(group: Any, gap: Sequence[float]) -> float:
+def _norm(group: LieGroup, gap: Sequence[float]) -> float:
     """Return the norm of a difference of two elements; a product adds those of its factors."""
     if isinstance(group, Product):
         return sum(map(_norm, group.factors, group.parts(tuple(gap))))
-    matrix = isinstance(group, SO3 | MatrixGroup)
-    return spectral_norm(gap) if matrix else euclidean_norm(gap)
+    return euclidean_norm(gap) if group.offers(MatrixElements) is None else spectral_norm(gap)
 
 
 def euclidean_norm(vector: Sequence[float]) -> float:

@@ -97,18 +97,19 @@ def predicted(scene: Problem, method: Method, power: int) -> Vector:
     """
     if not scene.autonomous:
         raise SceneError("a scene that depends on time", where=scene.name, expected="an autonomous one")
-    if method.family == "sprk":
+    if method.kind.trees == "directed":
         return _partitioned(scene, method, power)
     if scene.is_hamiltonian:
         return _action(scene, method, power)
-    return (_trees if method.family in ("rk", "ambient") else _forests)(scene, method, power)
+    return (_trees if method.kind.trees == "rooted" else _forests)(scene, method, power)
 
 
 def _residuals(method: Method, power: int) -> list[tuple[Any, Element]]:
     """Return the residual of every condition of one order, with its tree or forest."""
     family = family_of(method)
     conditions = family.all_conditions(power)
-    coefficients = method.tableau.read_as(family.formats)
+    coefficients = family.read(method.tableau)
+    assert coefficients is not None
     found = family.residuals(coefficients, method.ring, conditions)
     return [(c.key, x) for c, x in zip(conditions, found, strict=True) if method.ring.is_zero(x) is not True]
 
@@ -152,7 +153,9 @@ def _action(scene: Problem, method: Method, power: int) -> Vector:
     ring = method.ring
     family = family_of(method)
     assert isinstance(family, ActionFamily)
-    series = family.series(method.tableau.read_as(family.formats), ring)
+    coefficients = family.read(method.tableau)
+    assert coefficients is not None
+    series = family.series(coefficients, ring)
     defects = {}
     for word, x in series.update_words(power).items():
         if sum(tree.vertices for tree in word) == power:

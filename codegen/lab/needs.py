@@ -50,7 +50,7 @@ def features(compiled: Compiled, emission: Artifact, label: str = "") -> Feature
     found = re.search(r"stack: +at most (\d+) bytes", source)
     return Features(
         label or compiled.method.label,
-        compiled.method.family != "ambient" or compiled.scene.group.abelian,
+        compiled.method.kind.keeps_manifold or compiled.scene.group.abelian,
         is_symplectic(compiled),
         not compiled.kernel.loops,
         compiled.method.adaptive,

@@ -11,8 +11,9 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from codegen.errors import SceneError
-from codegen.groups import SO3, Rotation
-from codegen.groups.base import dot, matmul
+from codegen.groups import Rotation
+from codegen.groups.capabilities import Projection, Rotations
+from codegen.groups.linear_algebra import dot
 from codegen.ir.domain import Domain, ExprDomain, FloatDomain
 from codegen.ir.program import Kind
 from codegen.lab.straight_line_field import StraightLine, straight_line
@@ -26,9 +27,12 @@ def project(scene: Problem, domain: Domain, state: Sequence[Any]) -> tuple[Any, 
     for block in scene.state:
         values = tuple(state[start : start + len(block.symbols)])
         start += len(values)
-        if block.kind is Kind.GROUP and isinstance(scene.group, SO3):
-            result += _polar(domain, values)
-        elif block.kind is Kind.POINT and isinstance(scene.action, Rotation) and isinstance(scene.group, SO3):
+        projection = scene.group.offers(Projection) if block.kind is Kind.GROUP else None
+        if projection is not None:
+            result += projection.project(domain, values)
+        elif (
+            block.kind is Kind.POINT and isinstance(scene.action, Rotation) and scene.group.offers(Rotations)
+        ):
             radius = math.hypot(*scene.initial(FloatDomain(0.0))[start - len(values) : start])
             length = domain.call("sqrt", dot(values, values))
             scale = domain.rational(*radius.as_integer_ratio()) / length
@@ -40,14 +44,6 @@ def project(scene: Problem, domain: Domain, state: Sequence[Any]) -> tuple[Any, 
                 f"no projection onto {scene.group.name}", where=scene.name, expected="SO(3) or a sphere"
             )
     return tuple(result)
-
-
-def _polar(domain: Domain, g: tuple[Any, ...]) -> tuple[Any, ...]:
-    transposed = tuple(g[3 * i + j] for j in range(3) for i in range(3))
-    gram = matmul(transposed, g, 3)
-    half, three = domain.rational(1, 2), domain.rational(3)
-    defect = tuple(half * ((three - x) if i % 4 == 0 else -x) for i, x in enumerate(gram))
-    return matmul(g, defect, 3)
 
 
 def projection_lines(scene: Problem) -> StraightLine:

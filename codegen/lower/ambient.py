@@ -8,6 +8,7 @@ from codegen.ir.program import Program
 from codegen.lower.base import Lowering
 from codegen.lower.rkmk import with_cutoff
 from codegen.method import Method
+from codegen.scene.ambient import ambient
 from codegen.scene.problem import Problem
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ class Ambient(Lowering):
 
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene in the coordinates of its state; it has no group."""
-        return scene.as_ambient()
+        return ambient(scene)
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program."""

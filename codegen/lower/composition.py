@@ -23,4 +23,4 @@ class CompositionLowering(FlowLowering):
         if not isinstance(tableau, Composition):
             raise unread(parts, method)
         halves = [method.number(x) * HALF for x in tableau.gamma]
-        return pairs(kicks_first(parts.pieces), [(x, x) for x in halves]), self.family
+        return pairs(kicks_first(parts.summands), [(x, x) for x in halves]), self.family

@@ -25,7 +25,8 @@ from codegen.lower.field import FieldLowering
 from codegen.lower.stages import Stages
 from codegen.method import Method
 from codegen.scene.energy import ENERGY, bivector, differential, energy_of
-from codegen.scene.problem import Problem, orbit_of
+from codegen.scene.orbit import orbit_of
+from codegen.scene.problem import Problem
 
 if TYPE_CHECKING:
     from orderconds.checking import FamilyOrder

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from codegen.flows.field_by_parts import simplified
+from codegen.flows.field_by_parts import with_field_by_parts
 from codegen.lower.base import Lowering
 from codegen.method import Method
 from codegen.scene.problem import Problem
@@ -13,4 +13,4 @@ class FieldLowering(Lowering):
 
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene as a field, put together from the parts of a Hamiltonian where that is shorter."""
-        return simplified(scene).as_field()
+        return with_field_by_parts(scene).as_field()

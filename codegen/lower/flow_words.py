@@ -1,6 +1,6 @@
 """Lowerings that compose exact flows: a step is a word in the flows of a Hamiltonian's parts, on T*G.
 
-Time moves with the flows of one piece that does not depend on it, and stands still in all others.
+Time moves with the flows of one summand that does not depend on it, and stands still in all others.
 """
 
 from __future__ import annotations
@@ -12,21 +12,23 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from codegen.errors import MethodError
-from codegen.flows.flow import Kick
-from codegen.flows.recognise import Part, Piece, recognise, vanish
+from codegen.flows.kick import Kick
+from codegen.flows.part import Part, Summand
+from codegen.flows.recognise import recognise
 from codegen.ir.number import Number
 from codegen.ir.program import Builder, Coefficient, Kind, Program, Var
 from codegen.ir.verify import verify
 from codegen.lower.base import Lowering, Objection
 from codegen.method import Method
-from codegen.scene.problem import Problem, orbit_of
+from codegen.scene.orbit import orbit_of
+from codegen.scene.problem import Problem
 from orderconds.tableau import AdjointComposition
 
 if TYPE_CHECKING:
     from orderconds.families import Family
 
-Word = list[tuple[Piece, Number]]
-"""Pieces and how long they flow, as multiples of h, the first acting first."""
+Word = list[tuple[Summand, Number]]
+"""Summands and how long they flow, as multiples of h, the first acting first."""
 
 
 @dataclass(frozen=True)
@@ -38,17 +40,17 @@ class Parts:
     where: str
 
     @property
-    def pieces(self) -> list[Piece]:
-        """The pieces of all parts, each with exact flows that commute."""
-        return [piece for part in self.parts for piece in part.pieces]
+    def summands(self) -> list[Summand]:
+        """The summands of all parts, each with exact flows that commute."""
+        return [summand for part in self.parts for summand in part.summands]
 
 
 @dataclass(frozen=True)
 class Reading:
-    """How a method is read on a scene: its word, the piece that carries time, its family of conditions."""
+    """How a method is read on a scene: its word, the summand that carries time, its family of conditions."""
 
-    word: tuple[tuple[Piece, Number], ...]
-    carrier: Piece | None
+    word: tuple[tuple[Summand, Number], ...]
+    carrier: Summand | None
     conditions: str
 
 
@@ -74,7 +76,7 @@ class FlowLowering(Lowering):
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene with the exact flows that the method composes, by name."""
         word = self.read(scene, method).word
-        flows = {name: flow for piece, _ in word for name, flow in piece.flows}
+        flows = {name: flow for summand, _ in word for name, flow in summand.flows}
         return replace(scene, flows=dict(sorted(flows.items())))
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
@@ -113,11 +115,11 @@ class FlowLowering(Lowering):
         time = None if problem.autonomous else Var("t", Kind.REAL)
         inputs = (q, mu) if time is None else (q, mu, time)
         builder = Builder({v.name for v in inputs} | {"t", "h"})
-        for piece, duration in reading.word:
+        for summand, duration in reading.word:
             step = Coefficient(duration, 1)
-            for name, flow in piece.flows:
+            for name, flow in summand.flows:
                 q, mu = builder.flow(name, q, mu, step, *((time,) if time is not None and flow.timed else ()))
-            if time is not None and piece is reading.carrier:
+            if time is not None and summand is reading.carrier:
                 time = builder.advance("t_stage", time, step)
         return verify(Program(method.label, inputs, builder.take(), (("q", q), ("mu", mu))))
 
@@ -128,7 +130,7 @@ def parts_of(scene: Problem, where: str) -> Parts:
     rest = scene.hamiltonian
     for summand in scene.parts.values():
         rest = rest - summand
-    if not vanish(orbit_of(scene), [rest]):
+    if not orbit_of(scene).vanish([rest]):
         raise MethodError(
             f"the parts {', '.join(scene.parts)} do not add up to H",
             where=where,
@@ -136,7 +138,7 @@ def parts_of(scene: Problem, where: str) -> Parts:
         )
     parts = recognise(scene)
     for part in parts:
-        if not part.pieces:
+        if not part.summands:
             raise MethodError(
                 f"the part {part.name} has no exact flow: {part.reason}",
                 where=where,
@@ -147,9 +149,9 @@ def parts_of(scene: Problem, where: str) -> Parts:
 
 
 def adjoint_word(parts: Parts, method: Method, tableau: AdjointComposition) -> tuple[Word, str]:
-    """Return the word of a composition of Phi, the flows of all pieces in turn, and its adjoint Phi*."""
+    """Return the word of a composition of Phi, the flows of all summands in turn, and its adjoint Phi*."""
     both = [(method.number(y), method.number(x)) for x, y in zip(tableau.alpha, tableau.beta, strict=True)]
-    return pairs(kicks_first(parts.pieces), both), "composition"
+    return pairs(kicks_first(parts.summands), both), "composition"
 
 
 def unread(parts: Parts, method: Method) -> MethodError:
@@ -161,47 +163,49 @@ def unread(parts: Parts, method: Method) -> MethodError:
     )
 
 
-def is_kick(piece: Piece) -> bool:
-    """Whether a piece changes the momentum alone."""
-    return all(isinstance(flow, Kick) for _, flow in piece.flows)
+def is_kick(summand: Summand) -> bool:
+    """Whether a summand changes the momentum alone."""
+    return all(isinstance(flow, Kick) for _, flow in summand.flows)
 
 
-def kicks_first(pieces: Sequence[Piece]) -> list[Piece]:
-    """Return the pieces with kicks first: at the ends of Strang's step, where they are cheapest to join."""
-    return sorted(pieces, key=lambda piece: not is_kick(piece))
+def kicks_first(summands: Sequence[Summand]) -> list[Summand]:
+    """Return the summands with kicks first: at the ends of Strang's step, where they are cheapest to join."""
+    return sorted(summands, key=lambda summand: not is_kick(summand))
 
 
-def pairs(pieces: Sequence[Piece], both: Sequence[tuple[Number, Number]]) -> Word:
-    """Return Phi*_{beta_1}, Phi_{alpha_1}, ...: Phi goes through the pieces backwards, Phi* forwards."""
+def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) -> Word:
+    """Return Phi*_{beta_1}, Phi_{alpha_1}, ...: Phi goes through the summands backwards, Phi* forwards."""
     word: Word = []
     for beta, alpha in both:
-        word += [(piece, beta) for piece in pieces] + [(piece, alpha) for piece in reversed(pieces)]
+        word += [(summand, beta) for summand in summands] + [
+            (summand, alpha) for summand in reversed(summands)
+        ]
     return word
 
 
-def _joined(word: Word) -> Iterator[tuple[Piece, Number]]:
-    """Yield the word with neighbouring flows of one piece joined, and without flows for no time."""
+def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
+    """Yield the word with neighbouring flows of one summand joined, and without flows for no time."""
     joined: Word = []
-    for piece, x in word:
+    for summand, x in word:
         if x.is_zero:
             continue
-        if joined and joined[-1][0] is piece:
+        if joined and joined[-1][0] is summand:
             total = joined.pop()[1] + x
             if total.is_zero:
                 continue
             x = total
-        joined.append((piece, x))
+        joined.append((summand, x))
     assert all(a is not b for (a, _), (b, _) in pairwise(joined))
     yield from joined
 
 
-def _carrier(parts: Parts) -> Piece | None:
-    """Return the piece with which time moves, None for a scene without time."""
+def _carrier(parts: Parts) -> Summand | None:
+    """Return the summand with which time moves, None for a scene without time."""
     if parts.scene.autonomous:
         return None
-    for piece in parts.pieces:
-        if not piece.timed:
-            return piece
+    for summand in parts.summands:
+        if not summand.timed:
+            return summand
     raise MethodError(
         "every part depends on t",
         where=parts.where,

@@ -9,7 +9,7 @@ from __future__ import annotations
 from codegen.errors import MethodError
 from codegen.ir.program import Coefficient, Kind, Program, Var
 from codegen.lower.stages import Stages
-from codegen.method import FEWEST_UP_TO, Method
+from codegen.method import Method
 from codegen.scene.problem import Problem
 from orderconds.ring.protocol import Ring
 from orderconds.series.brackets import BracketProgram, Row
@@ -22,7 +22,7 @@ def bracket_program(method: Method) -> BracketProgram:
     """Return arguments with the fewest brackets for ``rkmk`` without a cut-off, keeping the tableau's order.
 
     :class:`codegen.errors.MethodError` for a tableau that is implicit, has ball coefficients, or an order
-    above :data:`codegen.method.FEWEST_UP_TO`.
+    above the family's ``minimal_brackets``.
     """
     from orderconds import families
     from orderconds.checking import family_order
@@ -38,10 +38,11 @@ def bracket_program(method: Method) -> BracketProgram:
             hint=f"write rkmk(2):{name}",
         )
     order = family_order(method.tableau, families.get("rk")).order
-    if order > FEWEST_UP_TO:
+    highest = method.kind.minimal_brackets
+    if order > highest:
         raise MethodError(
             f"the fewest brackets of {name}, which has order {order}",
-            expected=f"an order up to {FEWEST_UP_TO}",
+            expected=f"an order up to {highest}",
             hint=f"write rkmk({order - 2}):{name}",
         )
     ring = method.ring

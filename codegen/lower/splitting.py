@@ -1,7 +1,7 @@
 """Splittings: words of exact flows of a Hamiltonian's parts, on T*G.
 
 A tableau in as many parts as the scene has is read as it is. One in two parts A, B also serves a scene in
-more: written as beta_1, alpha_1, ..., the composition of Phi, the flows of all pieces one after the other,
+more: written as beta_1, alpha_1, ..., the composition of Phi, the flows of all summands one after the other,
 and its adjoint Phi*, the same backwards, has its order for any basic method (McLachlan, SIAM J. Sci. Comput.
 16 (1995) 151).
 """
@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from codegen.errors import MethodError
-from codegen.flows.recognise import Part, Piece, bracket, vanish
+from codegen.flows.part import Part, Summand
 from codegen.ir.number import Number
 from codegen.lower.flow_words import (
     FlowLowering,
@@ -24,7 +24,9 @@ from codegen.lower.flow_words import (
     unread,
 )
 from codegen.method import Method
-from codegen.scene.problem import Problem, orbit_of
+from codegen.scene.canonical_equations import poisson_bracket
+from codegen.scene.orbit import orbit_of
+from codegen.scene.problem import Problem
 from orderconds.tableau import AdjointComposition, Splitting
 
 
@@ -42,7 +44,7 @@ class SplittingLowering(FlowLowering):
             raise unread(parts, method)
         steps = [(k, method.number(x)) for k, x in tableau.steps]
         exact = all(part.exact for part in parts.parts)
-        chosen = [part.pieces[0] for part in parts.parts] if exact else parts.pieces
+        chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
         if len(chosen) == len(tableau.parts):
             return _in_order(parts, tableau, steps, chosen)
         if len(tableau.parts) == 2 and len(chosen) > 2:
@@ -57,19 +59,19 @@ class SplittingLowering(FlowLowering):
 
 
 def _in_order(
-    own: Parts, tableau: Splitting, steps: Sequence[tuple[int, Number]], pieces: Sequence[Piece]
+    own: Parts, tableau: Splitting, steps: Sequence[tuple[int, Number]], summands: Sequence[Summand]
 ) -> tuple[Word, str]:
-    """Return the word of a tableau in as many parts as there are pieces, and the label of its conditions.
+    """Return the word of a tableau in as many parts as there are summands, and the label of its conditions.
 
     Parts are matched by their names where tableau and scene have the same, else by their order; V of a
     Runge-Kutta-Nystroem tableau is the kick.
     """
-    chosen = pieces
+    chosen = summands
     names = [part.name for part in own.parts]
     if sorted(names) == sorted(tableau.parts):
-        chosen = [own.parts[names.index(name)].pieces[0] for name in tableau.parts]
+        chosen = [own.parts[names.index(name)].summands[0] for name in tableau.parts]
     elif tableau.rkn is not None:
-        chosen = sorted(chosen, key=lambda piece: is_kick(piece) != (tableau.rkn == 0))
+        chosen = sorted(chosen, key=lambda summand: is_kick(summand) != (tableau.rkn == 0))
     word = [(chosen[k], x) for k, x in steps]
     if (
         tableau.rkn is not None
@@ -80,12 +82,15 @@ def _in_order(
     return word, "splitting" if len(chosen) == 2 else f"splitting({len(chosen)})"
 
 
-def _nystroem(scene: Problem, parts: Sequence[Part], piece: Piece) -> bool:
-    """Whether [V, [V, [V, T]]] = 0, as Runge-Kutta-Nystroem splittings need, for the part V of a piece."""
-    (V,) = [scene.parts[p.name] for p in parts if p.pieces[0] is piece]
-    (T,) = [scene.parts[p.name] for p in parts if p.pieces[0] is not piece]
-    nested = bracket(scene, bracket(scene, bracket(scene, T, V), V), V)
-    return vanish(orbit_of(scene), [nested])
+def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
+    """Whether [V, [V, [V, T]]] = 0, as Runge-Kutta-Nystroem splittings need, for the part V of a summand."""
+    (V,) = [scene.parts[p.name] for p in parts if p.summands[0] is summand]
+    (T,) = [scene.parts[p.name] for p in parts if p.summands[0] is not summand]
+    qs, mus = (block.symbols for block in scene.state)
+    nested = T
+    for _ in range(3):
+        nested = poisson_bracket(scene.group, qs, mus, nested, V)
+    return orbit_of(scene).vanish([nested])
 
 
 def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]]:

@@ -14,7 +14,8 @@ from itertools import combinations
 from typing import Any
 
 from codegen.ir.program import FLOWS, Assign, Coefficient, Kind, Operation, Program, Var
-from codegen.scene.problem import Problem, orbit_of
+from codegen.scene.orbit import orbit_of
+from codegen.scene.problem import Problem
 
 
 @dataclass(frozen=True)

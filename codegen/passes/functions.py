@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 
+from codegen.groups.capabilities import ClosedFormSeries
 from codegen.ir.expr import walk
 from codegen.ir.number import Number
 from codegen.ir.program import Assign, Factor, Kind, Operation, Program, Var
@@ -26,7 +27,7 @@ DUAL = frozenset({"Adt", "Adtinv", "dexpt", "dexpinvt", "seriest"})
 
 def run(program: Program, scene: Problem) -> Program:
     """Return the program with functions of ad combined, where the group knows them in closed form."""
-    return rewrite(program, _rule) if hasattr(scene.group, "series") else program
+    return program if scene.group.offers(ClosedFormSeries) is None else rewrite(program, _rule)
 
 
 def rows(program: Program, scene: Problem) -> Program:
@@ -34,7 +35,7 @@ def rows(program: Program, scene: Problem) -> Program:
 
     Then exp(x) need not be formed for it.
     """
-    if scene.body is None or not hasattr(scene.group, "mulexp"):
+    if scene.body is None:
         return program
     names = scene.state[0].symbols
     read = {n.payload for n in walk([*scene.body.velocity, *scene.body.force]) if n.op == "sym"}

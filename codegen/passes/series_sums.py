@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from codegen.groups.capabilities import ClosedFormSeries
 from codegen.ir.domain import Domain
 from codegen.ir.interpret import coefficient
 from codegen.ir.number import Number
@@ -44,18 +45,19 @@ class SeriesSums:
         """
         for target in assign.targets:
             self.definitions[target] = assign
-        if assign.operation.name != "lin" or not hasattr(self.scene.group, "series_sum"):
+        group = self.scene.group.offers(ClosedFormSeries)
+        if assign.operation.name != "lin" or group is None:
             return None
-        groups = self._groups(assign)
-        if not groups:
+        sums = self._groups(assign)
+        if not sums:
             return None
-        inner = {made.targets[0] for group in groups for _, made in group}
+        inner = {made.targets[0] for terms in sums for _, made in terms}
         total = [
             (coefficient(domain, c), env[v])
             for c, v in zip(assign.operation.coefficients, assign.args, strict=True)
             if v not in inner
         ]
-        values = [self._nested(domain, group, env) for group in groups]
+        values = [self._nested(domain, group, terms, env) for terms in sums]
         result = values[0]
         for other in values[1:]:
             result = tuple(a + b for a, b in zip(result, other, strict=True))
@@ -78,24 +80,23 @@ class SeriesSums:
                 groups.append([(c, made)])
         return [group for group in groups if len(group) > 1]
 
-    def _nested(self, domain: Domain, group: list[Term], env: Mapping[Var, Any]) -> tuple[Any, ...]:
-        """Return the value of one group, all in terms of the last x."""
-        x, operation = group[-1][1].args[0], group[-1][1].operation
+    def _nested(
+        self, domain: Domain, group: ClosedFormSeries, members: list[Term], env: Mapping[Var, Any]
+    ) -> tuple[Any, ...]:
+        """Return the value of one sum, all in terms of the last x."""
+        x, operation = members[-1][1].args[0], members[-1][1].operation
         terms = []
-        for c, made in group:
+        for c, made in members:
             scale = ratio(self.definitions, made.args[0], x)
             assert scale is not None
             word: tuple[Factor, ...] = tuple(replace(f, scale=f.scale * scale) for f in made.operation.word)
             terms.append((signed(domain, c), word, env[made.args[1]]))
 
         def total(numbers: tuple[int, ...]) -> tuple[Any, ...]:
-            flat = self._flat([(group[k][0], group[k][1].args[1]) for k in numbers])
+            flat = self._flat([(members[k][0], members[k][1].args[1]) for k in numbers])
             return combined(domain, [(c, env[v]) for c, v in flat])
 
-        nested: tuple[Any, ...] = self.scene.group.series_sum(
-            domain, terms, operation.name == "seriest", env[x], total
-        )
-        return nested
+        return group.series_sum(domain, terms, operation.name == "seriest", env[x], total)
 
     def _flat(self, terms: list[tuple[Coefficient, Var]]) -> list[tuple[Coefficient, Var]]:
         """Return a sum in terms of what its terms are sums of, where that is no longer."""

@@ -100,8 +100,7 @@ def _print_json(derivation: Derivation, explain: bool) -> None:
     if explain:
         from orderconds.explain.kinds import named_by
 
-        for entry, condition in zip(record["conditions"], derivation.conditions, strict=True):
-            entry["names"] = named_by(condition)
+        record["conditions"] = [{**c.as_json(), "names": named_by(c)} for c in derivation.conditions]
     screen.print_json(record)
 
 

@@ -73,16 +73,11 @@ class CrouchGrossmanFamily(OrderedForestFamily):
 def crouch_grossman_series(method: Method, ring: Ring) -> ExponentialsSeries:
     """Return the series of a Runge-Kutta tableau read as a Crouch-Grossman method.
 
-        >>> from orderconds.ring import QQ
-        >>> from orderconds.tableau import Tableau, find
-        >>> from orderconds.tableau.methods import RungeKutta
-    from orderconds.tableau.palindromes import symmetric_paths
-    from orderconds.tableau.products import Method
-    from orderconds.tableau.record import Tableau
-    from orderconds.tableau.work import Work, crouch_grossman_work
-    from orderconds.trees.levels import parse
-        >>> str(crouch_grossman_series(Tableau.load(find("cg3")).method, QQ)(parse("[..]")))
-        '1/6'
+    >>> from orderconds.ring import QQ
+    >>> from orderconds.tableau import Tableau, find
+    >>> from orderconds.trees.levels import parse
+    >>> str(crouch_grossman_series(Tableau.load(find("cg3")).method, QQ)(parse("[..]")))
+    '1/6'
     """
     tableau = expect(method, RungeKutta)
     single = [[((j, x),) for j, x in sparse(ring, row)] for row in (*tableau.A, tableau.b)]

@@ -111,9 +111,9 @@ def with_relations(
 ) -> tuple[OrderCondition, ...]:
     """Give each condition that its ``polynomial`` does not name itself the relation it obeys.
 
-    >>> from orderconds.families.symplectic_rk import SWITCHING, create
+    >>> from orderconds.families.symplectic_rk import SWITCHING, SymplecticFamily
     >>> from orderconds.trees.levels import text
-    >>> [c.relation for c in with_relations(create().all_conditions(2), SWITCHING, text)]
+    >>> [c.relation for c in with_relations(SymplecticFamily().all_conditions(2), SWITCHING, text)]
     ['1/2 <.> <.>']
     """
     found = []

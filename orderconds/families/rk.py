@@ -38,13 +38,13 @@ class RungeKuttaFamily(Family):
     )
     formats = ("rk",)
     trees = "rooted"
-    illustrates = ("rooted",)
+    illustrates: ClassVar[tuple[str, ...]] = ("rooted",)
     search_limit = 12
     over_rationals = True
     implies: ClassVar[Mapping[str, str]] = {"symplectic_rk": "a symplectic method is a Runge-Kutta method"}
     low_order = "rk"
     bounds_others = True
-    low_storage = ("rk", "cf")
+    low_storage: ClassVar[tuple[str, ...]] = ("rk", "cf")
     fixed_stages = True
     unknowns = "rk"
 
@@ -95,8 +95,8 @@ def weights_of(tableau: Tableau) -> tuple[Element, ...] | None:
     """Return the weights b_i of a tableau that reads as (A, b), None for other formats.
 
     >>> from orderconds.tableau import find
-    >>> [str(x) for x in weights_of(Tableau.load(find("gauss2")))]
-    ['1/2', '1/2']
+    >>> [str(x) for x in weights_of(Tableau.load(find("rk4")))]
+    ['1/6', '1/3', '1/3', '1/6']
     """
     method = tableau.method
     if isinstance(method, RungeKutta):

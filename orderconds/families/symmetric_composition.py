@@ -130,7 +130,7 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
             result = add(result, product_of_values)
         return tuple(result.items())
     if sum(word) % 2:
-        return (((word,), 1),)
+        return (((word,), Fraction(1)),)
     # At even weight the logarithm vanishes: sum over cuts of (-1)^(m+1)/m prod of values = 0.
     result = {}
     for lengths in compositions(len(word)):

@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Self
 
-from orderconds.errors import InputError
 from orderconds.families.action_formula import ActionFormula, PadeFormula
 from orderconds.families.base import Family, expect, require_nonzero_weights
 from orderconds.families.reductions import UnseenCut
@@ -33,7 +32,7 @@ if TYPE_CHECKING:
 class VariationalMuntheKaasPade(VariationalMuntheKaas):
     """The family of tableaux (A, b), all b_i non-zero, with dexp cut after the power ``cutoff``.
 
-    Raises :class:`~orderconds.errors.InputError` without a cutoff: the whole of dexp is ``vrkmk``.
+    Without a cutoff the whole of dexp is inverted, which is ``vrkmk`` uncut.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss = Tableau.load(find("gauss1"))
@@ -45,32 +44,25 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
     name = "vrkmk_pade"
     description = "VRKMK with dexp cut after the power r, and inverted: ``vrkmk_pade(r)``."
 
-    def __init__(self, cutoff: int | None = None) -> None:
-        if cutoff is None:
-            raise InputError(
-                "no cutoff",
-                where=f"family {self.name}",
-                expected="the power after which dexp is cut",
-                hint="write vrkmk_pade(1); the whole of dexp is vrkmk",
-            )
-        super().__init__(cutoff)
-        self.power = cutoff
-
     def series(self, method: Method, ring: Ring) -> ActionSeries:
         """Return the action series of a tableau (A, b)."""
+        if self.cutoff is None:
+            return super().series(method, ring)
         tableau = expect(method, RungeKutta)
         require_nonzero_weights(self.label(), ring, tableau.b)
         return PadeActionSeries(ring, tableau.A, tableau.b, self.cutoff)
 
     def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
         """Return the series of random full tableaux."""
+        if self.cutoff is None:
+            return super().random_series(ring, generator, order)
         stages = max(order - 1, 2)
         rows = [[ring.random(generator) for _ in range(stages)] for _ in range(stages + 1)]
         return PadeActionSeries(ring, rows[:-1], rows[-1], self.cutoff)
 
     def formula(self) -> ActionFormula:
         """Return the writer of index sums over a, b, c."""
-        return PadeFormula(self.power)
+        return super().formula() if self.cutoff is None else PadeFormula(self.cutoff)
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:

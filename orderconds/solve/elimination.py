@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 from flint import fmpq, fmpq_mat
 
@@ -19,6 +19,9 @@ from orderconds.conditions import OrderCondition
 from orderconds.ring.laurent import LaurentPolynomials
 from orderconds.ring.polynomials import Polynomials
 from orderconds.solve.problem import Problem
+
+if TYPE_CHECKING:
+    from orderconds.tableau.unknowns import RootedRing
 
 MAX_VARIABLES = 3
 """Conditions in more coefficients than this are not eliminated."""
@@ -77,8 +80,8 @@ def infeasible(problem: Problem) -> Infeasible | None:
         return None
     ring = LaurentPolynomials(names) if problem.family.needs_nonzero_weights else Polynomials(names)
     try:
-        values = problem.residuals(ring.generators, ring, _conditions(problem))
-    except (AttributeError, ArithmeticError, TypeError, ValueError):  # quotients by more than monomials
+        values = problem.residuals(ring.generators, cast("RootedRing", ring), _conditions(problem))
+    except (AttributeError, ArithmeticError, TypeError, ValueError):  # no monomials
         return None
     plain = Polynomials(names)
     system = [(c, _numerator(x, plain)) for c, x in zip(_conditions(problem), values, strict=True)]

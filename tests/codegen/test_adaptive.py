@@ -16,7 +16,7 @@ from codegen.ir.interpret import interpret
 from codegen.lab.local_error import exact_flow, valuation
 from codegen.loader import Statistics, Status, StepFailed, load
 from codegen.lower import lower, problem_for
-from codegen.method import WITH_ESTIMATE, Method
+from codegen.method import Method, with_estimate
 from codegen.passes import optimise
 from tests.promises import clean_c, clean_python
 from tests.strategies import field_scene, shipped
@@ -54,7 +54,7 @@ def reference(scene, method):
 
 
 def test_every_family_with_an_estimate_is_tried():
-    assert sorted(METHODS) == sorted(WITH_ESTIMATE)
+    assert sorted(METHODS) == sorted(with_estimate())
 
 
 @pytest.mark.parametrize(("scene", "method"), CASES)

@@ -11,8 +11,9 @@ from codegen.kernel.translate import to_kernel
 from codegen.lower import lower, lowering, names
 from codegen.lower.flow_words import FlowLowering
 from codegen.lower.variational import VariationalLowering
-from codegen.method import WITH_CUTOFF, Method, parse
+from codegen.method import Method, parse
 from orderconds.errors import InputError, TableauError, UnknownName, ZeroWeight
+from orderconds.families import family_class
 from orderconds.tableau import Tableau
 from tests.strategies import butcher, field_scene, hamiltonian_scene, shipped
 
@@ -95,7 +96,7 @@ def test_plain_runge_kutta_needs_a_vector_space(place):
 
 @pytest.mark.parametrize("family", [f for f in names() if isinstance(lowering(f), VariationalLowering)])
 def test_variational_families_divide_by_every_weight(family):
-    cutoff = 1 if family in WITH_CUTOFF else None
+    cutoff = 1 if family_class(family).takes_cutoff else None
     tableau = butcher("zero", [[0, 0], ["1/2", 0]], [0, 1])
     message = refused(scenes.load("dipole"), Method(family, tableau, cutoff), ZeroWeight)
     assert "b_1 = 0" in message
@@ -121,7 +122,7 @@ def test_vrkmk_needs_a_finite_number_of_brackets():
 @pytest.mark.parametrize("family", ["rkmk", "cg", "vcg", "vrkmk"])
 def test_a_commutator_free_tableau_is_no_butcher_tableau(family):
     scene = scenes.load("dipole")
-    cutoff = 1 if family in WITH_CUTOFF else None
+    cutoff = 1 if family_class(family).takes_cutoff else None
     assert f"{family} with the cf tableau cf4" in refused(scene, Method(family, shipped("cf4"), cutoff))
 
 
@@ -134,7 +135,7 @@ def test_a_family_without_lowering_is_named():
 def test_every_lowering_serves_a_cotangent_bundle(family):
     scene = hamiltonian_scene("R^3")
     tableau = shipped("cf4" if family in ("cf", "vcf") else "heun")
-    program = lower(scene, Method(family, tableau, 1 if family in WITH_CUTOFF else None))
+    program = lower(scene, Method(family, tableau, 1 if family_class(family).takes_cutoff else None))
     paired = lowering(family).hamiltonian
     assert [name for name, _ in program.outputs] == (["q", "mu"] if paired else ["y"])
 

@@ -11,6 +11,7 @@ from fractions import Fraction
 
 from codegen import scenes
 from codegen.scene.problem import Problem
+from codegen.scene.run_time import with_runtime
 
 RADIANS = 200
 """Angle that the fastest motion turns through at most, where that motion does not decay."""
@@ -28,7 +29,7 @@ class Harsh:
 
 def oscillator(omega: int) -> Harsh:
     """Return the oscillator with that frequency over three units of time."""
-    scene = scenes.load("linear_oscillator").with_runtime((f"omega={omega}",))
+    scene = with_runtime(scenes.load("linear_oscillator"), (f"omega={omega}",))
     label = f"frequency {omega:.0e}"
     span = (Fraction(0), min(Fraction(3), Fraction(RADIANS, omega)))
     return Harsh(f"oscillator at {label}", label, replace(scene, span=span), float(omega))
@@ -37,7 +38,7 @@ def oscillator(omega: int) -> Harsh:
 def dipole(gap: Fraction) -> Harsh:
     """Return the dipole with the charge so deep that it passes it at about ``gap``."""
     depth = Fraction("1.004987562112089") + gap
-    scene = scenes.load("dipole").with_runtime((f"depth={depth}",))
+    scene = with_runtime(scenes.load("dipole"), (f"depth={depth}",))
     scene = replace(scene, span=(Fraction(0), Fraction(5, 2)))
     about = f"passes the charge at {float(gap):g}"
     return Harsh(f"dipole that {about}", about, scene, float(1 / gap) ** 1.5)

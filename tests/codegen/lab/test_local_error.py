@@ -16,8 +16,9 @@ from codegen.ir.number import Number
 from codegen.ir.program import Coefficient, Operation, Solve
 from codegen.lab.local_error import leading_term, local_error, predicted, valuation
 from codegen.lower import lower, problem_for
-from codegen.method import WITH_CUTOFF, Method
+from codegen.method import Method
 from codegen.passes import optimise
+from orderconds.families import family_class
 from tests.strategies import butcher, field_scene, full, full_exponentials, hamiltonian_scene, shipped
 
 SUM_OF_CUBES_ZERO = butcher(
@@ -143,7 +144,7 @@ def test_variational_methods_by_action_trees(group, method, order):
 @pytest.mark.parametrize("family", ["vcf", "vrkmk", "vrkmk_pade"])
 def test_on_a_vector_space_all_variational_families_are_one(family):
     scene, tableau = hamiltonian_scene("R^3"), shipped("kutta3")
-    cutoff = 2 if family in WITH_CUTOFF else None
+    cutoff = 2 if family_class(family).takes_cutoff else None
     found = [error_of(scene, m, 4)[1] for m in (Method(family, tableau, cutoff), Method("vcg", tableau))]
     assert found[0] == found[1]
 

@@ -118,7 +118,7 @@ def test_written_out_conditions_have_the_values_of_the_engine(family: str, expli
     A, b = (tuple(entries[:2]), tuple(entries[2:4])), tuple(entries[4:])
     if explicit:
         A = ((QQ.zero, QQ.zero), (entries[2], QQ.zero))
-    derivation = derive(family, order=3)
+    derivation = derive(family, order=families.get(family).order_bound or 3)
     engine = families.get(family).evaluate(RungeKutta(A, b), QQ, derivation.conditions)
     at = {"a": A, "b": b}
     for condition, value in zip(

@@ -68,7 +68,7 @@ def diagram_signs(diagram: Diagram) -> list[str]:
 def test_every_condition_names_something(family: str) -> None:
     kind = kinds.of_family(family)
     assert kind is not None
-    for condition in derive(family, order=3).conditions:
+    for condition in derive(family, order=families.get(family).order_bound or 3).conditions:
         assert kind.text(condition.key) == condition.tree
         assert kinds.named_by(condition) == kind.names(condition.key)
         assert kind.names(condition.key).count("(") == kind.names(condition.key).count(")")

@@ -247,7 +247,8 @@ def test_splittings_and_compositions_are_written_out_in_their_steps():
 @pytest.mark.parametrize("name", ["splitting", "splitting(3)", "rkn", "composition", "symmetric_composition"])
 def test_written_out_conditions_have_the_values_of_the_engine(name, random_rational):
     family, stages = families.get(name), 3
-    names, method = family.in_stages(stages)
+    form = family.in_stages(stages)
+    names = form.names
     values = [random_rational() for _ in names]
     known = {
         n: dict(
@@ -260,7 +261,7 @@ def test_written_out_conditions_have_the_values_of_the_engine(name, random_ratio
         for n in dict(names)
     }
     derivation = derive(name, 3)
-    found = family.evaluate(method(values), QQ, derivation.conditions)
+    found = family.evaluate(form.method(values, QQ), QQ, derivation.conditions)
     for condition, x in zip(expand_stages(derivation, stages).conditions, found, strict=True):
         assert substituted(condition.formula, known) == x
 

@@ -13,9 +13,10 @@ from orderconds.stage_expansion import expand_stages
 
 
 def formulas(family: str) -> list[str]:
-    found = [condition.latex_equation for condition in derive(family, order=3).conditions]
+    order = families.get(family).order_bound or 3
+    found = [condition.latex_equation for condition in derive(family, order).conditions]
     if families.get(family).formats[0] == "rk":
-        written = expand_stages(derive(family, order=3), 3)
+        written = expand_stages(derive(family, order), 3)
         found += [condition.latex_equation for condition in written.conditions]
     return found
 

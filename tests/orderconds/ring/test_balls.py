@@ -111,7 +111,7 @@ def test_bare_enclosures_give_the_same_balls(label: str) -> None:
 def test_dividing_by_a_ball_around_zero_is_refused_where_a_block_is_bare() -> None:
     method = RungeKutta(((RING.zero,),), (RING.constant(Fraction(0), Fraction(1)),))
     with pytest.raises(InputError, match="may be zero"):
-        families.residuals(families.get("sprk"), method, RING, families.get("sprk").conditions(1))
+        families.get("sprk").residuals(method, RING, families.get("sprk").conditions(1))
     bare = Enclosures(128)
     with precision(128):
         assert not (bare.one / method.b[0].value).is_finite()

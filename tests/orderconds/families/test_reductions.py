@@ -6,11 +6,10 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
-from orderconds.proof.reductions import Reductions, reductions
 
 from orderconds import families
 from orderconds.checking import family_order, read
-from orderconds.proof import reductions as module
+from orderconds.families.reductions import Reductions
 from orderconds.ring import QQ
 from orderconds.series.action_lie import MuntheKaasActionSeries
 from orderconds.series.action_switching import representatives
@@ -41,7 +40,7 @@ def test_the_order_is_what_every_condition_says(
 ) -> None:
     tableau, family = read(name), families.get(label)
     spared = family_order(tableau, family, proved=proved)
-    monkeypatch.setattr(module, "reductions", lambda family, method, ring, orders: Reductions(ring))
+    monkeypatch.setattr(type(family), "reductions", lambda self, method, ring, orders: Reductions(ring))
     assert spared == family_order(tableau, family)
 
 
@@ -49,7 +48,8 @@ def test_the_order_is_what_every_condition_says(
 def test_trees_without_long_words_do_not_see_the_cut(cutoff: int) -> None:
     method = _made_up()
     cut, whole = (MuntheKaasActionSeries(QQ, method.A, method.b, r) for r in (cutoff, None))
-    spared = reductions(families.get(f"vrkmk({cutoff})"), method, QQ, {"sprk": 9})
+    spared = families.get(f"vrkmk({cutoff})").reductions(method, QQ, {"sprk": 9})
+    assert spared.cut is not None
     unseen = 0
     for tree in (tree for n in range(1, 6) for tree in representatives(n)):
         if spared.follows(tree.vertices, tree):
@@ -57,7 +57,7 @@ def test_trees_without_long_words_do_not_see_the_cut(cutoff: int) -> None:
             assert cut.condition(tree) == whole.condition(tree), tree
     assert unseen > (1, 9, 400, 400)[cutoff]
     leaf = velocity()
-    seen = velocity((leaf,), (transport((leaf,) * spared.longest),))
+    seen = velocity((leaf,), (transport((leaf,) * spared.cut.longest),))
     assert not spared.follows(seen.vertices, seen)
     assert cut.condition(seen) != whole.condition(seen), "one letter more sees it"
 
@@ -66,7 +66,7 @@ def test_trees_without_long_words_do_not_see_the_cut(cutoff: int) -> None:
 def test_forests_without_long_words_do_not_see_the_cut(cutoff: int) -> None:
     method = _made_up()
     cut, whole = (DexpinvSeries(QQ, method.A, method.b, r) for r in (cutoff, None))
-    spared = reductions(families.get(f"rkmk({cutoff})"), method, QQ, {"rk": 9})
+    spared = families.get(f"rkmk({cutoff})").reductions(method, QQ, {"rk": 9})
     differ = 0
     for n in range(1, 7):
         for forest in ordered_forests(n):
@@ -77,7 +77,7 @@ def test_forests_without_long_words_do_not_see_the_cut(cutoff: int) -> None:
 
 
 def test_nothing_follows_beyond_the_order_without_the_cut() -> None:
-    spared = reductions(families.get("vrkmk(2)"), read("rk4").method, QQ, {"sprk": 4})
+    spared = families.get("vrkmk(2)").reductions(read("rk4").method, QQ, {"sprk": 4})
     first = representatives(5)[0]
     assert not spared.follows(5, first)
     assert spared.follows(4, representatives(4)[0])
@@ -86,21 +86,21 @@ def test_nothing_follows_beyond_the_order_without_the_cut() -> None:
 def test_a_method_is_symmetric_in_a_family_only_where_its_paths_are() -> None:
     gauss2 = read("gauss2")
     for label, expected in (("rk", True), ("sprk", True), ("vcg", False), ("rkmk(2)", False)):
-        found = reductions(families.get(label), gauss2.method, gauss2.ring, {})
+        found = families.get(label).reductions(gauss2.method, gauss2.ring, {})
         assert found.order_follows(4) is expected, label
         assert not found.order_follows(5)
     kutta3 = read("kutta3")
-    assert not reductions(families.get("rk"), kutta3.method, kutta3.ring, {}).order_follows(4)
+    assert not families.get("rk").reductions(kutta3.method, kutta3.ring, {}).order_follows(4)
 
 
 def test_root_switching_needs_a_symplectic_pair_with_equal_weights() -> None:
     pair: Any = read("lobatto3ab3")
     family = families.get("prk")
-    assert reductions(family, pair.method, pair.ring, {}).rest_follows(4)
-    assert not reductions(family, pair.method, pair.ring, {}).rest_follows(5), "its order is 4"
+    assert family.reductions(pair.method, pair.ring, {}).rest_follows(4)
+    assert not family.reductions(pair.method, pair.ring, {}).rest_follows(5), "its order is 4"
     m = pair.method
     swapped = PartitionedRungeKutta(m.A, m.b, m.A, m.b)
-    assert not reductions(family, swapped, pair.ring, {}).rest_follows(4)
+    assert not family.reductions(swapped, pair.ring, {}).rest_follows(4)
 
 
 def _made_up() -> RungeKutta:
@@ -117,6 +117,6 @@ def _made_up() -> RungeKutta:
 def test_balls_keep_the_certificate_that_they_have() -> None:
     text = 'name = "d"\nfamily = "rk"\nA = [["0.2500000000~"]]\nb = ["0.5000000000~"]'
     tableau = Tableau.loads(text)
-    found = reductions(families.get("rk"), tableau.method, tableau.ring, {})
+    found = families.get("rk").reductions(tableau.method, tableau.ring, {})
     assert not found.even
-    assert found.free_trees is None
+    assert found.substitute is None

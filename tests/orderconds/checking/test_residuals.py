@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from decimal import Decimal
-from functools import partial
 from typing import Any
 
 import pytest
@@ -29,7 +28,7 @@ def test_balls_first_changes_no_answer(name: str, label: str, order: int) -> Non
     tableau, family = read(name), families.get(label)
     method = tableau.read_as(family.formats)
     assert isinstance(tableau.ring, NumberField)
-    conditions = getattr(family, "decisive_conditions", family.conditions)(order)
+    conditions = family.decisive_conditions(order)
     plain, quick = (judge(family, method, tableau.ring, conditions, first) for first in (False, True))
     assert plain == quick
     assert plain[0] >= {"fails"}
@@ -50,13 +49,12 @@ def test_a_residual_that_is_asked_for_alone_is_evaluated_alone(monkeypatch: pyte
     _, failing = judge(family, method, tableau.ring, family.conditions(5), True)
     known = [f for f in failing if f.enclosure is not None]
     evaluated: list[int] = []
-    plain = families.residuals
 
-    def counted(family: Any, method: Any, ring: Any, conditions: Any) -> Any:
+    def counted(conditions: Any) -> Any:
         evaluated.append(len(conditions))
-        return plain(family, method, ring, conditions)
+        return family.residuals(method, tableau.ring, conditions)
 
-    monkeypatch.setattr(known[0].exact.func, "_evaluate", partial(counted, family, method, tableau.ring))  # type: ignore[attr-defined]
+    monkeypatch.setattr(known[0].exact.func, "_evaluate", counted)  # type: ignore[attr-defined]
     first = known[0].residual
     assert evaluated == [1]
     assert {f.residual for f in known} > {first}
@@ -95,6 +93,6 @@ def test_orders_evaluated_one_after_the_other_are_those_evaluated_alone(name: st
     for n in range(1, 5):
         for method, ring in ((tableau.method, tableau.ring), (enclosed, balls), (read("rk4").method, QQ)):
             conditions = kept.conditions(n)
-            alone = families.residuals(families.get(label), method, ring, conditions)
+            alone = families.get(label).residuals(method, ring, conditions)
             together = kept.residuals(method, ring, conditions)
             assert [ring.text(x) for x in together] == [ring.text(x) for x in alone]
