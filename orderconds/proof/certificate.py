@@ -63,17 +63,18 @@ class Certificate:
         }
 
 
-def certify(tableau: Tableau) -> Certificate:
+def certify(tableau: Tableau, bits: int = 256) -> Certificate:
     """Prove that the decimals of ``tableau`` stand for a solution of its equations.
 
-    Raises :class:`~orderconds.proof.krawczyk.NotProved` with what is missing.
+    The solution is enclosed to ``bits`` binary digits, to more where the file has more. Raises
+    :class:`~orderconds.proof.krawczyk.NotProved` with what is missing.
 
     >>> from orderconds.tableau import find
     >>> found = certify(Tableau.load(find("cg4a")))
     >>> found.facts, found.equations
     ((('cg', 4),), 13)
     """
-    found = _certify(_Key(tableau))
+    found = _certify(_Key(tableau), bits)
     return replace(found, tableau=replace(found.tableau, path=tableau.path))
 
 
@@ -91,7 +92,7 @@ class _Key:
 
 
 @lru_cache(maxsize=8)
-def _certify(key: _Key) -> Certificate:
+def _certify(key: _Key, least: int) -> Certificate:
     tableau = key.tableau
     proof = tableau.proof
     if proof is None:
@@ -100,7 +101,7 @@ def _certify(key: _Key) -> Certificate:
         raise NotProved(
             'pins name every decimal, so that none is left as an unknown; pin fewer, or leave out "~"'
         )
-    bits = max(256, 64 + 4 * max(len(str(u.constant.unit.denominator)) for u in proof.unknowns))
+    bits = max(least, 64 + 4 * max(len(str(u.constant.unit.denominator)) for u in proof.unknowns))
     system = equations(tableau)
     with precision(bits):
         box = [

@@ -14,6 +14,7 @@ from random import Random
 from typing import Any
 
 from orderconds.conditions import OrderCondition
+from orderconds.errors import ZeroWeight
 from orderconds.families import Family
 from orderconds.proof.exact_member import Combination, Monomial, Reading, Surd, constants
 from orderconds.ring.draws import Draws
@@ -82,7 +83,7 @@ def dependences(
     for prime in islice(draws.primes(PRIME_BITS, avoided), MAX_PRIMES):
         try:
             found = _modulo(_Sampling(family, spelled, everything, prime, draws, read), candidates, surd)
-        except (_NoRoot, ZeroDivisionError, ValueError):
+        except (_NoRoot, ZeroWeight, ZeroDivisionError, ValueError):
             continue
         if found is None:
             continue

@@ -79,13 +79,7 @@ class Equations:
         family = families.get(self.proof.conditions)
         if self.proof.reduction == "symmetric":
             family = families.get(self.tableau.family).symmetric_family(method) or family
-        read = family.read(replace(self.tableau, ring=ring, method=method))
-        if read is None:
-            raise InputError(
-                f"conditions = {self.proof.conditions!r}",
-                where=f"{self.tableau.path or self.tableau.name}: proof",
-                expected=f"a family that reads format {self.tableau.family}",
-            )
+        read = _read(family, replace(self.tableau, ring=ring, method=method), self.proof)
         conditions = self._conditions(family)
         wanted = conditions if places is None else [conditions[i] for i in places]
         return list(family.residuals(read, ring, wanted))
@@ -96,6 +90,17 @@ class Equations:
         return _up_to(
             family.label(), self.proof.order, 2 if self.proof.reduction == "symmetric" else 1, self.letters
         )
+
+
+def _read(family: Family, tableau: Tableau, proof: Proof) -> Method:
+    method = family.read(tableau)
+    if method is None:
+        raise InputError(
+            f"conditions = {proof.conditions!r}",
+            where=f"{tableau.path or tableau.name}: proof",
+            expected=f"a family that reads format {tableau.family}",
+        )
+    return method
 
 
 @lru_cache(maxsize=8)
@@ -155,7 +160,7 @@ def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
         return candidates
 
     def read(method: Method, ring: Ring) -> Method:
-        return replace(tableau, ring=ring, method=method).read_as(family.formats) or method
+        return _read(family, replace(tableau, ring=ring, method=method), proof)
 
     return independent_conditions(family, proof.spelled, proof.order, read)
 

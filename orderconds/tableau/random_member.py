@@ -14,7 +14,7 @@ from typing import Any
 
 from flint import fmpq
 
-from orderconds.errors import InputError
+from orderconds.errors import TableauError, ZeroWeight
 from orderconds.ring.draws import Draws
 from orderconds.ring.rationals import Rationals
 from orderconds.tableau.evaluate import Definition
@@ -25,7 +25,7 @@ from orderconds.tableau.unknowns import Spelled
 BITS = 128
 """Size of the numbers drawn. Values are bounded in size, so that a degree stays far below 2^40."""
 
-OUTSIDE = (InputError, ZeroDivisionError)
+OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
 """What is raised where a member cannot be evaluated: its numbers explode, or a divisor is zero."""
 
 
