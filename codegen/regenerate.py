@@ -1,16 +1,15 @@
-"""The folder ``generated/``: what stands in it is what ``regenerate.toml`` lists, to the byte."""
+"""The folder ``generated/``: it holds exactly the modules that ``regenerate.toml`` lists."""
 
 from __future__ import annotations
 
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from codegen.artifact import MANIFEST, Artifact, entries_of, manifest_text, write_text
 from codegen.emitter import compile_method, emit_compiled
 from orderconds.errors import InputError
-from orderconds.input_file import MAX_WRITTEN_BYTES, content_of, read_text
+from orderconds.input_file import read_text
 
 LIST = Path(__file__).with_name("regenerate.toml")
 KEYS = ("scene", "method", "targets")
@@ -18,7 +17,7 @@ KEYS = ("scene", "method", "targets")
 
 @dataclass(frozen=True)
 class Entry:
-    """One line of the list: a method on a scene, and the targets it is kept in."""
+    """One entry of the list: a method on a scene, and its targets."""
 
     scene: str
     method: str
@@ -32,9 +31,9 @@ class Entry:
 
 
 def entries(path: Path = LIST) -> list[Entry]:
-    """Return the list; an InputError names the entry that cannot be read.
+    """Return the entries of the list; an InputError names an entry that cannot be read.
 
-    A file without modules is no list: by it everything that stands in ``generated/`` would be stale.
+    A file without modules is an error, because all of ``generated/`` would be stale.
     """
     text = read_text(path, "a list of modules")
     try:
@@ -45,12 +44,12 @@ def entries(path: Path = LIST) -> list[Entry]:
     if set(data) != {"module"} or not isinstance(modules, list) or not modules:
         keys = ", ".join(data) or "none"
         raise InputError(
-            f"no list of modules; its keys are: {keys}", where=str(path), expected="tables [[module]] alone"
+            f"no list of modules; its keys are: {keys}", where=str(path), expected="tables [[module]] only"
         )
     return [_entry(module, f"{path}: module {number}") for number, module in enumerate(modules, start=1)]
 
 
-def _entry(module: Any, where: str) -> Entry:
+def _entry(module: object, where: str) -> Entry:
     """Return one entry of the list."""
     if not isinstance(module, dict) or sorted(module) != sorted(KEYS):
         keys = ", ".join(sorted(module)) if isinstance(module, dict) else repr(module)
@@ -67,14 +66,14 @@ def _entry(module: Any, where: str) -> Entry:
 def contents(listed: list[Entry]) -> dict[str, str]:
     """Return every file that belongs in the folder, by its path within it, manifests included."""
     files: dict[str, str] = {}
-    manifests: dict[str, list[dict[str, Any]]] = {}
+    manifests: dict[str, list[dict[str, object]]] = {}
     for entry in listed:
         for emission in entry.emissions():
             folder = Path(entry.scene).stem
             manifests.setdefault(folder, []).append(dict(emission.manifest))
             for name, text in emission.files.items():
                 if files.setdefault(f"{folder}/{name}", text) != text:
-                    raise InputError(f"two modules want the file {name}", where=str(LIST))
+                    raise InputError(f"two modules emit the file {name}", where=str(LIST))
     for folder, manifest in manifests.items():
         files[f"{folder}/{MANIFEST}"] = manifest_text(manifest)
     return dict(sorted(files.items()))
@@ -82,10 +81,10 @@ def contents(listed: list[Entry]) -> dict[str, str]:
 
 @dataclass(frozen=True)
 class Difference:
-    """A file that is not as it should be.
+    """A file of the folder that differs from the list.
 
-    ``kind`` is ``missing``, ``different``, ``stale`` (emitted once, but by nothing on the list) or
-    ``unknown`` (never emitted, so that it is not ours to remove).
+    ``kind`` is ``missing``, ``different``, ``stale`` (emitted, but not by a listed module) or ``unknown``
+    (never emitted, so it must not be removed).
     """
 
     path: str
@@ -93,7 +92,7 @@ class Difference:
 
 
 def compare(directory: Path, files: dict[str, str]) -> list[Difference]:
-    """Return what differs between the folder and the files that belong in it, by path."""
+    """Return the differences between the folder and the expected files, by path."""
     there = {p.relative_to(directory).as_posix() for p in directory.rglob("*") if p.is_file()}
     ours = emitted(directory)
     extra = [path for path in sorted(there - files.keys()) if not ignored(path)]
@@ -107,7 +106,7 @@ def compare(directory: Path, files: dict[str, str]) -> list[Difference]:
 
 
 def emitted(directory: Path) -> set[str]:
-    """Return the paths that the folder's manifests say were emitted, theirs included."""
+    """Return the paths of emitted files according to the manifests, including the manifests."""
     found: set[str] = set()
     for manifest in directory.glob(f"*/{MANIFEST}"):
         folder = manifest.parent.name
@@ -117,14 +116,14 @@ def emitted(directory: Path) -> set[str]:
 
 
 def ignored(path: str) -> bool:
-    """Whether a file is a by-product of running what stands beside it."""
+    """Whether a file is a by-product of running an emitted module."""
     return "__pycache__" in path.split("/")
 
 
 def write(directory: Path, files: dict[str, str]) -> list[Difference]:
-    """Make the folder hold these files and no others that were emitted; return what differed before."""
+    """Write the files, remove stale ones, and return the differences that there were before."""
     changed = compare(directory, files)
-    # Manifests go last: until then they tell which files are ours.
+    # Manifests are written last, because they identify emitted files.
     last = sorted(changed, key=lambda d: (d.path.endswith(MANIFEST), d.path))
     try:
         for difference in last:

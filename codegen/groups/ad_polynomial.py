@@ -11,8 +11,8 @@ from fractions import Fraction
 
 from codegen.groups.bernoulli import bernoulli_over_factorial
 from codegen.groups.linear_algebra import S
+from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
-from codegen.ir.program import Factor
 
 
 def ad_polynomial(d: Domain, word: Sequence[Factor], z: S) -> tuple[S, S]:

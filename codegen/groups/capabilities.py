@@ -16,9 +16,9 @@ from typing import TYPE_CHECKING, ClassVar
 from codegen.groups.base import LieGroup
 from codegen.groups.bernoulli import bernoulli_over_factorial, bernoulli_sum, last_term
 from codegen.groups.linear_algebra import S, Vector
+from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 from codegen.ir.normal_form import Relation
-from codegen.ir.program import Factor
 
 if TYPE_CHECKING:
     import sympy

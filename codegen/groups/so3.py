@@ -14,10 +14,10 @@ from codegen.groups.capabilities import (
     Term,
 )
 from codegen.groups.linear_algebra import S, Vector, cross, dot, matmul, matvec
+from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 from codegen.ir.normal_form import Relation
 from codegen.ir.number import Number
-from codegen.ir.program import Factor
 
 
 class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projection):

@@ -22,6 +22,16 @@ class NotConverged(ArithmeticError):
     """A fixed-point iteration that reached its limit, or left the numbers, in the interpreter."""
 
 
+Scalar = Any
+"""A number of one domain: the domain decides its type when a program runs."""
+
+Value = Any
+"""A scalar for the kind Real, a flat tuple of scalars of one domain for every other kind."""
+
+Values = tuple[Value, ...]
+"""The arguments or the results of an operation."""
+
+
 class Domain(Protocol):
     """Scalars of one kind; ``h`` is the step size among them."""
 

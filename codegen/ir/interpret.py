@@ -5,82 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import replace
-from typing import Any, Protocol
+from typing import Any
 
 from codegen.ir.domain import Domain, NotConverged
-from codegen.ir.program import (
-    BODY,
-    FLOWS,
-    FLOWS_FOR,
-    SPACE,
-    Assign,
-    Coefficient,
-    Factor,
-    Kind,
-    Program,
-    Solve,
-    Var,
-)
+from codegen.ir.operations import Adjoint, Problem
+from codegen.ir.program import BODY, SPACE, Assign, Program, Solve
+from codegen.ir.values import Kind, Var
 
-
-class Problem(Protocol):
-    """What a program needs to know of its scene: group, action, field or Hamiltonian, over any domain."""
-
-    def apply(self, domain: Domain, name: str, order: int | None, args: tuple[Any, ...]) -> tuple[Any, ...]:
-        """Return the results of a group or scene operation (any but lin, zero, advance, series and flows)."""
-
-    def flow(self, domain: Domain, part: str, tau: Any, args: tuple[Any, ...]) -> tuple[Any, ...]:
-        """Return the state after the exact flow of a part for the time tau."""
-
-    def series(self, domain: Domain, word: tuple[Factor, ...], dual: bool, x: Any, v: Any) -> tuple[Any, ...]:
-        """Return the product of a word's functions of ad_x, of ad*_x where ``dual``, applied to v."""
-
-    def dimension(self) -> int:
-        """Return the dimension of the Lie algebra."""
-
-
-def coefficient(domain: Domain, c: Coefficient) -> Any:
-    """Return value * h**power in the domain."""
-    value = domain.number(c.value)
-    for _ in range(c.power):
-        value = domain.h * value
-    return value
-
-
-def apply(problem: Problem, domain: Domain, assign: Assign, args: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return the values of an assignment's targets; linear values are tuples of scalars."""
-    operation = assign.operation
-    if operation.name == "zero":
-        return ((domain.rational(0),) * problem.dimension(),)
-    if operation.name == "advance":
-        return (args[0] + coefficient(domain, operation.coefficients[0]),)
-    if operation.name == "lin":
-        return (_combine(domain, operation.coefficients, args),)
-    if operation.word:
-        return (problem.series(domain, operation.word, operation.name == "seriest", *args),)
-    if operation.name in FLOWS:
-        return problem.flow(domain, operation.part, coefficient(domain, operation.coefficients[0]), args)
-    if operation.name in FLOWS_FOR:
-        return problem.flow(domain, operation.part, args[-1], args[:-1])
-    return problem.apply(domain, operation.name, operation.order, args)
-
-
-def _combine(domain: Domain, coefficients: tuple[Coefficient, ...], args: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return sum c_k x_k componentwise; terms with equal coefficients are added before they are scaled."""
-    groups: dict[Coefficient, list[tuple[Any, ...]]] = {}
-    for c, x in zip(coefficients, args, strict=True):
-        groups.setdefault(c, []).append(x)
-    total: tuple[Any, ...] | None = None
-    for c, vectors in groups.items():
-        part = vectors[0]
-        for x in vectors[1:]:
-            part = tuple(a + b for a, b in zip(part, x, strict=True))
-        if not c.is_one:
-            factor = coefficient(domain, c)
-            part = tuple(factor * a for a in part)
-        total = part if total is None else tuple(a + b for a, b in zip(total, part, strict=True))
-    assert total is not None
-    return total
+TO_BODY = Adjoint(dual=True)
+TO_SPACE = TO_BODY.opposite()
 
 
 def flatten(kind: Kind, value: Any) -> tuple[Any, ...]:
@@ -124,7 +57,7 @@ def interpret(
     computed = getattr(domain, "computed", None)
 
     def run(assign: Assign) -> None:
-        results = apply(problem, domain, assign, tuple(env[a] for a in assign.args))
+        results = assign.operation.evaluate(problem, domain, tuple(env[a] for a in assign.args))
         if computed is not None:
             results = tuple(computed(v.name, x) for v, x in zip(assign.targets, results, strict=True))
         env.update(zip(assign.targets, results, strict=True))
@@ -148,7 +81,7 @@ def interpret(
 
 def inward(problem: Problem, domain: Domain, state: Mapping[str, Any]) -> tuple[Any, ...]:
     """Return Ad*_q mu, the momentum of the body."""
-    (m,) = problem.apply(domain, "Adt", None, (state["q"], state["mu"]))
+    (m,) = TO_BODY.evaluate(problem, domain, (state["q"], state["mu"]))
     return tuple(m)
 
 
@@ -160,7 +93,7 @@ def outward(
     It is that of the state and what has been added: where rounding has made q not quite orthogonal, it turns
     this alone.
     """
-    before, after = (problem.apply(domain, "Adtinv", None, (x["q"], x["mu"]))[0] for x in ends)
+    before, after = (TO_SPACE.evaluate(problem, domain, (x["q"], x["mu"]))[0] for x in ends)
     return tuple(mu + (b - a) for mu, a, b in zip(state["mu"], before, after, strict=True))
 
 

@@ -2,20 +2,8 @@
 
 from __future__ import annotations
 
-from codegen.ir.program import (
-    CUT_OFF,
-    EMBEDDED,
-    FLOWS,
-    FLOWS_FOR,
-    SIGNATURES,
-    Assign,
-    Kind,
-    Program,
-    Solve,
-    Var,
-)
-
-LINEAR = (Kind.ALG, Kind.DUAL)
+from codegen.ir.program import EMBEDDED, Assign, Program, Solve
+from codegen.ir.values import Var
 
 
 class IllFormed(AssertionError):
@@ -84,20 +72,6 @@ def _shape(name: str, block: Solve) -> None:
 
 
 def _types(name: str, assign: Assign) -> None:
-    operation, args = assign.operation, tuple(a.kind for a in assign.args)
-    results = tuple(t.kind for t in assign.targets)
-    if operation.name == "zero":
-        good = not args and len(results) == 1 and results[0] in LINEAR
-    elif operation.name == "lin":
-        good = bool(args) and len(args) == len(operation.coefficients) and len(results) == 1
-        good = good and results[0] in LINEAR and all(k == results[0] for k in args)
-    elif operation.name in SIGNATURES:
-        good = (args, results) == SIGNATURES[operation.name]
-        good = good and len(operation.coefficients) == (operation.name in {"advance", *FLOWS})
-        good = good and bool(operation.part) == (operation.name in FLOWS | FLOWS_FOR)
-        good = good and (operation.order is not None) == (operation.name in CUT_OFF)
-        good = good and bool(operation.word) == (operation.name in {"series", "seriest"})
-    else:
-        good = False
-    if not good:
+    arguments, results = tuple(a.kind for a in assign.args), tuple(t.kind for t in assign.targets)
+    if not assign.operation.accepts(arguments, results):
         raise IllFormed(f"{name}: wrong types in {assign.text()}")

@@ -10,9 +10,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from codegen.ir.expr import Expr, Space, evaluate, walk
-from codegen.ir.interpret import apply, flatten
+from codegen.ir.interpret import flatten
 from codegen.ir.kernel import Function, Kernel
-from codegen.ir.program import Coefficient, Kind
+from codegen.ir.values import Coefficient, Kind
 from codegen.kernel.repeated_trees import Tree, Trees, Values, distinct
 from codegen.scene.problem import Problem
 
@@ -70,19 +70,19 @@ def function(
         assign = trees.made[i].assign
         args = tuple(values[p] if p >= 0 else results[-p - 1] for p in places)
         names = [words[p] if p >= 0 else texts[-p - 1] for p in places]
-        if assign.operation.name == "lin":
+        if assign.terms:
             own_terms = distinct(assign)
             symbol = dict(zip(own_terms, numbers[first:], strict=False))
             first += len(own_terms)
             scaled = {c: x * step**c.power if c.power else x for c, x in symbol.items()}
-            results.append(_sum(assign.operation.coefficients, scaled, args))
+            results.append(_sum([c for c, _ in assign.terms], scaled, args))
             terms = [
                 x if c.is_one else f"{inputs.spelled(symbol[c], c)} {x}"
-                for c, x in zip(assign.operation.coefficients, names, strict=True)
+                for (c, _), x in zip(assign.terms, names, strict=True)
             ]
             texts.append(f"({' + '.join(terms)})" if len(terms) > 1 else terms[0])
         else:
-            made = apply(scene, domain, assign, args)
+            made = assign.operation.evaluate(scene, domain, args)
             results += made
             texts += [f"{assign.operation.text()}({', '.join(names)})"] * len(made)
     targets = trees.made[tree.root].assign.targets

@@ -13,9 +13,11 @@ from typing import Any
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, walk
 from codegen.ir.interpret import flatten
-from codegen.ir.program import Assign, Coefficient, Operation, Program, Var
+from codegen.ir.operations import FLOWS, Advance, Identity, Linear, Zero
+from codegen.ir.program import Assign, Program
+from codegen.ir.values import Coefficient, Var
 
-NEVER = frozenset({"advance", "zero", "identity", "flow", "flowt", "flowfor", "flowtfor"})
+NEVER = (Advance, Zero, Identity, *FLOWS)
 """Operations that are not outlined: hardly any work, or flows, whose steps are timed as a whole."""
 
 NODES = 3
@@ -37,7 +39,7 @@ class Made:
     @property
     def may_join(self) -> bool:
         """Whether it may be computed in a function."""
-        return self.joined and self.assign.operation.name not in NEVER
+        return self.joined and not isinstance(self.assign.operation, NEVER)
 
 
 @dataclass
@@ -91,13 +93,13 @@ class Trees:
 
     def _from_the_whole(self, assign: Assign, args: Sequence[Any]) -> tuple[Assign, Sequence[Any]]:
         """Return a multiple of a multiple as one of that, so that the first is not read twice."""
-        if assign.operation.name != "lin" or len(assign.args) != 1:
+        if not assign.is_multiple:
             return assign, args
-        (c,), (v,), (target,) = assign.operation.coefficients, assign.args, assign.targets
+        ((c, v),), (target,) = assign.terms, assign.targets
         if v in self._multiples:
             d, v, value = self._multiples[v]
             c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)
-            assign = Assign((target,), Operation("lin", (c,)), (v,))
+            assign = Assign.of_terms(target, [(c, v)])
         self._multiples[target] = c, v, args[0]
         return assign, args
 
@@ -202,11 +204,9 @@ class Trees:
         shape = []
         for i, places in zip(tree.members, wires, strict=True):
             assign = self.made[i].assign
-            operation = assign.operation
-            own = _pattern(operation.coefficients)
-            shape.append(
-                (operation.name, operation.order, operation.word, own, places, assign.targets[0].kind)
-            )
+            # Sums of one shape may have other coefficients: they are arguments of the function.
+            operation = None if isinstance(assign.operation, Linear) else assign.operation
+            shape.append((operation, _pattern([c for c, _ in assign.terms]), places, assign.targets[0].kind))
         return tuple(shape)
 
     def useful(self, tree: Tree) -> bool:
@@ -249,6 +249,4 @@ def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]
 
 def distinct(assign: Assign) -> list[Coefficient]:
     """Return the coefficients of a sum, each once, without those that are one."""
-    if assign.operation.name != "lin":
-        return []
-    return list(dict.fromkeys(c for c in assign.operation.coefficients if not c.is_one))
+    return list(dict.fromkeys(c for c, _ in assign.terms if not c.is_one))

@@ -21,7 +21,7 @@ from codegen.errors import SceneError
 from codegen.ir.collect_constants import gathered
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, Space, walk
-from codegen.ir.interpret import apply, flatten
+from codegen.ir.interpret import flatten
 from codegen.ir.kernel import (
     CHORD,
     ELAPSED,
@@ -42,8 +42,10 @@ from codegen.ir.kernel import (
 )
 from codegen.ir.linearise import FirstOrder, NotLinearised
 from codegen.ir.normal_form import NormalForms
-from codegen.ir.program import EMBEDDED, Assign, Kind, Program, Solve, Var
+from codegen.ir.operations import BodyForce
+from codegen.ir.program import EMBEDDED, Assign, Program, Solve
 from codegen.ir.tangent import tangents
+from codegen.ir.values import Kind, Var
 from codegen.kernel import critical_path, newton
 from codegen.kernel.carried_momentum import Frames
 from codegen.kernel.outlining import LONG, LONG_EXPLICIT, WORTH, Outline
@@ -133,7 +135,7 @@ def to_kernel(
         args = tuple(env[a] for a in assign.args)
         try:
             nested = sums.value(domain, assign, env)
-            results = (nested,) if nested is not None else apply(scene, domain, assign, args)
+            results = (nested,) if nested is not None else assign.operation.evaluate(scene, domain, args)
         except ArithmeticError as error:
             raise SceneError(
                 f"{assign.operation.name} on {scene.group.name}: {error}",
@@ -141,7 +143,7 @@ def to_kernel(
                 expected="a group whose operations have closed forms",
                 hint="this group serves exact series and interpretation",
             ) from error
-        if assign.operation.name.startswith("force"):
+        if isinstance(assign.operation, BodyForce):
             known = [x for v in assign.args for x in flatten(v.kind, env[v])]
             results = tuple(gathered(x, known) for x in results)
         reads = bool(scene.inputs) and any(v.kind is Kind.REAL for v in assign.args)  # signals at a time

@@ -15,7 +15,7 @@ from codegen.groups.capabilities import RightTrivialisation
 from codegen.groups.cotangent import Cotangent
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr
-from codegen.ir.program import Kind
+from codegen.ir.values import Kind
 from codegen.scene.problem import Problem
 
 

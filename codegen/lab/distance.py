@@ -1,23 +1,23 @@
-"""How far a computed state is from the reference: the scene's own measure.
+"""The error norm of a scene: the distance of a computed state from the reference.
 
-Each block of the state adds its own norm: the spectral norm for group elements that are matrices, the
-Euclidean norm for points, vectors, momenta and everything else. For the dipole on a stick that is
-|mu - mu_ref|_2 + |g - g_ref|_2 (thesis Fig. 3.2), for a point on the sphere the chord.
+Each field of the state adds its own norm: the spectral norm for group elements that are matrices, the
+Euclidean norm for everything else. For the dipole on a stick this is |mu - mu_ref|_2 + |g - g_ref|_2
+(H. Marthinsen, *Lie group integrators*, Fig. 3.2); for a point on the sphere it is the chord.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 from codegen.groups import LieGroup, Product
 from codegen.groups.capabilities import MatrixElements
-from codegen.ir.program import Kind
+from codegen.ir.values import Kind
+from codegen.lab.scalars import Scalar
 from codegen.scene.problem import Problem
 
 
-def distance(scene: Problem, state: Sequence[Any], exact: Sequence[Any]) -> float:
+def distance(scene: Problem, state: Sequence[Scalar], exact: Sequence[Scalar]) -> float:
     """Return the error of ``state`` against ``exact``, both flat in the order of ``scene.symbols``.
 
     Differences are taken in the precision of ``exact`` before they are rounded, so that an error below 1e-16
@@ -36,7 +36,7 @@ def distance(scene: Problem, state: Sequence[Any], exact: Sequence[Any]) -> floa
 
 
 def _norm(group: LieGroup, gap: Sequence[float]) -> float:
-    """Return the norm of a difference of two elements; a product adds those of its factors."""
+    """Return the norm of a difference of two elements; a product group adds the norms of its factors."""
     if isinstance(group, Product):
         return sum(map(_norm, group.factors, group.parts(tuple(gap))))
     return euclidean_norm(gap) if group.offers(MatrixElements) is None else spectral_norm(gap)

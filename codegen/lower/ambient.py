@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from codegen.ir.program import Program
 from codegen.lower.base import Lowering
 from codegen.lower.rkmk import with_cutoff
 from codegen.method import Method
 from codegen.scene.ambient import ambient
 from codegen.scene.problem import Problem
-
-if TYPE_CHECKING:
-    from orderconds.families import Family
 
 
 class Ambient(Lowering):
@@ -28,9 +23,3 @@ class Ambient(Lowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program."""
         return with_cutoff(problem, method, 0)
-
-    def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the conditions of Runge-Kutta methods, for the ambient space is R^n."""
-        from orderconds import families
-
-        return families.get("rk")

@@ -8,7 +8,7 @@ makes a lowering known to every command.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from codegen.ir.program import Program
@@ -96,10 +96,3 @@ class Lowering(ABC):
 
         (found,) = check(method.tableau, family=self.conditions(method, scene).label()).orders
         return found
-
-
-def order_without_names(method: Method, family: Family) -> FamilyOrder:
-    """Return the order in a family whose conditions have no index sums to name those that fail by."""
-    from orderconds.checking import family_order
-
-    return replace(family_order(method.tableau, family), failing=())

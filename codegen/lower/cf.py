@@ -9,7 +9,8 @@ from __future__ import annotations
 from functools import reduce
 from operator import add
 
-from codegen.ir.program import EMBEDDED, Kind, Program, Var
+from codegen.ir.program import EMBEDDED, Program
+from codegen.ir.values import Kind, Var
 from codegen.lower.field import FieldLowering
 from codegen.lower.stages import Stages
 from codegen.method import Method
@@ -35,14 +36,14 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
     """Return the program of products of exponentials; ``lower`` is the update of an embedded row."""
     y = Var("y", Kind.POINT)
     stages = Stages(problem, method, (y,))
-    do = stages.builder
-    k = [do.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)]
+    build = stages.builder
+    k = [build.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)]
 
     def product(stage: Stage, name: str, points: list[Var]) -> Var:
         point = y if stage.start is None else points[stage.start]
         for row in stage.exponentials:
             x = stages.combination(f"x{name}", Kind.ALG, row, k)
-            point = do.do("act", f"Y{name}", do.do("exp", f"g{name}", x), point)
+            point = build.act(f"Y{name}", build.exp(f"g{name}", x), point)
         return point
 
     def images() -> list[Var]:

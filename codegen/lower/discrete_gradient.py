@@ -14,12 +14,11 @@ tableau; the order is two where sum b_i c_i = 1/2, else one. The unknown is xi.
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING
-
 from codegen.errors import MethodError
 from codegen.ir.number import Number
-from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
+from codegen.ir.operations import Bivector, Differential, Energy, Secant
+from codegen.ir.program import Program
+from codegen.ir.values import ONE, Coefficient, Kind, Var
 from codegen.lower.base import Objection
 from codegen.lower.field import FieldLowering
 from codegen.lower.stages import Stages
@@ -28,12 +27,7 @@ from codegen.scene.energy import ENERGY, bivector, differential, energy_of
 from codegen.scene.orbit import orbit_of
 from codegen.scene.problem import Problem
 
-if TYPE_CHECKING:
-    from orderconds.checking import FamilyOrder
-    from orderconds.families import Family
-
 HALF = Number.rational(1, 2)
-HIGHEST_ORDER = 2
 
 
 class DiscreteGradient(FieldLowering):
@@ -61,43 +55,29 @@ class DiscreteGradient(FieldLowering):
         """Return False: no method keeps both the energy and the symplectic form."""
         return False
 
-    def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the conditions of Runge-Kutta methods.
-
-        Up to order two they are those of this family: sum b_i = 1 and sum b_i c_i = 1/2.
-        """
-        from orderconds import families
-
-        return families.get("rk")
-
-    def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order, which is two at most."""
-        found = super().order(method, scene)
-        return replace(found, order=min(found.order, HIGHEST_ORDER), failing=(), limit=None)
-
 
 def _program(scene: Problem, method: Method) -> Program:
     tableau = method.runge_kutta()
     y = Var("y", Kind.POINT)
     stages = Stages(scene, method, (y,))
-    do = stages.builder
-    xi = do.fresh("xi", Kind.ALG)
+    build = stages.builder
+    xi = build.fresh("xi", Kind.ALG)
     shared: dict[str, Var] = {}
 
     def moved(name: str, part: Number, velocity: Var) -> Var:
-        x = do.lin(f"x{name}", Kind.ALG, [(stages.times_h(part), velocity)])
-        return do.do("act", f"Y{name}", do.do("exp", f"g{name}", x), y)
+        x = build.lin(f"x{name}", Kind.ALG, [(stages.times_h(part), velocity)])
+        return build.act(f"Y{name}", build.exp(f"g{name}", x), y)
 
     def images() -> list[Var]:
         slopes = [
-            (Coefficient(stages.number(b)), do.do("differential", f"d{i + 1}", moved(f"{i + 1}", c, xi)))
+            (Coefficient(stages.number(b)), build.add(Differential(), f"d{i + 1}", moved(f"{i + 1}", c, xi)))
             for i, (b, c) in enumerate(zip(tableau.b, map(stages.number, tableau.c), strict=True))
         ]
         middle, end = moved("m", HALF, xi), moved("", ONE.value, xi)
-        energies = [do.do("energy", f"H{k}", point) for k, point in enumerate((y, end))]
-        eta = do.lin("eta", Kind.ALG, [(stages.times_h(ONE.value), xi)])
-        D = do.do("secant", "D", do.lin("g", Kind.DUAL, slopes), eta, *energies)
-        shared["f"] = do.do("bivector", "f", middle, D)
+        energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
+        eta = build.lin("eta", Kind.ALG, [(stages.times_h(ONE.value), xi)])
+        D = build.add(Secant(), "D", build.lin("g", Kind.DUAL, slopes), eta, *energies)
+        shared["f"] = build.add(Bivector(), "f", middle, D)
         return [shared["f"]]
 
     def update() -> dict[str, Var]:

@@ -16,7 +16,8 @@ from codegen.flows.kick import Kick
 from codegen.flows.part import Part, Summand
 from codegen.flows.recognise import recognise
 from codegen.ir.number import Number
-from codegen.ir.program import Builder, Coefficient, Kind, Program, Var
+from codegen.ir.program import Builder, Program
+from codegen.ir.values import Coefficient, Kind, Var
 from codegen.ir.verify import verify
 from codegen.lower.base import Lowering, Objection
 from codegen.method import Method

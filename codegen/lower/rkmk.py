@@ -6,11 +6,12 @@ y1 = exp(h sum_i b_i v_i).y0. The unknowns are the v_i. On R^n with r = 0 this i
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from codegen.ir.program import EMBEDDED, Kind, Program, Var
+from codegen.ir.program import EMBEDDED, Program
+from codegen.ir.values import Kind, Var
 from codegen.lower import minimal_brackets
-from codegen.lower.base import order_without_names
 from codegen.lower.field import FieldLowering
 from codegen.lower.stages import Stages
 from codegen.method import Method
@@ -45,7 +46,9 @@ class MuntheKaas(FieldLowering):
         """Return the order; without a cut-off the conditions that fail have no index sums to name them by."""
         if method.cutoff is not None:
             return super().order(method, scene)
-        return order_without_names(method, self.conditions(method, scene))
+        from orderconds.checking import family_order
+
+        return replace(family_order(method.tableau, self.conditions(method, scene)), failing=())
 
 
 def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
@@ -53,21 +56,21 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
     tableau = method.runge_kutta()
     y = Var("y", Kind.POINT)
     stages = Stages(problem, method, (y,))
-    do = stages.builder
-    v = [do.fresh(f"v{i + 1}", Kind.ALG) for i in range(tableau.s)]
+    build = stages.builder
+    v = [build.fresh(f"v{i + 1}", Kind.ALG) for i in range(tableau.s)]
 
     def images() -> list[Var]:
         result = []
         for i, row in enumerate(tableau.A):
             u = stages.combination(f"u{i + 1}", Kind.ALG, row, v)
-            point = do.do("act", f"Y{i + 1}", do.do("exp", f"g{i + 1}", u), y)
+            point = build.act(f"Y{i + 1}", build.exp(f"g{i + 1}", u), y)
             k = stages.f(f"k{i + 1}", point, tableau.c[i])
-            result.append(do.do("dexpinv", f"w{i + 1}", u, k, order=cutoff))
+            result.append(build.dexpinv(f"w{i + 1}", u, k, cutoff))
         return result
 
     def updated(weights: tuple[Element, ...]) -> Var:
         u = stages.combination("u", Kind.ALG, weights, v)
-        return do.do("act", "y1", do.do("exp", "g", u), y)
+        return build.act("y1", build.exp("g", u), y)
 
     def update() -> dict[str, Var]:
         lower = method.embedded()

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from codegen.errors import MethodError
 from codegen.ir.number import Number
-from codegen.ir.program import Kind, Var
+from codegen.ir.values import Kind, Var
 from codegen.lower.base import Lowering, Objection
 from codegen.lower.stages import Stages
 from codegen.method import Method

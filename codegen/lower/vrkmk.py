@@ -17,7 +17,9 @@ terms cancel that cancel on an abelian group.
 
 from __future__ import annotations
 
-from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
+from codegen.ir.operations import InverseDexpSlope
+from codegen.ir.program import Program
+from codegen.ir.values import ONE, Coefficient, Kind, Var
 from codegen.lower.variational import VariationalLowering, begin, brackets
 from codegen.method import Method
 from codegen.scene.problem import Problem
@@ -41,62 +43,64 @@ def _program(scene: Problem, method: Method) -> Program:
     r = brackets(method)
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs
-    do, s = stages.builder, tableau.s
-    v = [do.fresh(f"v{i + 1}", Kind.ALG) for i in range(s)]
-    m = [do.fresh(f"m{i + 1}", Kind.DUAL) for i in range(s)]
-    transported = do.fresh("Lambda", Kind.DUAL)
+    build, s = stages.builder, tableau.s
+    v = [build.fresh(f"v{i + 1}", Kind.ALG) for i in range(s)]
+    m = [build.fresh(f"m{i + 1}", Kind.DUAL) for i in range(s)]
+    transported = build.fresh("Lambda", Kind.DUAL)
     later_only = [all(A[j][i].is_zero for j in range(i + 1)) for i in range(s)]
     shared: dict[str, Var] = {}
 
     def images() -> list[Var]:
         X = [stages.combination(f"X{i + 1}", Kind.ALG, row, v) for i, row in enumerate(tableau.A)]
-        g = [do.do("exp", f"g{i + 1}", x) for i, x in enumerate(X)]
+        g = [build.exp(f"g{i + 1}", x) for i, x in enumerate(X)]
         now, forces, slopes = list(m), dict[int, Var](), dict[int, Var]()
         lagrange, velocities = dict[int, Var](), dict[int, Var]()
         for i in reversed(range(s)):
             if later_only[i]:
                 terms = [(Coefficient(b[i]), transported)]
                 terms += [(Coefficient(A[j][i]), lagrange[j]) for j in range(i + 1, s)]
-                now[i] = do.lin(f"p{i + 1}", Kind.DUAL, terms)
-            weighted = do.lin(f"w{i + 1}", Kind.DUAL, [(Coefficient(ONE.value / b[i]), now[i])])
-            M = do.do("dexpinvt", f"M{i + 1}", X[i], weighted, order=r)
-            Q = do.do("mul", f"Q{i + 1}", g[i], q)
-            xi, n = do.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M, *stages.at(tableau.c[i]))
-            velocities[i] = do.do("dexpinv", f"u{i + 1}", X[i], xi, order=r)
+                now[i] = build.lin(f"p{i + 1}", Kind.DUAL, terms)
+            weighted = build.lin(f"w{i + 1}", Kind.DUAL, [(Coefficient(ONE.value / b[i]), now[i])])
+            M = build.dexpinv(f"M{i + 1}", X[i], weighted, r)
+            Q = build.mul(f"Q{i + 1}", g[i], q)
+            xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M, *stages.at(tableau.c[i]))
+            velocities[i] = build.dexpinv(f"u{i + 1}", X[i], xi, r)
             forces[i] = n
-            slopes[i] = do.do("P", f"P{i + 1}", X[i], xi, now[i], order=r)
-            direct = do.do("dexpt", f"d{i + 1}", X[i], n)
-            lagrange[i] = do.lin(
+            slopes[i] = build.add(InverseDexpSlope(r), f"P{i + 1}", X[i], xi, now[i])
+            direct = build.dual_dexp(f"d{i + 1}", X[i], n)
+            lagrange[i] = build.lin(
                 f"lambda{i + 1}",
                 Kind.DUAL,
                 [(stages.times_h(-b[i]), direct), (stages.times_h(ONE.value), slopes[i])],
             )
         found = [velocities[i] for i in range(s)]
         Y = stages.combination("Y", Kind.ALG, tableau.b, found)
-        minus = do.lin("y", Kind.ALG, [(Coefficient(-ONE.value), Y)])
-        nu = [do.do("Adt", f"nu{j + 1}", g[j], forces[j]) for j in range(s)]
-        momentum = do.lin("mubar", Kind.DUAL, [(ONE, mu)] + [(stages.times_h(b[j]), nu[j]) for j in range(s)])
+        minus = build.lin("y", Kind.ALG, [(Coefficient(-ONE.value), Y)])
+        nu = [build.adjoint(f"nu{j + 1}", g[j], forces[j]) for j in range(s)]
+        momentum = build.lin(
+            "mubar", Kind.DUAL, [(ONE, mu)] + [(stages.times_h(b[j]), nu[j]) for j in range(s)]
+        )
         shared.update(Y=Y, mubar=momentum)
 
         def written_out(i: int) -> Var:
-            terms = [(Coefficient(b[i]), do.do("dexpt", "L", minus, mu))]
+            terms = [(Coefficient(b[i]), build.dual_dexp("L", minus, mu))]
             for j in range(s):
-                terms.append((stages.times_h(b[i] * b[j]), do.do("dexpt", "L", minus, nu[j])))
-                direct = do.do("dexpt", f"d{j + 1}", X[j], forces[j])
+                terms.append((stages.times_h(b[i] * b[j]), build.dual_dexp("L", minus, nu[j])))
+                direct = build.dual_dexp(f"d{j + 1}", X[j], forces[j])
                 terms.append((stages.times_h(-(A[j][i] * b[j])), direct))
                 terms.append((stages.times_h(A[j][i]), slopes[j]))
-            return do.lin(f"p{i + 1}", Kind.DUAL, terms)
+            return build.lin(f"p{i + 1}", Kind.DUAL, terms)
 
-        image = do.do("dexpt", "Lambda_new", minus, momentum)
+        image = build.dual_dexp("Lambda_new", minus, momentum)
         return [*found, *(written_out(i) for i in range(s)), image]
 
     def starts() -> list[Var]:
-        xi, _ = do.hamilton("xi0", "n0", q, mu, *stages.at(None))
-        weighted = [do.lin(f"m0_{i + 1}", Kind.DUAL, [(Coefficient(b[i]), mu)]) for i in range(s)]
+        xi, _ = build.hamilton("xi0", "n0", q, mu, *stages.at(None))
+        weighted = [build.lin(f"m0_{i + 1}", Kind.DUAL, [(Coefficient(b[i]), mu)]) for i in range(s)]
         return [xi] * s + weighted + [mu]
 
     def update() -> dict[str, Var]:
-        g = do.do("exp", "g", shared["Y"])
-        return {"q": do.do("mul", "q1", g, q), "mu": do.do("Adtinv", "mu1", g, shared["mubar"])}
+        g = build.exp("g", shared["Y"])
+        return {"q": build.mul("q1", g, q), "mu": build.adjoint("mu1", g, shared["mubar"], inverse=True)}
 
     return stages.program([*v, *m, transported], images, starts, update)

@@ -17,18 +17,13 @@ from __future__ import annotations
 
 from fractions import Fraction
 from math import factorial
-from typing import TYPE_CHECKING
 
 from codegen.ir.number import Number
-from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
-from codegen.lower.base import order_without_names
+from codegen.ir.program import Program
+from codegen.ir.values import ONE, Coefficient, Kind, Var
 from codegen.lower.variational import VariationalLowering, begin, brackets
 from codegen.method import Method
 from codegen.scene.problem import Problem
-
-if TYPE_CHECKING:
-    from orderconds.checking import FamilyOrder
-    from orderconds.families import Family
 
 Terms = list[tuple[Coefficient, Var]]
 
@@ -46,31 +41,21 @@ class VariationalMuntheKaasPade(VariationalLowering):
         """
         return _program(problem, method)
 
-    def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the conditions for the cut-off of the method."""
-        from orderconds.families.vrkmk_pade import VariationalMuntheKaasPade as Conditions
-
-        return Conditions(method.cutoff or 0)
-
-    def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order; the conditions that fail have no index sums to name them by."""
-        return order_without_names(method, self.conditions(method, scene))
-
 
 def _program(scene: Problem, method: Method) -> Program:
     r = brackets(method)
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs
-    do, s = stages.builder, tableau.s
-    v = [do.fresh(f"v{i + 1}", Kind.ALG) for i in range(s)]
-    M = [do.fresh(f"M{i + 1}", Kind.DUAL) for i in range(s)]
+    build, s = stages.builder, tableau.s
+    v = [build.fresh(f"v{i + 1}", Kind.ALG) for i in range(s)]
+    M = [build.fresh(f"M{i + 1}", Kind.DUAL) for i in range(s)]
     shared: dict[str, Var] = {}
 
-    def powers(operation: str, x: Var, first: Var) -> list[Var]:
+    def powers(x: Var, first: Var) -> list[Var]:
         """Append ad_x^k first, or its dual, for k = 0..r."""
         found = [first]
         for k in range(r):
-            found.append(do.do(operation, f"{first.name}_{k + 1}", x, found[-1]))
+            found.append(build.bracket(f"{first.name}_{k + 1}", x, found[-1]))
         return found
 
     def rest(chain: list[Var]) -> Terms:
@@ -82,45 +67,45 @@ def _program(scene: Problem, method: Method) -> Program:
         terms: Terms = []
         for i in range(r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, r + 1)]
-            subscript = do.lin("z", Kind.ALG, inner)
-            terms.append((ONE, do.do("adt", "R", subscript, momenta[i])))
-        return do.lin(name, Kind.DUAL, terms)
+            subscript = build.lin("z", Kind.ALG, inner)
+            terms.append((ONE, build.bracket("R", subscript, momenta[i])))
+        return build.lin(name, Kind.DUAL, terms)
 
     def images() -> list[Var]:
         X = [stages.combination(f"X{i + 1}", Kind.ALG, row, v) for i, row in enumerate(tableau.A)]
-        g = [do.do("exp", f"g{i + 1}", x) for i, x in enumerate(X)]
+        g = [build.exp(f"g{i + 1}", x) for i, x in enumerate(X)]
         velocities, forces, slopes, corrections = [], [], [], []
         for i in range(s):
-            Q = do.do("mul", f"Q{i + 1}", g[i], q)
-            xi, n = do.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M[i], *stages.at(tableau.c[i]))
-            brackets, momenta = powers("ad", X[i], v[i]), powers("adt", X[i], M[i])
-            velocities.append(do.lin(f"u{i + 1}", Kind.ALG, [(ONE, xi), *rest(brackets)]))
+            Q = build.mul(f"Q{i + 1}", g[i], q)
+            xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M[i], *stages.at(tableau.c[i]))
+            brackets, momenta = powers(X[i], v[i]), powers(X[i], M[i])
+            velocities.append(build.lin(f"u{i + 1}", Kind.ALG, [(ONE, xi), *rest(brackets)]))
             forces.append(n)
             slopes.append(slope(f"R{i + 1}", brackets, momenta))
             corrections.append(rest(momenta))
         Y = stages.combination("Y", Kind.ALG, tableau.b, velocities)
-        minus = do.lin("y", Kind.ALG, [(Coefficient(-ONE.value), Y)])
-        nu = [do.do("Adt", f"nu{j + 1}", g[j], forces[j]) for j in range(s)]
+        minus = build.lin("y", Kind.ALG, [(Coefficient(-ONE.value), Y)])
+        nu = [build.adjoint(f"nu{j + 1}", g[j], forces[j]) for j in range(s)]
         total = [(ONE, mu)] + [(stages.times_h(b[j]), nu[j]) for j in range(s)]
-        shared.update(Y=Y, mubar=do.lin("mubar", Kind.DUAL, total))
+        shared.update(Y=Y, mubar=build.lin("mubar", Kind.DUAL, total))
         found = []
         for i in range(s):
-            terms: Terms = [(ONE, do.do("dexpt", "L", minus, mu)), *corrections[i]]
+            terms: Terms = [(ONE, build.dual_dexp("L", minus, mu)), *corrections[i]]
             for j in range(s):
                 factor = stages.times_h(-(b[j] * (A[j][i] / b[i])))
-                terms.append((stages.times_h(b[j]), do.do("dexpt", "L", minus, nu[j])))
-                terms.append((factor, do.do("dexpt", f"d{j + 1}", X[j], forces[j])))
+                terms.append((stages.times_h(b[j]), build.dual_dexp("L", minus, nu[j])))
+                terms.append((factor, build.dual_dexp(f"d{j + 1}", X[j], forces[j])))
                 terms.append((factor, slopes[j]))
-            found.append(do.lin(f"p{i + 1}", Kind.DUAL, terms))
+            found.append(build.lin(f"p{i + 1}", Kind.DUAL, terms))
         return [*velocities, *found]
 
     def starts() -> list[Var]:
-        xi, _ = do.hamilton("xi0", "n0", q, mu, *stages.at(None))
+        xi, _ = build.hamilton("xi0", "n0", q, mu, *stages.at(None))
         return [xi] * s + [mu] * s
 
     def update() -> dict[str, Var]:
-        g = do.do("exp", "g", shared["Y"])
-        return {"q": do.do("mul", "q1", g, q), "mu": do.do("Adtinv", "mu1", g, shared["mubar"])}
+        g = build.exp("g", shared["Y"])
+        return {"q": build.mul("q1", g, q), "mu": build.adjoint("mu1", g, shared["mubar"], inverse=True)}
 
     return stages.program([*v, *M], images, starts, update)
 

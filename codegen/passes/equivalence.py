@@ -11,7 +11,8 @@ from codegen.errors import SceneError
 from codegen.ir.domain import FloatDomain, NotConverged
 from codegen.ir.expr import evaluate
 from codegen.ir.interpret import flatten, interpret
-from codegen.ir.program import Kind, Program, Var
+from codegen.ir.program import Program
+from codegen.ir.values import Kind, Var
 from codegen.scene.problem import Problem
 
 STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))

@@ -10,20 +10,29 @@ wait for them.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 from codegen.groups.capabilities import ClosedFormSeries
 from codegen.ir.domain import Domain
-from codegen.ir.interpret import coefficient
 from codegen.ir.number import Number
-from codegen.ir.program import ONE, Assign, Coefficient, Factor, Program, Var
+from codegen.ir.operations import AdSeries
+from codegen.ir.program import Assign, Program
+from codegen.ir.values import ONE, Coefficient, Var
 from codegen.passes.functions import ratio
 from codegen.passes.rewrite import uses
 from codegen.scene.problem import Problem
 
-Term = tuple[Coefficient, Assign]
-"""A multiple of a function of ad."""
+
+@dataclass(frozen=True)
+class Term:
+    """A multiple c W(ad_x) v of a function of ad."""
+
+    target: Var
+    coefficient: Coefficient
+    series: AdSeries
+    x: Var
+    v: Var
 
 
 @dataclass
@@ -46,17 +55,13 @@ class SeriesSums:
         for target in assign.targets:
             self.definitions[target] = assign
         group = self.scene.group.offers(ClosedFormSeries)
-        if assign.operation.name != "lin" or group is None:
+        if not assign.terms or group is None:
             return None
         sums = self._groups(assign)
         if not sums:
             return None
-        inner = {made.targets[0] for terms in sums for _, made in terms}
-        total = [
-            (coefficient(domain, c), env[v])
-            for c, v in zip(assign.operation.coefficients, assign.args, strict=True)
-            if v not in inner
-        ]
+        inner = {term.target for terms in sums for term in terms}
+        total = [(c.evaluate(domain), env[v]) for c, v in assign.terms if v not in inner]
         values = [self._nested(domain, group, terms, env) for terms in sums]
         result = values[0]
         for other in values[1:]:
@@ -68,35 +73,36 @@ class SeriesSums:
     def _groups(self, assign: Assign) -> list[list[Term]]:
         """Return the terms that are functions of ad of multiples of one x, where there are two or more."""
         groups: list[list[Term]] = []
-        for c, v in zip(assign.operation.coefficients, assign.args, strict=True):
+        for c, v in assign.terms:
             made = self.definitions.get(v)
-            if made is None or not made.operation.word or self.uses.get(v) != 1:
+            if made is None or not isinstance(made.operation, AdSeries) or self.uses.get(v) != 1:
                 continue
+            term = Term(v, c, made.operation, *made.args)
             for group in groups:
-                if ratio(self.definitions, made.args[0], group[0][1].args[0]) is not None:
-                    group.append((c, made))
+                if ratio(self.definitions, term.x, group[0].x) is not None:
+                    group.append(term)
                     break
             else:
-                groups.append([(c, made)])
+                groups.append([term])
         return [group for group in groups if len(group) > 1]
 
     def _nested(
         self, domain: Domain, group: ClosedFormSeries, members: list[Term], env: Mapping[Var, Any]
     ) -> tuple[Any, ...]:
         """Return the value of one sum, all in terms of the last x."""
-        x, operation = members[-1][1].args[0], members[-1][1].operation
+        x, dual = members[-1].x, members[-1].series.dual
         terms = []
-        for c, made in members:
-            scale = ratio(self.definitions, made.args[0], x)
+        for term in members:
+            scale = ratio(self.definitions, term.x, x)
             assert scale is not None
-            word: tuple[Factor, ...] = tuple(replace(f, scale=f.scale * scale) for f in made.operation.word)
-            terms.append((signed(domain, c), word, env[made.args[1]]))
+            word = tuple(f.scaled(scale) for f in term.series.word)
+            terms.append((signed(domain, term.coefficient), word, env[term.v]))
 
         def total(numbers: tuple[int, ...]) -> tuple[Any, ...]:
-            flat = self._flat([(members[k][0], members[k][1].args[1]) for k in numbers])
+            flat = self._flat([(members[k].coefficient, members[k].v) for k in numbers])
             return combined(domain, [(c, env[v]) for c, v in flat])
 
-        return group.series_sum(domain, terms, operation.name == "seriest", env[x], total)
+        return group.series_sum(domain, terms, dual, env[x], total)
 
     def _flat(self, terms: list[tuple[Coefficient, Var]]) -> list[tuple[Coefficient, Var]]:
         """Return a sum in terms of what its terms are sums of, where that is no longer."""
@@ -104,8 +110,8 @@ class SeriesSums:
         for c, v in terms:
             made = self.definitions.get(v)
             inner = [(ONE, v)]
-            if made is not None and made.operation.name == "lin":
-                inner = list(zip(made.operation.coefficients, made.args, strict=True))
+            if made is not None and made.terms:
+                inner = list(made.terms)
             for d, u in inner:
                 key, more = (u, c.power + d.power), c.value * d.value
                 total[key] = total[key] + more if key in total else more
@@ -116,8 +122,8 @@ class SeriesSums:
 def signed(domain: Domain, c: Coefficient) -> Any:
     """Return a coefficient with its sign in front, so that products with it and its negative are shared."""
     if c.value.is_rational and c.value.fraction() < 0:
-        return -coefficient(domain, Coefficient(-c.value, c.power))
-    return coefficient(domain, c)
+        return -Coefficient(-c.value, c.power).evaluate(domain)
+    return c.evaluate(domain)
 
 
 def combined(domain: Domain, terms: Sequence[tuple[Coefficient, tuple[Any, ...]]]) -> tuple[Any, ...]:

@@ -8,7 +8,7 @@ from codegen.groups.actions import LeftMultiplication
 from codegen.groups.rn import Rn
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, evaluate
-from codegen.ir.program import Kind
+from codegen.ir.values import Kind
 from codegen.scene.problem import TIME, Problem, StateField
 
 

@@ -17,9 +17,9 @@ from codegen.groups.base import LieGroup
 from codegen.groups.cotangent import Cotangent
 from codegen.groups.linear_algebra import S, Vector, dot, units
 from codegen.ir.differentiate import gradient
-from codegen.ir.domain import Domain
+from codegen.ir.domain import Domain, Value, Values
 from codegen.ir.expr import Expr, evaluate
-from codegen.scene.values import Bindings, Value, Values
+from codegen.scene.values import Bindings
 
 ENERGY = "energy"
 """The invariant of a field scene that discrete gradients keep."""

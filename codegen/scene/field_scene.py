@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from codegen.groups.actions import Action
 from codegen.groups.base import LieGroup
-from codegen.ir.program import Kind
+from codegen.ir.values import Kind
 from codegen.scene.arguments import check_action, check_group, read_span
 from codegen.scene.consistency import Stated, check_problem
 from codegen.scene.formulas import Reader

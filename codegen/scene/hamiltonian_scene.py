@@ -12,7 +12,7 @@ from codegen.groups.base import LieGroup
 from codegen.groups.capabilities import Coadjoint
 from codegen.ir.differentiate import gradient
 from codegen.ir.expr import Expr, walk
-from codegen.ir.program import Kind
+from codegen.ir.values import Kind
 from codegen.scene.arguments import check_group, read_span
 from codegen.scene.canonical_equations import force, velocity
 from codegen.scene.consistency import check_flow, check_problem

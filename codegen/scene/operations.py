@@ -1,6 +1,6 @@
 """The operations of step programs that a group or an action carries out, by name.
 
-:data:`codegen.ir.program.SIGNATURES` describes the arguments. The operations of a capability raise
+:mod:`codegen.ir.operations` describes the arguments. The operations of a capability raise
 :class:`codegen.errors.SceneError` for a group without it.
 """
 
@@ -11,8 +11,7 @@ from collections.abc import Callable, Mapping
 from codegen.groups.actions import Action
 from codegen.groups.base import LieGroup
 from codegen.groups.capabilities import BodyFrame, Coadjoint
-from codegen.ir.domain import Domain
-from codegen.scene.values import Value
+from codegen.ir.domain import Domain, Value
 
 GroupOperation = Callable[..., Value]
 """Of a group, a domain and the arguments; of the truncation order last, where there is one."""

@@ -17,15 +17,16 @@ from codegen.groups.base import LieGroup
 from codegen.groups.capabilities import BodyFrame, ClosedFormSeries, Coadjoint
 from codegen.groups.cotangent import Cotangent
 from codegen.groups.linear_algebra import S, Vector
-from codegen.ir.domain import Domain, ExprDomain
+from codegen.ir.ad_series import Word
+from codegen.ir.domain import Domain, ExprDomain, Values
 from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.number import Number
-from codegen.ir.program import Factor, Kind
+from codegen.ir.values import Kind
 from codegen.scene import energy
 from codegen.scene.body_frame import BodyField, body_field
 from codegen.scene.flow import Flow
 from codegen.scene.operations import BY_ACTION, ON_GROUP, TRUNCATED
-from codegen.scene.values import Bindings, Values
+from codegen.scene.values import Bindings
 
 TIME = "t"
 """The symbol of the time in formulas."""
@@ -147,9 +148,7 @@ class Problem:
         values = self.values(domain, (*q, *mu), *time)
         return self.flows[part].advance(domain, self.group.require(Coadjoint), values, tau, q, mu)
 
-    def series(
-        self, domain: Domain, word: tuple[Factor, ...], dual: bool, x: Vector[S], v: Vector[S]
-    ) -> Vector[S]:
+    def series(self, domain: Domain, word: Word, dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
         """Return the product of a word's functions of ad_x, of ad*_x if ``dual``, applied to v."""
         return self.group.require(ClosedFormSeries).series(domain, word, dual, x, v)
 

@@ -25,7 +25,7 @@ class EmbeddedOrder(Struct, frozen=True):
     claimed: int
     orders: dict[str, int]
     certificates: dict[str, str]
-    own: str = "rk"
+    own: str
     failing: tuple[Failure, ...] = ()
 
     def as_json(self) -> dict[str, object]:

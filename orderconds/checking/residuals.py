@@ -204,5 +204,6 @@ def _verdict(ring: Ring, residual: Element, n: int) -> str:
     zero = ring.is_zero(residual)
     if zero is not None:
         return "zero" if zero else "fails"
-    radius = Decimal(ring.radius(residual))  # type: ignore[attr-defined]  # only balls answer None
+    assert isinstance(ring, Balls)  # other rings decide
+    radius = Decimal(ring.radius(residual))
     return "supported" if radius <= RESOLUTION / factorial(n) else "undecided"

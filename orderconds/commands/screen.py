@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -83,7 +83,7 @@ def counting(message: str) -> Iterator[Callable[[str], object]]:
         yield lambda text: progress.update(task, advance=1, description=text)
 
 
-def print_json(value: Any) -> None:
+def print_json(value: object) -> None:
     """Print one JSON document: indented, in the order given, ASCII only.
 
     >>> print_json({"order": 4})

@@ -123,9 +123,9 @@ def _size(text: str | None) -> Fraction | None:
     return size
 
 
-def _record(order: Order, outcome: Outcome, output: str | None) -> dict[str, Any]:
+def _record(order: Order, outcome: Outcome, output: str | None) -> dict[str, object]:
     verdict = "found" if outcome.found else "infeasible" if outcome.none else "nothing found"
-    record: dict[str, Any] = {"verdict": verdict, "family": order.family, "order": order.order}
+    record: dict[str, object] = {"verdict": verdict, "family": order.family, "order": order.order}
     record |= {"stages": order.spec.stages, "seed": order.seed, "command": order.command()}
     if outcome.none is not None:
         return {**record, "proof": outcome.none.as_json()}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -66,10 +66,10 @@ def command(
 
 def _record(
     name: str, kind: Kind, order: int, count: bool, draw: bool, explain: bool, plain: bool
-) -> dict[str, Any]:
+) -> dict[str, object]:
     from orderconds.explain import lines
 
-    record: dict[str, Any] = {"kind": name, "order": order, "count": kind.count(order)}
+    record: dict[str, object] = {"kind": name, "order": order, "count": kind.count(order)}
     if count:
         return record
     members = list(kind.members(order))

@@ -20,7 +20,7 @@ from orderconds.families.registry import register
 from orderconds.formula import Formula
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.linear_flow import product_logarithm
-from orderconds.tableau.brackets import Bracket
+from orderconds.tableau.brackets import Bracket, Term
 from orderconds.tableau.products import Magnus, Method
 from orderconds.tableau.record import Tableau
 from orderconds.words.expansions import fer_remainder
@@ -87,7 +87,7 @@ class FerFamily(MagnusFamily):
         for depth in range(2, order + 1):
             for _ in range(2**order):
                 nodes = [int(i) for i in generator.integers(0, order, depth)]
-                term: object = nodes[0]
+                term: Term = nodes[0]
                 for i in nodes[1:]:
                     term = Bracket(term, i)
                 terms.append((term, ring.random(generator)))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
+from fractions import Fraction
 from functools import lru_cache
 
 from flint import arb, fmpq
@@ -113,12 +114,12 @@ def _certify(key: _Key, least: int) -> Certificate:
     if len(kept) != len(box):
         raise NotProved(_mismatch(len(kept), len(box)))
 
-    def square(point: list[Jet], over: Jets) -> list[Jet]:
+    def square(point: Sequence[Jet], over: Jets) -> list[Jet]:
         at_box = all(x.value is y for x, y in zip(point, box, strict=True))
         values = over_box if at_box else system(point, over)
         return [values[i] for i in kept]
 
-    solution = enclose(square, box, bits)  # type: ignore[arg-type]  # a list is a sequence
+    solution = enclose(square, box, bits)
     return _certificate(system, proof, solution, bits, len(kept))
 
 
@@ -175,6 +176,5 @@ def _distance(x: arb, to: fmpq) -> fmpq:
     return max(abs(low - to), abs(high - to))
 
 
-def _fmpq(x: object) -> fmpq:
-    numerator, denominator = x.as_integer_ratio()  # type: ignore[attr-defined]
-    return fmpq(numerator, denominator)
+def _fmpq(x: Fraction) -> fmpq:
+    return fmpq(*x.as_integer_ratio())

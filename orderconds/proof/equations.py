@@ -32,7 +32,6 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
 
 from orderconds import families
 from orderconds.conditions import OrderCondition
@@ -46,7 +45,7 @@ from orderconds.tableau import Magnus, Method, RungeKutta, Tableau
 from orderconds.tableau.evaluate import evaluate, rounded_and_exact
 from orderconds.tableau.properties import properties
 from orderconds.tableau.simplifying import simplifying, simplifying_order
-from orderconds.tableau.unknowns import Proof
+from orderconds.tableau.unknowns import Proof, RootedRing
 
 LOW_STORAGE_ORDER = 5
 """Up to here the tests compute that 2N schemes have no conditions but those of rooted trees."""
@@ -65,7 +64,7 @@ class Equations:
     """The conditions that do not follow from others, for the reduction ``spelling``."""
 
     def __call__(
-        self, point: Sequence[Element], ring: Any, places: Sequence[int] | None = None
+        self, point: Sequence[Element], ring: RootedRing, places: Sequence[int] | None = None
     ) -> list[Element]:
         """Return left-hand sides less right-hand sides; ``point`` are the unknowns' values in ``ring``.
 

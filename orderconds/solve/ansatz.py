@@ -9,14 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 from orderconds import families
 from orderconds.errors import InputError
 from orderconds.families import Family
+from orderconds.ring.protocol import Element
 from orderconds.solve.spec import Spec
-from orderconds.tableau import Tableau
-from orderconds.tableau.unknowns import Spelled
+from orderconds.tableau import Method, Tableau
+from orderconds.tableau.unknowns import RootedRing, Spelled
 
 if TYPE_CHECKING:
     from orderconds.solve.parametrise import Layout
@@ -58,32 +60,28 @@ class Ansatz:
             )
         return proof.spelled
 
-    def method(self, values: Sequence[Any], ring: Any) -> Any:
+    def method(self, values: Sequence[Element], ring: RootedRing) -> Method:
         """Return the method with these elements of a ring for the free coefficients."""
         spelled = self._spelled
         known = {u.constant: x for u, x in zip(spelled.decimals(), self._sorted(values), strict=True)}
         return spelled.method(ring, known)[0]
 
-    def _sorted(self, values: Sequence[Any]) -> list[Any]:
+    def _sorted(self, values: Sequence[Element]) -> list[Element]:
         """Return the values in the order in which the file names them."""
         return [x for _, x in sorted(zip(self.free, values, strict=True), key=lambda pair: _place(pair[0]))]
 
-    @property
+    @cached_property
     def _spelled(self) -> Spelled:
-        found: Spelled | None = self.__dict__.get("_parsed")
-        if found is None:
-            found = self.spelled()
-            object.__setattr__(self, "_parsed", found)
-        return found
+        return self.spelled()
 
-    def coefficients(self, values: Sequence[Any], ring: Any) -> list[Any]:
+    def coefficients(self, values: Sequence[Element], ring: RootedRing) -> list[Element]:
         """Return every coefficient that is no constant, in the order of ``cells``."""
         spelled = self._spelled
         known = {u.constant: x for u, x in zip(spelled.decimals(), self._sorted(values), strict=True)}
         return [spelled.number(name, ring, known) for name in self.cells]
 
 
-def _place(name: str) -> tuple[Any, ...]:
+def _place(name: str) -> tuple[bool, bool, str, list[int]]:
     """Sort names by their letters, then by their indices as numbers."""
     letters = name.rstrip("0123456789_")
     return (letters != "m", letters != "b", letters, [int(x) for x in name[len(letters) :].split("_") if x])

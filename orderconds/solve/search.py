@@ -10,9 +10,9 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -52,11 +52,15 @@ class Search:
     seed: int = 0
     minimised: bool = False
 
-    def described(self) -> dict[str, Any]:
+    def described(self) -> dict[str, object]:
         """Return the search as plain data, as a checkpoint keeps it."""
         record = asdict(self)
         record["spec"] = {key: str(x) if key == "size" else x for key, x in record["spec"].items()}
         return dict(json.loads(json.dumps(record)))
+
+
+BatchRecord = tuple[int, str, list[tuple[str, list[str]]]]
+"""A batch as plain data: number, least norm, solutions; doubles as hexadecimal text."""
 
 
 @dataclass(frozen=True)
@@ -71,12 +75,13 @@ class Batch:
     best: float
     solutions: tuple[tuple[float, tuple[float, ...]], ...] = ()
 
-    def as_json(self) -> list[Any]:
+    def as_json(self) -> BatchRecord:
         """Return plain data; doubles keep all their bits."""
-        return [self.number, self.best.hex(), [[s.hex(), [x.hex() for x in p]] for s, p in self.solutions]]
+        solutions = [(s.hex(), [x.hex() for x in p]) for s, p in self.solutions]
+        return self.number, self.best.hex(), solutions
 
     @staticmethod
-    def read(record: Sequence[Any]) -> Batch:
+    def read(record: BatchRecord) -> Batch:
         """Return the batch that :meth:`as_json` wrote."""
         number, best, solutions = record
         read = tuple((float.fromhex(s), tuple(map(float.fromhex, p))) for s, p in solutions)
@@ -222,7 +227,7 @@ def _computed(
         yield from joblib.Parallel(return_as="generator")(jobs)
 
 
-def _client(address: str) -> Any:
+def _client(address: str) -> AbstractContextManager[object]:
     """Return a client of a dask cluster."""
     try:
         from distributed import Client
@@ -233,7 +238,7 @@ def _client(address: str) -> Any:
             expected="pip install 'orderconds[cluster]'",
         ) from None
     try:
-        return Client(address, timeout=3)
+        client: AbstractContextManager[object] = Client(address, timeout=3)
     except (OSError, ValueError, TimeoutError) as problem:
         reason = str(problem).splitlines()[0] if str(problem) else type(problem).__name__
         raise InputError(
@@ -241,6 +246,7 @@ def _client(address: str) -> Any:
             where=f"--dask {address}",
             expected="tcp://host:port of a scheduler",
         ) from None
+    return client
 
 
 Reported = Callable[[str], object]

@@ -6,7 +6,6 @@ import shlex
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from orderconds.errors import InputError
 from orderconds.proof.krawczyk import NotProved
@@ -14,7 +13,7 @@ from orderconds.solve.abscissae import WHERE
 from orderconds.solve.ansatz import structures
 from orderconds.solve.certify_solution import Found, certify_solution
 from orderconds.solve.elimination import Infeasible, infeasible
-from orderconds.solve.problem import find_problem
+from orderconds.solve.problem import Problem, find_problem
 from orderconds.solve.search import BATCH, Batch, Checkpoint, Search, batches
 from orderconds.solve.spec import Spec
 
@@ -153,7 +152,7 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
 
 
 def _finished(
-    problem: Any, seen: list[Batch], order: Order, source: str, refused: str
+    problem: Problem, seen: list[Batch], order: Order, source: str, refused: str
 ) -> tuple[Found | None, str]:
     """Return the best solution that can be proved, or why the last could not be."""
     solutions = sorted((s for batch in seen for s in batch.solutions), key=lambda found: found[0])

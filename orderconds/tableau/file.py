@@ -16,18 +16,13 @@ from msgspec import Struct
 from orderconds.errors import InputError, TableauError
 from orderconds.input_file import read_bytes
 from orderconds.tableau.evaluate import Definition, NamedRoot, evaluate
+from orderconds.tableau.file_format import Claim, CutoffClaim, Format, Number, ProofEntry, RootEntry
 from orderconds.tableau.formats import (
     FORMATS,
-    Claim,
     CommutatorFreeFile,
-    CutoffClaim,
     EmbeddedEntry,
     EmbeddedProduct,
-    Format,
     LowStorage,
-    Number,
-    ProofEntry,
-    RootEntry,
     StageEntry,
 )
 from orderconds.tableau.grammar import Chain, Constant, Expression, parse
@@ -126,7 +121,7 @@ def loads(text: str, where: str = "<text>", path: str | None = None) -> Tableau:
     return from_data(data, where, path)
 
 
-def from_data(data: Mapping[str, Any], where: str = "<data>", path: str | None = None) -> Tableau:
+def from_data(data: Mapping[str, object], where: str = "<data>", path: str | None = None) -> Tableau:
     """Return the tableau of a file's keys and values, as TOML or JSON give them.
 
     >>> from_data({"name": "euler", "family": "rk", "A": [[]], "b": ["1"]}).method
@@ -159,7 +154,7 @@ def from_data(data: Mapping[str, Any], where: str = "<data>", path: str | None =
     )
 
 
-def _converted(data: Mapping[str, Any], where: str) -> Format:
+def _converted(data: Mapping[str, object], where: str) -> Format:
     """Return the typed file, its format chosen by ``family``."""
     family = data.get("family")
     if not isinstance(family, str) or family not in FORMATS:
@@ -172,7 +167,9 @@ def _converted(data: Mapping[str, Any], where: str) -> Format:
         raise _explained(str(problem), kind, "", where) from None
 
 
-def _each(table: Mapping[str, Any], kind: Any, struct: type[Struct], key: str, where: str) -> dict[str, Any]:
+def _each(
+    table: Mapping[str, object], kind: Any, struct: type[Struct], key: str, where: str
+) -> dict[str, Any]:
     """Return the entries of a table typed one by one, so that a message can name the entry."""
     result = {}
     for name, value in table.items():

@@ -28,7 +28,7 @@ from codegen.emitter import Compiled, compile_method, emit_compiled
 from codegen.ir.domain import FloatDomain
 from codegen.ir.interpret import interpret
 from codegen.ir.number import Number
-from codegen.lab.local_error import local_error, valuation
+from codegen.lab.orders.local_error import local_error, valuation
 from codegen.lab.reference import reference
 from codegen.lab.runner import Interpreted
 from codegen.loader import load

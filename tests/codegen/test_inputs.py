@@ -14,7 +14,7 @@ from codegen.emitter import compile_method, emit_compiled
 from codegen.errors import MethodError, SceneError
 from codegen.groups import SO3, Rotation
 from codegen.ir.domain import FloatDomain
-from codegen.lab.local_error import local_error, valuation
+from codegen.lab.orders.local_error import local_error, valuation
 from codegen.loader import Status, StepFailed, load
 from codegen.lower import lower, names, problem_for
 from codegen.method import Method

@@ -1,4 +1,4 @@
-"""Exit statuses of errors, interrupts, signals and closed pipes; one message, and with --json one document."""
+"""Exit statuses of errors, interrupts, signals and closed pipes."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ from codegen.flows.turn import Turn
 from codegen.groups import SO3, Rn
 from codegen.ir.domain import PreciseDomain, SeriesDomain
 from codegen.ir.number import Number
-from codegen.lab.local_error import local_error, valuation
+from codegen.lab.orders.local_error import local_error, valuation
 from codegen.lower import families_for, lower, problem_for
 from codegen.method import Method, parse
 from codegen.scene import HamiltonianScene
@@ -144,7 +144,7 @@ def test_flows_solve_the_equations_of_their_part_to_the_last_coefficient(name):
 def solution(scene, root, d, order):
     """The exact solution of one part, as power series."""
     from codegen.ir.differentiate import gradient
-    from codegen.lab.local_error import exact_flow
+    from codegen.lab.orders.local_error import exact_flow
     from codegen.scene.canonical_equations import force
 
     qs, mus = (block.symbols for block in scene.state)
@@ -244,15 +244,16 @@ def test_a_nystroem_splitting_has_its_order_where_the_bracket_vanishes_and_less_
 
 def test_a_step_frozen_in_time_is_caught():
     """The control: a program whose kicks all see the time of the start has order one."""
-    from codegen.ir.program import Coefficient
+    from codegen.ir.operations import Advance
+    from codegen.ir.values import Coefficient
 
     scene = SCENES["driven particle"]()
     method = parse("splitting:strang", families_for(scene))
     program = lower(scene, method)
     still = Coefficient(Number.rational(0))
     body = tuple(
-        replace(a, operation=replace(a.operation, coefficients=(still,)))
-        if a.operation.name == "advance"
+        replace(a, operation=replace(a.operation, coefficient=still))
+        if isinstance(a.operation, Advance)
         else a
         for a in program.body
     )

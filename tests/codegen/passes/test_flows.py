@@ -9,7 +9,7 @@ from sympy import Matrix, diag
 
 from codegen import scenes
 from codegen.flows.kick import Kick
-from codegen.ir.program import Coefficient
+from codegen.ir.values import Coefficient
 from codegen.lower import lower, problem_for
 from codegen.method import Method
 from codegen.passes import flows, optimise

@@ -12,7 +12,7 @@ from codegen import scenes
 from codegen.errors import SceneError
 from codegen.groups import SO3, LeftMultiplication, Rn, Rotation
 from codegen.ir.domain import ExprDomain, FloatDomain, PreciseDomain, SeriesDomain
-from codegen.ir.program import Kind
+from codegen.ir.values import Kind
 from codegen.scene import FieldScene, HamiltonianScene, param
 from codegen.scene.run_time import with_runtime
 from orderconds.errors import InputError, UnknownName
@@ -242,7 +242,7 @@ class TestDerivatives:
             assert -slope(moved, mu) == n[a].coefficients[0]
 
     def test_the_energy_is_constant_along_the_flow(self):
-        from codegen.lab.local_error import exact_flow
+        from codegen.lab.orders.local_error import exact_flow
 
         scene, d = hamiltonian_scene("SO(3)"), SeriesDomain(QQ, 6)
         energy = scene.invariant(d, "energy", exact_flow(scene, QQ, 6))

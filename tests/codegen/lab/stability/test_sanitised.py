@@ -10,9 +10,9 @@ import pytest
 from codegen import scenes
 from codegen.build import compile_files, find_compiler
 from codegen.emitter import compile_method
+from codegen.lab.default_methods import methods_for
 from codegen.lab.runner import Emitted
-from codegen.lab.stability.extremes import cases
-from codegen.lab.study import methods_for
+from codegen.lab.stability.extreme_steps import cases
 from tests.promises import SANITIZE
 
 
