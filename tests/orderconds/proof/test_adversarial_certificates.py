@@ -160,7 +160,7 @@ def test_embedded_orders_carry_a_certificate() -> None:
     embedded = check("dormand_prince5", "rk").embedded
     assert embedded is not None
     assert embedded.as_json()["certificates"] == {"rk": "exact"}
-    rounded = midpoint("0.5").replace("[proof]", '[embedded]\nb = ["0.9999999999~"]\norder = 1\n[proof]')
+    rounded = midpoint("0.3").replace("[proof]", '[embedded]\nb = ["0.9999999999~"]\norder = 1\n[proof]')
     found = check(Tableau.loads(rounded.partition("[proof]")[0])).embedded
     assert found is not None
     assert found.certificates == {"rk": "decimal"}
