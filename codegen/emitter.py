@@ -30,9 +30,9 @@ from codegen.method import Method, parse
 from codegen.passes import Optimiser, PassReport, optimise
 from codegen.printers import target as printer_of
 from codegen.printers.interface import Interface
-from codegen.printers.precision import DOUBLE
-from codegen.printers.precision import precision as known_precision
 from codegen.printers.recipe import Recipe
+from codegen.run.precision import DOUBLE
+from codegen.run.precision import precision as known_precision
 from codegen.run.solver_choice import AUTO, Choice, known_solver, solved
 from codegen.scene.momentum_frame import with_frame
 from codegen.scene.problem import TIME, Problem

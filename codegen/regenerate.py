@@ -6,10 +6,11 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from codegen.artifact import MANIFEST, Artifact, entries_of, manifest_text, write_text
+from codegen.artifact import MANIFEST, Artifact, entries_of, manifest_text, write_text, writing
 from codegen.emitter import compile_method, emit_compiled
 from orderconds.errors import InputError
-from orderconds.input_file import read_text
+from orderconds.input_file import content_of, read_text, reason
+from orderconds.output_file import is_temporary
 
 LIST = Path(__file__).with_name("regenerate.toml")
 KEYS = ("scene", "method", "targets")
@@ -100,9 +101,16 @@ def compare(directory: Path, files: dict[str, str]) -> list[Difference]:
     for path, text in files.items():
         if path not in there:
             found.append(Difference(path, "missing"))
-        elif (directory / path).read_bytes() != text.encode():
+        elif not _holds(directory / path, text.encode()):
             found.append(Difference(path, "different"))
     return sorted(found, key=lambda d: d.path)
+
+
+def _holds(path: Path, content: bytes) -> bool:
+    try:
+        return content_of(path, limit=len(content)) == content
+    except OSError:  # larger, for example
+        return False
 
 
 def emitted(directory: Path) -> set[str]:
@@ -116,8 +124,8 @@ def emitted(directory: Path) -> set[str]:
 
 
 def ignored(path: str) -> bool:
-    """Whether a file is a by-product of running an emitted module."""
-    return "__pycache__" in path.split("/")
+    """Return whether a file is a by-product: of running an emitted module, or of a write that was killed."""
+    return "__pycache__" in path.split("/") or is_temporary(path.rpartition("/")[2])
 
 
 def write(directory: Path, files: dict[str, str]) -> list[Difference]:
@@ -129,10 +137,11 @@ def write(directory: Path, files: dict[str, str]) -> list[Difference]:
         for difference in last:
             path = directory / difference.path
             if difference.kind == "stale":
-                path.unlink()
+                path.unlink(missing_ok=True)
             elif difference.kind != "unknown":
                 path.parent.mkdir(parents=True, exist_ok=True)
-                write_text(path, files[difference.path])
+                with writing(path.parent):
+                    write_text(path, files[difference.path])
     except OSError as error:
-        raise InputError(f"cannot write there: {error.strerror}", where=str(directory)) from None
+        raise InputError(f"cannot write there: {reason(error)}", where=str(directory)) from None
     return changed

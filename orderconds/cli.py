@@ -21,7 +21,6 @@ import click
 from orderconds import __version__
 from orderconds.errors import InputError, UnknownName
 from orderconds.exit_status import Run, catch_signals, current_run, past_click
-from orderconds.processes import terminate_children
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
@@ -45,10 +44,12 @@ BUILT_IN = {
     ),
     "derive": ("orderconds.commands.derive", "Print the independent order conditions of a family."),
     "list": ("orderconds.commands.list", "List families, tableaux, and what other packages offer."),
+    "modified": ("orderconds.commands.modified", "Print the modified equation of a method."),
     "refine": (
         "orderconds.commands.refine",
         "Sharpen the decimals of a tableau by Newton's method and prove them.",
     ),
+    "series": ("orderconds.commands.series", "Print the BCH, Magnus or dexp series in a basis of brackets."),
     "solve": ("orderconds.commands.solve", "Find a method, prove its order, and write its tableau."),
     "table": ("orderconds.commands.table", "The library as a Markdown table; keep it current in a file."),
     "trees": ("orderconds.commands.trees", "Enumerate, draw and explain trees, forests and Lyndon words."),
@@ -156,7 +157,6 @@ class Program(click.Group):
             raise
         except BaseException as error:
             status = run.end(error)
-            terminate_children()
         sys.exit(status)
 
 

@@ -129,8 +129,8 @@ def _told(error: BaseException) -> tuple[int, str]:
     text = " ".join(str(error).split())
     shown = text if len(text) <= MAX_TEXT else text[:MAX_TEXT] + " ..."
     return INTERNAL, (
-        f"internal error: {type(error).__name__}{': ' * bool(shown)}{shown}; report it with this command, "
-        "its input and the traceback that ORDERCONDS_TRACEBACK=1 or orderconds --traceback COMMAND shows"
+        f"internal error: {type(error).__name__}{': ' * bool(shown)}{shown}; please report it with this "
+        "command, its input, and the traceback that ORDERCONDS_TRACEBACK=1 shows"
     )
 
 

@@ -45,6 +45,7 @@ __all__ = [
     "get",
     "listing",
     "register",
+    "unregister",
 ]
 
 LISTED = ("Cotangent", "GL", "MatrixGroup", "Product", "Rn", "S3", "SE2", "SL2", "SO3")
@@ -72,8 +73,9 @@ Registered = TypeVar("Registered", bound="type[LieGroup] | type[Action]")
 def register(cls: Registered) -> Registered:
     """Add a group or an action defined elsewhere to the listings and return it, so it is a decorator too.
 
-    A scene may use a class that is not registered. :class:`SceneError` for another class, for one with
-    abstract methods, and for the name of a class of this package.
+    A scene may use a class that is not registered. A second class of the same name replaces the first.
+    :class:`SceneError` for another class, for one with abstract methods, and for the name of a class of this
+    package.
     """
     from codegen.groups.actions import ACTIONS, Action
     from codegen.groups.base import LieGroup
@@ -85,6 +87,17 @@ def register(cls: Registered) -> Registered:
     else:
         raise SceneError(f"cannot register {cls!r}", expected="a subclass of LieGroup or Action")
     return cls
+
+
+def unregister(cls: type[LieGroup] | type[Action]) -> None:
+    """Remove a class that :func:`register` added."""
+    from codegen.groups.actions import ACTIONS
+    from codegen.groups.base import LieGroup
+
+    if issubclass(cls, LieGroup):
+        GROUPS.remove(cls)
+    else:
+        ACTIONS.remove(cls)
 
 
 def listing() -> list[dict[str, str]]:

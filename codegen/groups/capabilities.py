@@ -143,14 +143,46 @@ class ClosedFormSeries(Coadjoint):
         """
 
 
-class MatrixElements(LieGroup):
-    """Elements are n x n matrices row by row, size = n^2; they act on columns of n scalars."""
+class MatrixRepresentation(LieGroup):
+    """A faithful representation by square matrices, row by row.
 
-    provides: ClassVar[str] = "matrix elements"
+    Elementary differentials of a scene are computed in it.
+    """
+
+    provides: ClassVar[str] = "matrix representation"
+
+    @abstractmethod
+    def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return the matrix of an element: matrix(g k) = matrix(g) matrix(k)."""
+
+    @abstractmethod
+    def element(self, matrix: Vector[S]) -> Vector[S]:
+        """Return the coordinates of an element, the inverse of :meth:`matrix`; linear in the matrix."""
 
     @abstractmethod
     def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the matrix of an element of the algebra, row by row: velocity(x, g) = hat(x) g."""
+        """Return the matrix of x in the algebra: d/deps matrix(exp(eps x)) = hat(x) at eps = 0."""
+
+    @abstractmethod
+    def vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
+        """Return the coordinates of x in the algebra, given its matrix: the inverse of :meth:`hat`."""
+
+
+class MatrixElements(MatrixRepresentation):
+    """Elements are n x n matrices row by row, size = n^2; they act on columns of n scalars.
+
+    The representation is the identity: velocity(x, g) = hat(x) g.
+    """
+
+    provides: ClassVar[str] = "matrix elements"
+
+    def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return g."""
+        return g
+
+    def element(self, matrix: Vector[S]) -> Vector[S]:
+        """Return the matrix itself."""
+        return matrix
 
     @property
     def order(self) -> int:
@@ -193,6 +225,31 @@ class PointMotions(LieGroup):
     @abstractmethod
     def point_velocity(self, d: Domain, x: Vector[S], z: Vector[S]) -> Vector[S]:
         """Return x.z, the derivative of exp(eps x).z at eps = 0."""
+
+
+class DirectProduct(LieGroup):
+    """The group is a direct product of ``factors``."""
+
+    provides: ClassVar[str] = "factors"
+    factors: tuple[LieGroup, ...]
+
+    @abstractmethod
+    def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
+        """Return the coordinates of each factor, for an element or for one of the algebra or its dual."""
+
+
+class CotangentBundle(LieGroup):
+    """The group is T*G for a group G, its ``base``; coordinates of G, then of the momentum."""
+
+    provides: ClassVar[str] = "momenta of a base group"
+    base: Coadjoint
+
+    @abstractmethod
+    def canonical(self, d: Domain, z: Vector[S], covector: Vector[S]) -> Vector[S]:
+        """Return the canonical bivector at z applied to a covector, in the algebra.
+
+        For the trivialised differential of a Hamiltonian it is its field f = (xi, n).
+        """
 
 
 class Projection(LieGroup):

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from codegen.groups.base import LieGroup
-from codegen.groups.capabilities import Coadjoint
+from codegen.groups.capabilities import Coadjoint, CotangentBundle
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
 
 
-class Cotangent(LieGroup):
+class Cotangent(CotangentBundle):
     """T*G with product (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu), elements and algebra in that order.
 
     With f(q, mu) = (xi, n) the flow is q' = xi.q, mu' = n - ad*_xi mu, that is z' = f(z).z (Arnold and Khesin

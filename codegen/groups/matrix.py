@@ -83,7 +83,7 @@ class MatrixGroup(MatrixElements, Coadjoint):
         return matmul(g, k, self.n)
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the matrix exponential: exact over power series in h, else summed until it stands still."""
+        """Return the matrix exponential: exact over power series in h, else to the last digit."""
         a = self.hat(d, x)
         return _entire(d, self.identity(d), lambda term: matmul(a, term, self.n), 0)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
 from codegen.groups.base import C, LieGroup
-from codegen.groups.capabilities import Coadjoint, RightTrivialisation
+from codegen.groups.capabilities import Coadjoint, DirectProduct, RightTrivialisation
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import sympy
 
 
-class Product(Coadjoint, RightTrivialisation):
+class Product(DirectProduct, Coadjoint, RightTrivialisation):
     """G1 x G2 x ...: coordinates of the factors one after the other, every operation factor by factor.
 
     SO(3) x R^3 holds a rigid body's attitude and momentum, G x R a configuration and the time. SO(3) x R^3 is
@@ -45,6 +45,8 @@ class Product(Coadjoint, RightTrivialisation):
     def offers(self, capability: type[C]) -> C | None:
         """Return this product as a group with a capability, None if a factor lacks it."""
         own = super().offers(capability)
+        if issubclass(DirectProduct, capability):  # to be a product needs nothing of the factors
+            return own
         return own if all(f.offers(capability) is not None for f in self.factors) else None
 
     def _each(self, capability: type[C], operation: Callable[..., Vector[S]], *args: Vector[S]) -> Vector[S]:

@@ -40,14 +40,19 @@ class Registry(Generic[T]):
             raise SceneError(f"a second {self.kind} called {name}", expected="another name for the class")
         self._added[name] = cls
 
+    def remove(self, cls: type[T]) -> None:
+        """Remove an added class; one that was not added, or was replaced, is ignored."""
+        if self._added.get(cls.__name__) is cls:
+            del self._added[cls.__name__]
+
     def get(self, name: str) -> type[T]:
         """Return the class of that name; :class:`orderconds.errors.UnknownName` for another."""
         if name in self._added:
             return self._added[name]
         if name not in self.built_in:
             raise UnknownName(f"unknown {self.kind} {name!r}", expected=f"one of {', '.join(self.names)}")
-        found: type[T] = getattr(sys.modules[self.home], name)
-        return found
+        cls: type[T] = getattr(sys.modules[self.home], name)
+        return cls
 
     def listing(self) -> list[dict[str, str]]:
         """Return name and first docstring line of every class."""

@@ -82,9 +82,9 @@ class SE2(Coadjoint, PointMotions):
         """Return mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu."""
         z = x[0] * x[0]
         c2, c3 = d.call("stumpff2", z), d.call("stumpff3", z)
-        once = self.adt(d, x, mu)
-        twice = self.adt(d, x, once)
-        return tuple(m + c2 * a + c3 * b for m, a, b in zip(mu, once, twice, strict=True))
+        first = self.adt(d, x, mu)
+        second = self.adt(d, x, first)
+        return tuple(m + c2 * a + c3 * b for m, a, b in zip(mu, first, second, strict=True))
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return x.g: w J on the rotation, the velocity under x on the translation."""

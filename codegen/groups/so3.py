@@ -164,12 +164,12 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
         """Return g^T g = 1 as replacements of the products of two entries of the first row."""
         one, minus = Number.rational(1), Number.rational(-1)
-        found: list[Relation] = []
+        relations: list[Relation] = []
         for j in range(3):
             for k in range(j, 3):
                 rest = [(minus, (q[3 * i + j], q[3 * i + k])) for i in (1, 2)]
-                found.append(((q[j], q[k]), [*([(one, ())] if j == k else []), *rest]))
-        return tuple(found)
+                relations.append(((q[j], q[k]), [*([(one, ())] if j == k else []), *rest]))
+        return tuple(relations)
 
     def rotate(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return exp(x) y = y + c_1 x cross y + c_2 x cross (x cross y) without forming exp(x)."""
@@ -218,3 +218,7 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
         """Return the skew matrix of x, row by row."""
         zero = d.rational(0)
         return (zero, -x[2], x[1], x[2], zero, -x[0], -x[1], x[0], zero)
+
+    def vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
+        """Return the vector of a skew matrix."""
+        return (matrix[7], matrix[2], matrix[3])

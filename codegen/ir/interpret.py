@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import replace
-from typing import Any
+from typing import cast
 
-from codegen.ir.domain import Domain, NotConverged
+from codegen.ir.domain import Differenced, Domain, NotConverged, Scalar, Value
 from codegen.ir.operations import Adjoint, Problem
 from codegen.ir.program import BODY, SPACE, Assign, Program, Solve
 from codegen.ir.values import Kind, Var
+
+Env = dict[Var, Value]
+"""The values of a program's variables."""
+
+State = dict[str, Value]
+"""The values of inputs or outputs by name."""
 
 TO_BODY = Adjoint(dual=True)
 TO_SPACE = TO_BODY.opposite()
 
 
-def flatten(kind: Kind, value: Any) -> tuple[Any, ...]:
+def flatten(kind: Kind, value: Value) -> tuple[Scalar, ...]:
     """Return the scalars of a value; every value but a Real is a flat tuple already, matrices row by row."""
     return (value,) if kind is Kind.REAL else tuple(value)
 
@@ -25,13 +31,13 @@ def interpret(
     program: Program,
     problem: Problem,
     domain: Domain,
-    inputs: Mapping[str, Any],
+    inputs: Mapping[str, Value],
     *,
     limit: int = 400,
     newton: bool = True,
-    solutions: dict[Var, Any] | None = None,
-    near: list[list[Any]] | None = None,
-) -> dict[str, Any]:
+    solutions: Env | None = None,
+    near: list[list[Scalar]] | None = None,
+) -> State:
     """Return the new state after one step, by input name.
 
     ``inputs`` gives every input of the program: a Real is a scalar of the domain, anything else a flat tuple
@@ -46,13 +52,13 @@ def interpret(
     """
     if program.frame == BODY:
         core, start = replace(program, frame=SPACE), {**inputs, "mu": inward(problem, domain, inputs)}
-        options: dict[str, Any] = {"limit": limit, "newton": newton, "solutions": solutions, "near": near}
+        options: State = {"limit": limit, "newton": newton, "solutions": solutions, "near": near}
         found = interpret(core, problem, domain, start, **options)
         return found | {"mu": outward(problem, domain, inputs, start, found)}
     if program.substeps:
         return _composed(program, problem, domain, inputs, limit, newton, near)
     expected = {} if solutions is None else solutions
-    env: dict[Var, Any] = {v: inputs[v.name] for v in program.inputs}
+    env: Env = {v: inputs[v.name] for v in program.inputs}
 
     computed = getattr(domain, "computed", None)
 
@@ -66,7 +72,7 @@ def interpret(
         if isinstance(statement, Assign):
             run(statement)
         elif near is not None:
-            near.append(_correct(statement, env, domain, run, limit, near.pop(0)))
+            near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
             patience = getattr(domain, "patience", limit) if newton else limit
             try:
@@ -74,20 +80,20 @@ def interpret(
             except (ArithmeticError, ValueError):
                 if not newton or not hasattr(domain, "increment"):
                     raise
-                _correct(statement, env, domain, run, limit)
+                _correct(statement, env, _differenced(domain), run, limit)
             expected.update((unknown, env[unknown]) for unknown in statement.unknowns)
     return {name: env[var] for name, var in program.outputs}
 
 
-def inward(problem: Problem, domain: Domain, state: Mapping[str, Any]) -> tuple[Any, ...]:
+def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tuple[Scalar, ...]:
     """Return Ad*_q mu, the momentum of the body."""
     (m,) = TO_BODY.evaluate(problem, domain, (state["q"], state["mu"]))
     return tuple(m)
 
 
 def outward(
-    problem: Problem, domain: Domain, state: Mapping[str, Any], *ends: Mapping[str, Any]
-) -> tuple[Any, ...]:
+    problem: Problem, domain: Domain, state: Mapping[str, Value], *ends: Mapping[str, Value]
+) -> tuple[Scalar, ...]:
     """Return the momentum in space after a step from a state, made in the body between two ends.
 
     It is that of the state and what has been added: where rounding has made q not quite orthogonal, it turns
@@ -101,11 +107,11 @@ def _composed(
     program: Program,
     problem: Problem,
     domain: Domain,
-    inputs: Mapping[str, Any],
+    inputs: Mapping[str, Value],
     limit: int,
     newton: bool,
-    near: list[list[Any]] | None,
-) -> dict[str, Any]:
+    near: list[list[Scalar]] | None,
+) -> State:
     """Return the new state after all substeps."""
     once, state = replace(program, substeps=()), dict(inputs)
     for step in program.substeps:
@@ -118,11 +124,16 @@ def _composed(
 
 
 def _iterate(
-    block: Solve, env: dict[Var, Any], domain: Domain, run: Any, limit: int, expected: Mapping[Var, Any]
+    block: Solve,
+    env: Env,
+    domain: Domain,
+    run: Callable[[Assign], None],
+    limit: int,
+    expected: Mapping[Var, Value],
 ) -> None:
     for unknown, start in zip(block.unknowns, block.starts, strict=True):
         env[unknown] = expected.get(unknown, env[start])
-    size: Any = None
+    size: Scalar = None
     for _ in range(limit):
         for assign in block.body:
             run(assign)
@@ -136,9 +147,20 @@ def _iterate(
     raise NotConverged(f"{block.label} did not settle in {limit} sweeps; the last change was {size}")
 
 
+def _differenced(domain: Domain) -> Differenced:
+    # Domains that wrap another one answer through __getattr__, which isinstance does not see.
+    assert hasattr(domain, "increment")
+    return cast("Differenced", domain)
+
+
 def _correct(
-    block: Solve, env: dict[Var, Any], domain: Any, run: Any, limit: int, near: Sequence[Any] | None = None
-) -> list[Any]:
+    block: Solve,
+    env: Env,
+    domain: Differenced,
+    run: Callable[[Assign], None],
+    limit: int,
+    near: Sequence[Scalar] | None = None,
+) -> list[Scalar]:
     """Solve a block by Newton's method with difference quotients: no formula is differentiated.
 
     It begins at ``near``, by default where the block starts; the unknowns are returned. A domain may say how
@@ -147,7 +169,7 @@ def _correct(
     kinds = [u.kind for u in block.unknowns]
     widths = [len(flatten(s.kind, env[s])) for s in block.starts]
 
-    def images(numbers: list[Any]) -> list[Any]:
+    def images(numbers: list[Scalar]) -> list[Scalar]:
         place = 0
         for unknown, kind, width in zip(block.unknowns, kinds, widths, strict=True):
             part = tuple(numbers[place : place + width])
@@ -182,7 +204,7 @@ def _correct(
     raise NotConverged(f"{block.label} did not settle in {limit} sweeps; the last change was {size}")
 
 
-def _solved(columns: list[list[Any]], right: list[Any]) -> list[Any]:
+def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
     """Solve a linear system by elimination with row exchanges; the matrix is given by columns."""
     n = len(right)
     rows = [[column[i] for column in columns] + [right[i]] for i in range(n)]
@@ -194,7 +216,7 @@ def _solved(columns: list[list[Any]], right: list[Any]) -> list[Any]:
         for i in range(k + 1, n):
             factor = rows[i][k] / rows[k][k]
             rows[i] = [x - factor * y for x, y in zip(rows[i], rows[k], strict=True)]
-    found: list[Any] = []
+    found: list[Scalar] = []
     for k in reversed(range(n)):
         total = rows[k][n]
         for x, y in zip(rows[k][k + 1 : n], reversed(found), strict=True):

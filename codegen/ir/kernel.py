@@ -56,10 +56,9 @@ class Let:
 class Newton:
     """The matrix of Newton's method for u = g(u): ``matrix`` is 1 - g'(u), ``body`` computes its entries.
 
-    It is inverted in the first sweep of all, and kept from sweep to sweep and from step to step until a
-    correction is not smaller than ``CONTRACTION`` times the one before it; it is then made anew. A matrix to
-    ``leading`` order in h is made and inverted before the sweeps of each step instead. Entries that are
-    ``inverted`` are those of the inverse already.
+    It is kept from sweep to sweep and from step to step (:mod:`codegen.run.sweeps`); a matrix to ``leading``
+    order in h is computed and inverted in each step instead. Entries that are ``inverted`` are those of the
+    inverse already.
 
     Where the loop's images are ``residuals``, what is to be zero, the matrix is minus their derivative to
     first order in h, and serves ``period`` steps; the last change of the unknowns is called ``changes``, for
@@ -93,17 +92,10 @@ class Loop:
     - unknowns, and the unknowns keep the values that the last body was computed from; with it the change is
     that times the inverse of ``newton.matrix``, and the last change is made too.
 
-    With the largest change d and its predecessor e, both in units of the largest unknown, the iteration has
-    converged when d >= e (it stands still) and d <= ``tolerance``, or d <= ``close`` and r d <= ``UNIT`` with
-    the rate r = d/e (the next change would be below rounding). It may stand still above that where terms
-    cancel, so that the unknowns are small beside what they are computed from: unknowns are rates, and a
-    change that moves the state by h times itself, less than ``LOST`` of the largest number of each of its
-    blocks, has converged, too. No number is small or large as such: what diverges is not taken for still
-    because it is small yet. In the first sweep r is the last rate of the step before, where the kernel has a
-    :class:`Start`, doubled for each step that has ended in its first sweep since; after ``limit`` sweeps
-    without that it has failed, and so has a change that is not finite, and Newton's method where a matrix
-    just made gives no smaller change than the sweep before. ``read_anew`` says that nothing but the unknowns
-    is read after the loop, so that the last change may be larger.
+    ``tolerance``, ``close`` and ``limit`` are numbers of the stopping rule (:mod:`codegen.run.stopping`): the
+    largest change, in units of the largest unknown, at which an iteration may stand still; the largest after
+    which a contraction is trusted to finish; the most sweeps. ``read_anew`` says that only the unknowns are
+    read after the loop, so that the last change may be larger.
     """
 
     label: str
@@ -134,21 +126,6 @@ class Loop:
             return 16 * self.tolerance
         first_order = self.solver == CHORD or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
-
-    def settled(self, change: float, previous: float, scale: float, lost: float = 0.0) -> bool:
-        """Return whether a change ends the iteration; ``previous`` is 0 in the first sweep.
-
-        ``scale`` is the largest unknown, ``lost`` a change of the unknowns that the state does not feel.
-
-        >>> loop = Loop("x", (), (), (), ())
-        >>> loop.settled(1e-15, 1e-13, 1.0), loop.settled(1e-15, 2e-15, 1.0), loop.settled(1e-15, 0.0, 1.0)
-        (True, False, False)
-        >>> loop.settled(1e-15, 1e-15, 1e-3), loop.settled(1e-15, 1e-15, 1e-3, lost=1e-14)
-        (False, True)
-        """
-        if change <= self.close * scale and change * change <= UNIT * scale * previous:
-            return True
-        return previous > 0 and previous <= change <= max(self.tolerance * scale, lost)
 
 
 @dataclass(frozen=True)

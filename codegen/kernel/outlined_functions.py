@@ -7,8 +7,8 @@ wherever it is called; it computes those results that are read.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
+from codegen.ir.domain import Value
 from codegen.ir.expr import Expr, Space, evaluate, walk
 from codegen.ir.interpret import flatten
 from codegen.ir.kernel import Function, Kernel
@@ -56,14 +56,14 @@ def function(
     inputs = _Inputs(name, domain.space, fixed)
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
-    values: list[Any] = []
+    values: list[Value] = []
     for v, word in zip(given, words, strict=True):
         own = inputs.take([f"{word}_{k}" for k in range(trees.width(tree, v))])
         values.append(own[0] if v.kind is Kind.REAL else own)
     coefficients = [c for i in tree.members for c in distinct(trees.made[i].assign)]
     numbers = inputs.take([f"c{k + 1}" for k in range(len(coefficients))])
     (step,) = inputs.take(["h"]) if any(c.power for c in coefficients) else (domain.h,)
-    results: list[Any] = []
+    results: list[Value] = []
     texts: list[str] = []
     first = 0
     for i, places in zip(tree.members, wires, strict=True):
@@ -114,13 +114,13 @@ def calls(kernel: Kernel) -> dict[str, int]:
 class WithFunctions:
     """A domain in which a kernel's functions can be called."""
 
-    def __init__(self, domain: Any, functions: Sequence[Function]) -> None:
+    def __init__(self, domain: Value, functions: Sequence[Function]) -> None:
         self.domain, self.functions = domain, {function.name: function for function in functions}
 
-    def __getattr__(self, name: str) -> Any:
+    def __getattr__(self, name: str) -> Value:
         return getattr(self.domain, name)
 
-    def call(self, callee: str, *args: Any) -> Any:
+    def call(self, callee: str, *args: Value) -> Value:
         """Return one result of a function, or a function's value."""
         name, dot, k = callee.partition(".")
         if not dot:

@@ -6,11 +6,10 @@ Trees have one key where they do the same to other operands, with other coeffici
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
-from codegen.ir.domain import ExprDomain
+from codegen.ir.domain import ExprDomain, Value
 from codegen.ir.expr import Expr, walk
 from codegen.ir.interpret import flatten
 from codegen.ir.operations import FLOWS, Advance, Identity, Linear, Zero
@@ -24,6 +23,12 @@ NODES = 3
 """About how many operations stand on a line."""
 
 Values = tuple[Expr, ...]
+
+Key = Hashable
+"""What trees of one shape have in common."""
+
+PairKey = tuple[Key, Key, Key]
+"""The keys of two trees and of the tree that they are joined to."""
 
 
 @dataclass(frozen=True)
@@ -64,14 +69,14 @@ class Trees:
 
     def __post_init__(self) -> None:
         self._users: dict[Var, list[int | None]] = {}
-        self._lines: dict[Any, int] = {}
-        self._multiples: dict[Var, tuple[Coefficient, Var, Any]] = {}
+        self._lines: dict[str, int] = {}
+        self._multiples: dict[Var, tuple[Coefficient, Var, Value]] = {}
 
     def note(
         self,
         assign: Assign,
-        args: Sequence[Any],
-        results: Sequence[Any],
+        args: Sequence[Value],
+        results: Sequence[Value],
         place: int,
         joined: bool = True,
     ) -> None:
@@ -91,7 +96,7 @@ class Trees:
             )
         )
 
-    def _from_the_whole(self, assign: Assign, args: Sequence[Any]) -> tuple[Assign, Sequence[Any]]:
+    def _from_the_whole(self, assign: Assign, args: Sequence[Value]) -> tuple[Assign, Sequence[Value]]:
         """Return a multiple of a multiple as one of that, so that the first is not read twice."""
         if not assign.is_multiple:
             return assign, args
@@ -109,9 +114,9 @@ class Trees:
         trees = {i: Tree([i]) for i, m in enumerate(self.made) if m.may_join}
         owner = {i: i for i in trees}
         while True:
-            pairs: dict[Any, list[tuple[int, int]]] = {}
+            pairs: dict[PairKey, list[tuple[int, int]]] = {}
             keys = {i: self.key(t) for i, t in trees.items()}
-            count: dict[Any, int] = {}
+            count: dict[Key, int] = {}
             for key in keys.values():
                 count[key] = count.get(key, 0) + 1
             for i in trees:
@@ -136,7 +141,7 @@ class Trees:
                 for member in trees.pop(i).members:
                     owner[member] = j
 
-    def _gain(self, key: Any, found: list[tuple[int, int]], count: Mapping[Any, int]) -> int:
+    def _gain(self, key: PairKey, found: list[tuple[int, int]], count: Mapping[Key, int]) -> int:
         """Return about how many lines joining pairs of trees saves."""
         first, second, _ = key
         k = len(found)
@@ -198,7 +203,7 @@ class Trees:
                 targets[v] = 1 + len(targets)
         return list(given), wires
 
-    def key(self, tree: Tree) -> Any:
+    def key(self, tree: Tree) -> Key:
         """Return what trees of one shape have in common; coefficients differ, but those equal stay so."""
         _, wires = self.wiring(tree)
         shape = []

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 from codegen.errors import SceneError
 from codegen.groups.actions import LeftMultiplication
 from codegen.groups.base import LieGroup
-from codegen.groups.capabilities import RightTrivialisation
-from codegen.groups.cotangent import Cotangent
+from codegen.groups.capabilities import CotangentBundle, RightTrivialisation
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr
 from codegen.ir.values import Kind
@@ -31,8 +30,9 @@ class Variations:
         parts: list[tuple[LieGroup | None, tuple[str, ...]]] = []
         for block in scene.state:
             moved = block.kind is Kind.POINT and isinstance(scene.action, LeftMultiplication)
-            if isinstance(scene.group, Cotangent) and moved:
-                base = scene.group.base
+            bundle = scene.group.offers(CotangentBundle) if moved else None
+            if bundle is not None:
+                base = bundle.base
                 parts += [(base, block.symbols[: base.size]), (None, block.symbols[base.size :])]
             elif block.kind is Kind.GROUP or moved:
                 parts.append((scene.group, block.symbols))

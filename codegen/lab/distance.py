@@ -10,8 +10,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from codegen.groups import LieGroup, Product
-from codegen.groups.capabilities import MatrixElements
+from codegen.groups import LieGroup
+from codegen.groups.capabilities import DirectProduct, MatrixElements
 from codegen.ir.values import Kind
 from codegen.lab.scalars import Scalar
 from codegen.scene.problem import Problem
@@ -37,8 +37,9 @@ def distance(scene: Problem, state: Sequence[Scalar], exact: Sequence[Scalar]) -
 
 def _norm(group: LieGroup, gap: Sequence[float]) -> float:
     """Return the norm of a difference of two elements; a product group adds the norms of its factors."""
-    if isinstance(group, Product):
-        return sum(map(_norm, group.factors, group.parts(tuple(gap))))
+    product = group.offers(DirectProduct)
+    if product is not None:
+        return sum(map(_norm, product.factors, product.parts(tuple(gap))))
     return euclidean_norm(gap) if group.offers(MatrixElements) is None else spectral_norm(gap)
 
 

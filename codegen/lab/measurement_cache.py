@@ -18,7 +18,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TypeVar
 
-from codegen.build import cache_directory
+from codegen.cache_entry import cache_directory
 
 T = TypeVar("T")
 
@@ -59,7 +59,7 @@ class MeasurementCache:
         """Return the stored result of ``key``; None if it is missing, damaged or not of type ``kind``."""
         import msgspec
 
-        if self.folder is None or not _is_private(self.folder):
+        if self.folder is None or not _secured(self.folder):
             return None
         try:
             content = self._path(self.folder, key).read_bytes()
@@ -79,7 +79,7 @@ class MeasurementCache:
         body = msgspec.msgpack.encode(result)
         try:
             self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-            if not _is_private(self.folder):
+            if not _secured(self.folder):
                 return
             _replace(self._path(self.folder, key), hashlib.sha256(body).digest() + body)
         except OSError:
@@ -87,7 +87,7 @@ class MeasurementCache:
 
     def remove(self) -> None:
         """Delete the folder with all entries."""
-        if self.folder is not None and _is_private(self.folder):
+        if self.folder is not None and _secured(self.folder):
             shutil.rmtree(self.folder, ignore_errors=True)
 
     @staticmethod
@@ -97,12 +97,12 @@ class MeasurementCache:
 
 
 def user_cache() -> MeasurementCache:
-    """Return the cache of this user, in :func:`codegen.build.cache_directory`."""
+    """Return the cache of this user, in :func:`codegen.cache_entry.cache_directory`."""
     return MeasurementCache(cache_directory() / "measurements")
 
 
-def _is_private(folder: Path) -> bool:
-    """Whether the folder is a real directory of this user; its mode is set to 0700 if it is not already."""
+def _secured(folder: Path) -> bool:
+    """Set the mode of a folder to 0700; return whether it is a real directory of this user."""
     try:
         status = os.lstat(folder)
         if not stat.S_ISDIR(status.st_mode) or (hasattr(os, "getuid") and status.st_uid != os.getuid()):

@@ -71,7 +71,7 @@ def straight_line(scene: Problem, roots: tuple[Expr, ...]) -> StraightLine:
     places = {s: f"y[{i}]" for i, s in enumerate(scene.symbols)}
     for node in walk(roots):
         if node.op == "sym":
-            names[node.id] = places.get(node.payload, node.payload)
+            names[node.id] = places.get(node.payload, str(node.payload))
         elif node.op == "const":
             names[node.id] = f"c{len(constants)}"
             constants.append(node.payload)

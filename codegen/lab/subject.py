@@ -13,7 +13,7 @@ from codegen.certify import certified_order
 from codegen.emitter import Compiled, bare, compile_method, emit_compiled, quoted
 from codegen.lab.default_methods import report_methods
 from codegen.lab.measurement_cache import MeasurementCache
-from codegen.lab.peers import find, installed
+from codegen.lab.peers import GROUPS, find, installed
 from codegen.lab.progress import Progress
 from codegen.lab.reference import Reference, cached_reference
 from codegen.lower import families_for
@@ -174,6 +174,6 @@ def subject(
         method.embedded()  # MethodError without an embedded row
     if not methods and not adaptive:
         chosen, controlled = report_methods(scene)
-    others = tuple(peers) if peers else tuple(p for p in effort.peers if p == "all" or installed(p))
+    others = tuple(peers) if peers else tuple(p for p in effort.peers if p in GROUPS or installed(p))
     find(others)
     return Subject(name, scene, chosen, controlled, others, effort)

@@ -16,10 +16,11 @@ exponentials before its own; shared prefixes are found by the passes.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from codegen.ir.number import Number
-from codegen.ir.program import Program
+from codegen.ir.program import Builder, Program
 from codegen.ir.values import ONE, Coefficient, Kind, Var
 from codegen.lower.stages import Stages
 from codegen.lower.variational import VariationalLowering, nonzero
@@ -37,6 +38,27 @@ class _Product:
     rows: Rows
     minus: tuple[Var, ...]
     partial: tuple[Var, ...]
+
+    @classmethod
+    def of(cls, stages: Stages, name: str, rows: Rows, xi: Sequence[Var]) -> _Product:
+        """Append a product of exponentials of combinations of the xi_j."""
+        build = stages.builder
+
+        def exponent(name: str, row: tuple[Number, ...], sign: int) -> Var:
+            scaled = (stages.times_h(x if sign > 0 else -x) for x in row)
+            return build.lin(name, Kind.ALG, list(zip(scaled, xi, strict=True)))
+
+        partial, minus = [build.identity(f"{name}0")], []
+        for J, row in enumerate(rows, start=1):
+            g = build.exp(f"g{name}{J}", exponent(f"x{name}{J}", row, 1))
+            partial.append(build.mul(f"{name}{J}", g, partial[-1]))
+            minus.append(exponent(f"y{name}{J}", row, -1))
+        return cls(rows, tuple(minus), tuple(partial))
+
+    def carried(self, build: Builder, i: int, J: int, m: Var) -> Var:
+        """Append dexp*_{-x_J} Ad*_{(e^J)^-1} m, where e^J is the product of the first J factors."""
+        moved = build.adjoint(f"m{i + 1}", self.partial[J], m, inverse=True)
+        return build.dual_dexp(f"p{i + 1}", self.minus[J], moved)
 
 
 class VariationalCommutatorFree(VariationalLowering):
@@ -61,40 +83,24 @@ def _program(scene: Problem, method: Method) -> Program:
     n = [build.fresh(f"n{i + 1}", Kind.DUAL) for i in range(s)]
     shared: dict[str, Var] = {}
 
-    def exponent(name: str, row: tuple[Number, ...], sign: int) -> Var:
-        scaled = (stages.times_h(x if sign > 0 else -x) for x in row)
-        return build.lin(name, Kind.ALG, list(zip(scaled, xi, strict=True)))
-
-    def product(name: str, rows: Rows) -> _Product:
-        partial, minus = [build.identity(f"{name}0")], []
-        for J, row in enumerate(rows, start=1):
-            g = build.exp(f"g{name}{J}", exponent(f"x{name}{J}", row, 1))
-            partial.append(build.mul(f"{name}{J}", g, partial[-1]))
-            minus.append(exponent(f"y{name}{J}", row, -1))
-        return _Product(rows, tuple(minus), tuple(partial))
-
-    def carried(i: int, along: _Product, J: int, m: Var) -> Var:
-        moved = build.adjoint(f"m{i + 1}", along.partial[J], m, inverse=True)
-        return build.dual_dexp(f"p{i + 1}", along.minus[J], moved)
-
     def momentum(i: int, e: _Product, E: list[_Product], nu: list[Var]) -> Var:
         """Append M_i, one term a coefficient."""
         terms = []
         for J, row in enumerate(e.rows):
             if not row[i].is_zero:
                 share = row[i] / b[i]
-                terms.append((Coefficient(share), carried(i, e, J, mu)))
-                terms += [(stages.times_h(b[j] * share), carried(i, e, J, nu[j])) for j in range(s)]
+                terms.append((Coefficient(share), e.carried(build, i, J, mu)))
+                terms += [(stages.times_h(b[j] * share), e.carried(build, i, J, nu[j])) for j in range(s)]
         for j, stage in enumerate(E):
             for J, row in enumerate(stage.rows):
                 if not row[i].is_zero:
                     factor = stages.times_h(-(b[j] * (row[i] / b[i])))
-                    terms.append((factor, carried(i, stage, J, nu[j])))
+                    terms.append((factor, stage.carried(build, i, J, nu[j])))
         return build.lin(f"M{i + 1}", Kind.DUAL, terms)
 
     def images() -> list[Var]:
-        e = product("e", update)
-        E = [product(f"E{i + 1}_", r) for i, r in enumerate(rows)]
+        e = _Product.of(stages, "e", update, xi)
+        E = [_Product.of(stages, f"E{i + 1}_", r, xi) for i, r in enumerate(rows)]
         nu = [build.adjoint(f"nu{j + 1}", E[j].partial[-1], n[j]) for j in range(s)]
         found = []
         c = method.abscissae()

@@ -11,8 +11,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import combinations
-from typing import Any
 
+from codegen.ir.domain import Value
 from codegen.ir.operations import Advance, FlowOf
 from codegen.ir.program import Assign, Program
 from codegen.ir.values import Coefficient, Kind, Var
@@ -91,7 +91,7 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
     orbit = orbit_of(scene)
     d = orbit.domain
 
-    def moved(point: dict[str, Any], parts: Sequence[tuple[str, Any]]) -> tuple[Any, ...]:
+    def moved(point: dict[str, Value], parts: Sequence[tuple[str, Value]]) -> tuple[Value, ...]:
         state = tuple(tuple(point[s] for s in block.symbols) for block in scene.state)
         for part, tau in parts:
             state = scene.flow(d, part, tau, (*state, point["t"]))

@@ -11,10 +11,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 from codegen.groups.capabilities import ClosedFormSeries
-from codegen.ir.domain import Domain
+from codegen.ir.domain import Domain, Value
 from codegen.ir.number import Number
 from codegen.ir.operations import AdSeries
 from codegen.ir.program import Assign, Program
@@ -47,7 +46,7 @@ class SeriesSums:
     def __post_init__(self) -> None:
         self.uses = uses(self.program)
 
-    def value(self, domain: Domain, assign: Assign, env: Mapping[Var, Any]) -> tuple[Any, ...] | None:
+    def value(self, domain: Domain, assign: Assign, env: Mapping[Var, Value]) -> tuple[Value, ...] | None:
         """Return the value of a sum with its functions of ad nested; None where nothing is saved by that.
 
         Assignments are taken note of, so that all of them have to pass here in order.
@@ -87,8 +86,8 @@ class SeriesSums:
         return [group for group in groups if len(group) > 1]
 
     def _nested(
-        self, domain: Domain, group: ClosedFormSeries, members: list[Term], env: Mapping[Var, Any]
-    ) -> tuple[Any, ...]:
+        self, domain: Domain, group: ClosedFormSeries, members: list[Term], env: Mapping[Var, Value]
+    ) -> tuple[Value, ...]:
         """Return the value of one sum, all in terms of the last x."""
         x, dual = members[-1].x, members[-1].series.dual
         terms = []
@@ -98,7 +97,7 @@ class SeriesSums:
             word = tuple(f.scaled(scale) for f in term.series.word)
             terms.append((signed(domain, term.coefficient), word, env[term.v]))
 
-        def total(numbers: tuple[int, ...]) -> tuple[Any, ...]:
+        def total(numbers: tuple[int, ...]) -> tuple[Value, ...]:
             flat = self._flat([(members[k].coefficient, members[k].v) for k in numbers])
             return combined(domain, [(c, env[v]) for c, v in flat])
 
@@ -119,16 +118,16 @@ class SeriesSums:
         return flat if 0 < len(flat) <= len(terms) else terms
 
 
-def signed(domain: Domain, c: Coefficient) -> Any:
+def signed(domain: Domain, c: Coefficient) -> Value:
     """Return a coefficient with its sign in front, so that products with it and its negative are shared."""
     if c.value.is_rational and c.value.fraction() < 0:
         return -Coefficient(-c.value, c.power).evaluate(domain)
     return c.evaluate(domain)
 
 
-def combined(domain: Domain, terms: Sequence[tuple[Coefficient, tuple[Any, ...]]]) -> tuple[Any, ...]:
+def combined(domain: Domain, terms: Sequence[tuple[Coefficient, tuple[Value, ...]]]) -> tuple[Value, ...]:
     """Return a sum of multiples, those that need no product first."""
-    total: tuple[Any, ...] | None = None
+    total: tuple[Value, ...] | None = None
     for c, v in sorted(terms, key=lambda term: not term[0].is_one):
         own = v if c.is_one else tuple(signed(domain, c) * a for a in v)
         total = own if total is None else tuple(a + b for a, b in zip(total, own, strict=True))

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
-from codegen.printers.precision import DOUBLE
+from codegen.run.precision import DOUBLE
 
 SUM, PRODUCT, ATOM = 1, 2, 3
 
@@ -65,7 +65,7 @@ def spell(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[st
                 text = style.constant(node.payload)
                 made[node.id] = Spelling((text.removeprefix("-"),), ATOM, text.startswith("-"))
             case "sym":
-                made[node.id] = Spelling((names.get(node.payload, node.payload),), ATOM)
+                made[node.id] = Spelling((names.get(node.payload, str(node.payload)),), ATOM)
             case "neg":
                 (x,) = args
                 made[node.id] = Spelling(x.pieces, x.precedence, not x.negative)

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from codegen.ir.kernel import ELAPSED, LEAD, NEWTON, Kernel
-from codegen.printers.precision import DOUBLE, Precision, precision
+from codegen.run.precision import DOUBLE, Precision, precision
 
 LISTS = ("parameters", "blocks", "inputs", "solvers")
 """Those of the fields below that JSON keeps as lists."""
@@ -22,7 +22,7 @@ class Interface:
     ``prefix`` starts every external C name and ends in an underscore; ``size`` is how many numbers a state
     has; ``time`` says whether the step reads t; ``parameters`` are the run-time parameters in order;
     ``blocks`` are the labels of the implicit blocks, which statistics count; ``precision`` names the format
-    of all numbers (:mod:`codegen.printers.precision`); ``inputs`` are the functions of time that are taken at
+    of all numbers (:mod:`codegen.run.precision`); ``inputs`` are the functions of time that are taken at
     run time, in order; ``adaptive`` says that there is a run that chooses its steps; ``solvers`` are the
     methods that solve the blocks.
     ``variations`` is the size of the Jacobian, 0 where there is none.

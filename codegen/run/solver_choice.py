@@ -19,18 +19,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 from codegen.errors import MethodError
+from codegen.ir.angle_depth import chain
 from codegen.ir.differentiate import NotDifferentiable
 from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Kernel, Loop
 from codegen.ir.program import Program
 from codegen.kernel.operations import matrix_of, operations
 from codegen.kernel.schedule import METHODS, arrange
 from codegen.kernel.translate import is_long, to_kernel
-from codegen.printers.interface import Interface
-from codegen.printers.python.module import print_module
-from codegen.printers.recipe import Recipe
+from codegen.run.execute import Machine
+from codegen.run.floats import EmittedFloats
+from codegen.run.plan import STATISTICS, Plan
+from codegen.run.precision import DOUBLE
+from codegen.run.terms import OK, STATUSES
+from codegen.run.unit import unit_of
 from codegen.scene.problem import Problem
 from orderconds.errors import UnknownName
 
@@ -215,9 +218,7 @@ class _Tried:
                     matrix = _matrix(kernels[solver].loops[k], self.work[solver])
                     made = usual[solver].matrices if solver == NEWTON else 1.0
                     cost[solver] += made * matrix
-                    newton = kernels[solver].loops[k].newton
-                    own = f" (in C: {1 / newton.period:.2f})" if newton is not None and newton.period else ""
-                    spelled[solver] += f" and {made:.2f} matrices of {matrix}{own}"
+                    spelled[solver] += f" and {made:.2f} matrices of {matrix}"
                 if solver not in sure:
                     lasting = (
                         f"takes {max(far[solver].sweeps):.0f} sweeps"
@@ -262,39 +263,28 @@ def _weight(counts: Mapping[str, int]) -> int:
 
 
 class _Trials:
-    """A kernel printed as Python, without an error estimate, and run from the initial state."""
+    """A kernel carried out from the initial state, with the sweeps and matrices that emitted code makes.
+
+    A step that does not settle is tried again without the solutions before it, and no more: one that needs
+    continuation is too long for its solver.
+    """
 
     def __init__(self, kernel: Kernel, scene: Problem, initial: tuple[float, ...]) -> None:
-        kernel = replace(kernel, estimate=None)
-        self.interface = Interface.of(kernel, "trial_")
+        self.plan = Plan(replace(kernel, estimate=None, vary=None), DOUBLE, tries=1)
+        self.machine = Machine(unit_of(self.plan), EmittedFloats(chain=chain(kernel)))
         self.initial, self.span, self.repeated = initial, scene.span, max(1, len(kernel.substeps))
-        defaults = {name: float(scene.parameters[name]) for name in scene.runtime}
-        recipe = Recipe("trial", (), initial, defaults=defaults)
-        text = print_module(kernel, self.interface, recipe)["trial.py"]
-        self.module: dict[str, Any] = {"__name__": "trial"}
-        exec(compile(text, "trial.py", "exec"), self.module)
-        self.module["_continued"] = self._anew
-
-    def _anew(self, *arguments: Any) -> Any:
-        """Make a step without the solutions before it, and no more: what needs continuation is too long."""
-        for memory in arguments:
-            if isinstance(memory, self.module["_Memory"]):
-                memory.__init__()
-        return self.module["_checked"](*arguments)
+        self.values = [float(scene.parameters[p.text]) for p in self.plan.parameters]
 
     def run(self, longer: int) -> _Trial:
-        """Make steps, so many times as long as usual: several where they are not."""
+        """Make steps, ``longer`` times as long as usual: several where they are not."""
         first, last = self.span
-        counts, good = self.module["Statistics"](), True
-        time = [float(first)] if self.interface.time else []
-        number = len(self.interface.inputs)
+        number, blocks = len(self.plan.kernel.inputs), len(self.plan.kernel.loops)
+        counts, state = self.machine.record(STATISTICS), list(self.initial)
+        time = [float(first)] if self.plan.time else []
         signals = [lambda t: (0.0,) * number] if number else []
         steps, h = STEPS if longer == 1 else 1, float(longer * (last - first) / PARTS)
-        try:
-            self.module["run"](self.initial, *time, h, steps, *signals, statistics=counts)
-        except self.module["StepFailed"]:
-            good = False
-        newton = self.interface.newton
+        arguments = [state, *time, h, steps, *self.values, *signals, None, 0, counts, None]
+        status = self.machine.call("run", *arguments)
         made = steps * self.repeated
-        matrices = counts.matrices / made / len(self.interface.blocks) if newton else 0.0
-        return _Trial(tuple(n / made for n in counts.sweeps), matrices, good)
+        matrices = counts.matrices / made / blocks if self.plan.newton else 0.0
+        return _Trial(tuple(n / made for n in counts.sweeps), matrices, status == STATUSES.index(OK))

@@ -14,7 +14,7 @@ from typing import Protocol
 
 from codegen.groups.actions import Action
 from codegen.groups.base import LieGroup
-from codegen.groups.cotangent import Cotangent
+from codegen.groups.capabilities import CotangentBundle
 from codegen.groups.linear_algebra import S, Vector, dot, units
 from codegen.ir.differentiate import gradient
 from codegen.ir.domain import Domain, Value, Values
@@ -96,8 +96,9 @@ def differential(problem: Conservative, d: Domain, y: Vector[S]) -> Vector[S]:
 
 def bivector(problem: Conservative, d: Domain, y: Vector[S], alpha: Vector[S]) -> Vector[S]:
     """Return omega_y(alpha, .) in the algebra, for a covector alpha; it is f(y) if alpha is gamma(y)."""
-    if isinstance(problem.group, Cotangent) and problem.hamiltonian is not None:
-        return problem.group.canonical(d, y, alpha)
+    bundle = problem.group.offers(CotangentBundle)
+    if bundle is not None and problem.hamiltonian is not None:
+        return bundle.canonical(d, y, alpha)
     gamma = differential(problem, d, y)
     f: Vector[S] = tuple(evaluate(problem.roots, d, problem.values(d, y)))
     size = dot(gamma, gamma)

@@ -60,6 +60,11 @@ def register(name: str, scene: Problem, about: str = "") -> Problem:
     return named
 
 
+def unregister(name: str) -> None:
+    """Forget a scene that :func:`register` added; other names are ignored."""
+    _REGISTERED.pop(name, None)
+
+
 def names() -> tuple[str, ...]:
     """Return the names of the gallery and of registered scenes."""
     return (*GALLERY, *_REGISTERED)

@@ -9,7 +9,7 @@ from typing import Any
 
 import networkx as nx
 
-from codegen.printers.precision import DOUBLE, Precision
+from codegen.run.precision import DOUBLE, Precision
 from codegen.snippets import stumpff
 from codegen.templates import environment
 
@@ -34,6 +34,8 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
     """
     found = [Snippet("greater", "greater"), Snippet("quotient", "quotient")]
     found.append(Snippet("largest", "largest", ("fabs",)))
+    found.append(Snippet("power", "power"))
+    found.append(Snippet("all_finite", "all_finite", ("isfinite",)))
     found.append(Snippet("invert", "invert", ("fabs",)))
     for k in (2, 3):
         variables = {"k": k, "terms": stumpff.slopes(k, precision)}
@@ -102,6 +104,7 @@ def needed(
     *,
     sweeps: bool = False,
     wide: int = 0,
+    widest: int = 0,
     chain: int = 1,
 ) -> Needed:
     """Return what the functions called by a module need in a target, and nothing else.
@@ -109,6 +112,7 @@ def needed(
     ``sweeps`` says that they are called in sweeps over equations, where many values are at hand that a call
     would put aside: C then may inline all branches of Stumpff functions. ``wide`` is how many rows
     all matrices have that are inverted, 0 where they differ or are many: C spells a row number by number.
+    ``widest`` is how many rows the largest one has: C reserves room for that.
     ``chain`` is how many angles depend one on the other, as for :func:`codegen.snippets.stumpff.limit`.
 
     >>> needed("c", ["sin"])
@@ -121,7 +125,12 @@ def needed(
     nodes = {m for name in wanted for m in (name, *nx.descendants(whole, name))}
     order = reversed(list(nx.lexicographical_topological_sort(whole.subgraph(nodes))))
     found = [whole.nodes[name]["snippet"] for name in order]
-    given = {"sweeps": sweeps, "wide": wide, "limit": stumpff.limit(precision, chain)}
+    given = {
+        "sweeps": sweeps,
+        "wide": wide,
+        "widest": widest or wide,
+        "limit": stumpff.limit(precision, chain),
+    }
     texts = tuple(_text(target, snippet, precision, given) for snippet in found if snippet is not None)
     return Needed(tuple(name for name in LIBRARY if name in nodes), texts)
 

@@ -13,7 +13,7 @@ from fractions import Fraction
 from itertools import combinations
 from math import factorial
 
-from codegen.printers.precision import DOUBLE, Precision
+from codegen.run.precision import DOUBLE, Precision
 
 SWITCH = (1, 1, 1, 4)
 """The polynomial of c_k serves up to z = SWITCH[k]; c_1(4) = 0.4546."""

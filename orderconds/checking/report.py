@@ -35,7 +35,7 @@ class EmbeddedOrder(Struct, frozen=True):
 
 @dataclass(frozen=True)
 class Report:
-    """What ``check`` found out about one tableau; ``broken_claims`` are property claims that do not hold."""
+    """The result of ``check`` for one tableau; ``broken_claims`` are property claims that do not hold."""
 
     name: str
     file: str | None
@@ -58,7 +58,7 @@ class Report:
         return "undecided" if "undecided" in verdicts else "holds"
 
     def summary(self) -> str:
-        """Say in a few lines what does not hold: each claim, the first failing condition, its residual."""
+        """Return in a few lines the claims that do not hold, each with its first failing condition."""
         lines = [f"{self.name}: {self.verdict}" + (f"  ({self.file})" if self.file else "")]
         for family in self.orders:
             if family.verdict != "holds":

@@ -1,8 +1,7 @@
-"""What the conditions of one order leave of a method: zero, not zero, or too wide a ball to tell.
+"""Residuals of the conditions of one order, each judged: zero, not zero, or a ball too wide to decide.
 
-In a number field most conditions of an order that a method does not have are told from zero by balls, at a
-fraction of the cost; exact arithmetic then remains for those that balls cannot tell, which is how zero is
-proved, and for the residuals that somebody reads.
+In a number field, balls show at a fraction of the cost that most residuals of a failing order are not zero.
+Exact arithmetic remains for residuals that balls do not separate from zero, and for those that are printed.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ from orderconds.families.memo import Memo
 from orderconds.ring import Balls, Element, NumberField, Ring
 from orderconds.ring.decimals import endpoints, rational_decimal
 from orderconds.ring.field import Algebraic
-from orderconds.series.nodal import nodal_algebra
+from orderconds.ring.nodal import nodal_algebra
 from orderconds.tableau.methods import PartitionedRungeKutta, RungeKutta
 from orderconds.tableau.products import Method
 
@@ -30,8 +29,8 @@ if TYPE_CHECKING:
     from flint import arb
 
 RESOLUTION = Decimal("1e-3")
-"""A ball supports a condition of order n only when its radius is at most this part of 1/n!, the smallest
-exact value that an elementary integral of that order takes."""
+"""A ball supports a condition of order n only if its radius is at most this fraction of 1/n!, the smallest
+exact value of an elementary integral of that order."""
 
 BITS = 256
 """Precision of the balls: enough for twenty digits of a residual that is not zero."""
@@ -169,7 +168,7 @@ def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
 
 
 class _OnDemand:
-    """Exact residuals: the first that is asked for alone, all others together when a second one is."""
+    """Exact residuals: the first is computed alone, all others together when a second one is needed."""
 
     def __init__(
         self, family: Family, method: Method, ring: Ring, conditions: Sequence[OrderCondition]

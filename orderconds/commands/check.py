@@ -37,11 +37,11 @@ WIDTH = 200
 @click.argument("tableaux", nargs=-1, required=True, metavar="FILE|DIR|NAME...")
 @click.option("--family", "-f", help="This family alone (vcg, 'rkmk(1)'), claimed or not.")
 @click.option("--order", "-p", type=click.IntRange(1, 20), help="Require at least this order.")
-@click.option("--complete", is_flag=True, help="Demand a claim for every family that a tableau can serve.")
+@click.option("--complete", is_flag=True, help="Require a claim for every family that a tableau can claim.")
 @click.option(
     "--certified",
     is_flag=True,
-    help="Demand certificates exact or ball, but of those that DIR/DECIMAL names.",
+    help="Require an exact or ball certificate for every file not listed in DIR/DECIMAL.",
 )
 @click.option(
     "--max-conditions",
@@ -94,8 +94,8 @@ def command(
         for path in paths
     ]
     outcomes: list[_Outcome] = []
-    told = paths[0] if len(paths) == 1 else f"{len(paths)} tableaux"
-    with screen.working(f"checking {told}"), _without_collection(paths):
+    subject = paths[0] if len(paths) == 1 else f"{len(paths)} tableaux"
+    with screen.working(f"checking {subject}"), _without_collection(paths):
         for outcome in in_processes(_checked, jobs):
             outcomes.append(outcome)
             if outcome.verdict is None:
@@ -116,7 +116,7 @@ def command(
 
 @contextmanager
 def _without_collection(paths: Sequence[str]) -> Iterator[None]:
-    """Let the garbage of one file lie: a check makes many small objects and ends before they matter."""
+    """Switch garbage collection off for one file: a check makes many small objects and then ends."""
     collects = gc.isenabled()
     if len(paths) == 1:
         gc.disable()
@@ -128,7 +128,7 @@ def _without_collection(paths: Sequence[str]) -> Iterator[None]:
 
 
 class _Job(Struct, frozen=True):
-    """What to check, and how."""
+    """A file and the options of its check."""
 
     path: str
     family: str | None
@@ -142,14 +142,14 @@ class _Job(Struct, frozen=True):
 
 
 class _Outcome(Struct, frozen=True):
-    """A verdict with what to print of it; None with the message where a file could not be read."""
+    """A verdict with the text to print; the verdict is None where the file could not be read."""
 
     verdict: str | None
     text: str
 
 
 def _checked(job: _Job) -> _Outcome:
-    """Check one tableau. What cannot be read is told: the other files are still worth checking."""
+    """Check one tableau. Report an unreadable file and continue with the others."""
     from orderconds.checking import check
 
     try:
@@ -207,7 +207,7 @@ def _files(arguments: Sequence[str]) -> Iterator[str]:
 
 
 def _print_report(report: Report, *, detailed: bool) -> None:
-    """Print one tableau: its orders as a table, then what fails, then its properties."""
+    """Print one tableau: its orders as a table, then failing conditions, then its properties."""
     heading = f"{report.name}: {report.verdict}"
     click.secho(heading + (f"  ({report.file})" if report.file else ""), bold=True)
     screen.print_table(
@@ -243,14 +243,14 @@ def _embedded(embedded: EmbeddedOrder) -> str:
 
 
 def _work(work: dict[str, Work]) -> str:
-    """Say what a step costs, in one line: evaluations, then what is told apart by family."""
+    """Return the cost of a step in one line: evaluations, then exponentials and brackets by family."""
     evaluations = max(cost.evaluations for cost in work.values())
-    told = [_count(evaluations, "evaluation")]
+    counts = [_count(evaluations, "evaluation")]
     for label, cost in work.items():
         if cost.exponentials is not None:
             brackets = f" and {_count(cost.brackets, 'bracket')}" if cost.brackets else ""
-            told.append(f"{label} {_count(cost.exponentials, 'exponential')}{brackets}")
-    return "; ".join(told)
+            counts.append(f"{label} {_count(cost.exponentials, 'exponential')}{brackets}")
+    return "; ".join(counts)
 
 
 def _count(n: int, what: str) -> str:
@@ -258,12 +258,12 @@ def _count(n: int, what: str) -> str:
 
 
 def _proof(proof: Certificate) -> str:
-    """Say what was proved of the decimals, in one line."""
-    told = f"one solution of {proof.equations} equations within {proof.radius} of the decimals"
+    """Return the proof about the decimals in one line."""
+    text = f"one solution of {proof.equations} equations within {proof.radius} of the decimals"
     if not proof.printed:
-        return told
+        return text
     furthest = max(proof.printed.values(), key=float)
-    return f"{told}; the source's digits are off by up to {furthest}"
+    return f"{text}; the source's digits are off by up to {furthest}"
 
 
 def _row(family: FamilyOrder) -> tuple[str, ...]:
@@ -294,8 +294,8 @@ def _print_failing(family: FamilyOrder) -> None:
     if not count:
         click.echo(f"  {family.family}: no method of this family has order {n}")
         return
-    told = "1 condition" if count == 1 else f"{count} conditions"
-    click.echo(f"  {family.family}: {told} of order {n} not met")
+    text = "1 condition" if count == 1 else f"{count} conditions"
+    click.echo(f"  {family.family}: {text} of order {n} not met")
     shown = 1 if family.verdict == "holds" else SHOWN
     for failure in family.failing[:shown]:
         decimal = "" if failure.decimal == failure.residual else f" = {failure.decimal}"
@@ -309,6 +309,8 @@ def _print_failing(family: FamilyOrder) -> None:
 
 
 def _print_summary(verdicts: Sequence[str | None]) -> None:
-    told = [f"{n} {verdict}" for verdict in ("holds", "fails", "undecided") if (n := verdicts.count(verdict))]
-    told += [f"{n} not read"] if (n := verdicts.count(None)) else []
-    click.echo(f"{len(verdicts)} tableaux: {', '.join(told)}")
+    counts = [
+        f"{n} {verdict}" for verdict in ("holds", "fails", "undecided") if (n := verdicts.count(verdict))
+    ]
+    counts += [f"{n} not read"] if (n := verdicts.count(None)) else []
+    click.echo(f"{len(verdicts)} tableaux: {', '.join(counts)}")

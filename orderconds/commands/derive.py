@@ -110,7 +110,7 @@ def _print_latex(derivation: Derivation, explain: bool) -> None:
     r"""Print one ``align*`` environment (package amsmath), trees and relations as comments."""
     from orderconds.explain.kinds import named_by
     from orderconds.formula.equations import aligned
-    from orderconds.formula.spelling import fraction_latex
+    from orderconds.formula.rendering import latex_fraction
 
     rows = []
     for condition in derivation.conditions:
@@ -119,5 +119,5 @@ def _print_latex(derivation: Derivation, explain: bool) -> None:
             comment += f"\nnames {named_by(condition)}"
         if condition.relation is not None:
             comment += f"\nequals {condition.relation}"
-        rows.append((comment, condition.latex, fraction_latex(condition.rhs)))
+        rows.append((comment, condition.latex, latex_fraction(condition.rhs)))
     click.echo(aligned(rows))

@@ -25,7 +25,7 @@ Records = Iterable[dict[str, str]]
 @click.argument("kind", required=False)
 @click.option("--json", "as_json", is_flag=True, help="Names and descriptions on stdout as JSON.")
 def command(kind: str | None, as_json: bool) -> int:
-    """List what there is of one KIND (families, tableaux, groups, scenes), or of all."""
+    """List one KIND (families, tableaux, groups, scenes), or all kinds."""
     kinds = [kind] if kind is not None else kinds_offered()
     listings = {name: list(listing(name)()) for name in kinds}
     if as_json:

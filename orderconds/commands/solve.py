@@ -38,24 +38,24 @@ if TYPE_CHECKING:
 )
 @click.option("--rkn", is_flag=True, help="splitting: the parts are T and V with [V,[V,[V,T]]] = 0.")
 @click.option(
-    "--minimise", type=click.Choice(["error"]), help="Go through all starts for the least principal error."
+    "--minimise", type=click.Choice(["error"]), help="Try all starts and take the least principal error."
 )
 @click.option("--starts", type=click.IntRange(1, 10**7), help="Random starts.  [4096; minimising 1024]")
 @click.option("--seed", type=click.IntRange(0, 2**31), default=0, show_default=True)
 @click.option("--processes", type=click.IntRange(1, 256), help="Local processes.  [one a processor]")
-@click.option("--dask", metavar="ADDRESS", help="Let the dask cluster at tcp://host:port work.")
+@click.option("--dask", metavar="ADDRESS", help="Run on the dask cluster at tcp://host:port.")
 @click.option("--name", default="found", show_default=True, help="The tableau's name.")
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write here instead of stdout.")
 @click.option(
-    "--checkpoint", type=FILE, metavar="FILE", help="Keep what is finished.  [FILE.search with -o FILE]"
+    "--checkpoint", type=FILE, metavar="FILE", help="Keep finished batches.  [FILE.search with -o FILE]"
 )
 @click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
 def command(family: str, output: str | None, as_json: bool, **options: Any) -> int:
-    """Find a method of FAMILY with so many stages and an order, prove it, and write its tableau.
+    """Find a method of FAMILY with S stages and order P, prove its order, and write its tableau.
 
     Exits with 0 if a method was found and proved, 1 if none was, or none exists, 2 for contradictory
-    options. The same seed gives the same file, however many processes there are. What is finished when the
-    search is interrupted is kept in the checkpoint, and the same command goes on from there.
+    options. The same seed gives the same file, however many processes there are. An interrupted
+    search keeps its finished batches in the checkpoint, and the same command continues from there.
     """
     # One thread a process: results then do not depend on how many there are.
     for library in ("OPENBLAS", "OMP", "MKL"):

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 def command(
     kind: str, order: int, count: bool, draw: bool, explain: bool, plain: bool, svg: str | None, as_json: bool
 ) -> int:
-    """Enumerate the trees of one KIND with so many vertices.
+    """Enumerate the trees of one KIND with P vertices.
 
     \b
     rooted       rooted trees, unordered                       rk

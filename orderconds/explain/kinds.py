@@ -1,6 +1,6 @@
 """The kinds of trees: their members, numbers, texts, drawings, and what they name.
 
-A kind is put together when it is asked for, so that listing rooted trees loads nothing about words.
+A kind is assembled on demand, so that listing rooted trees loads nothing about words.
 """
 
 from __future__ import annotations
@@ -17,13 +17,16 @@ from orderconds.explain.diagram import Diagram
 from orderconds.explain.lines import Style, draw
 from orderconds.families import Family
 
+Member = Any
+"""A tree, forest or word, in the encoding of its kind."""
+
 
 @dataclass(frozen=True)
 class Kind:
     """One kind of trees, words or forests.
 
     ``members`` enumerates those of an order and ``count`` finds their number another way, from generating
-    functions; ``text`` spells a member, ``diagram`` makes it drawable, ``names`` spells the elementary
+    functions; ``text`` is the text of a member, ``diagram`` its drawing, ``names`` that of the elementary
     differential or Hamiltonian it names. With ``independent`` the members carry an independent set of
     conditions of the family that illustrates the kind, else all of its conditions.
 
@@ -32,29 +35,29 @@ class Kind:
     [('[[.]]', "f'(f'(f))"), ('[..]', "f''(f, f)")]
     """
 
-    members: Callable[[int], Iterable[Any]]
+    members: Callable[[int], Iterable[Member]]
     count: Callable[[int], int]
-    text: Callable[[Any], str]
-    diagram: Callable[[Any], Diagram]
-    names: Callable[[Any], str]
+    text: Callable[[Member], str]
+    diagram: Callable[[Member], Diagram]
+    names: Callable[[Member], str]
     name: str
     independent: bool = False
 
     def family(self) -> Family:
         """Return the family that illustrates this kind with its conditions."""
         for name in families.names():
-            found = families.family_class(name)
-            if self.name in found.illustrates:
-                return found()
+            family = families.family_class(name)
+            if self.name in family.illustrates:
+                return family()
         raise UnknownName(f"no family illustrates the trees {self.name!r}", expected="a registered family")
 
-    def conditions(self, order: int) -> dict[Any, OrderCondition]:
+    def conditions(self, order: int) -> dict[Member, OrderCondition]:
         """Return the family's condition of each member."""
         family = self.family()
-        found = family.conditions(order) if self.independent else family.all_conditions(order)
-        return {condition.key: condition for condition in found}
+        conditions = family.conditions(order) if self.independent else family.all_conditions(order)
+        return {condition.key: condition for condition in conditions}
 
-    def entry(self, member: Any, condition: OrderCondition | None, style: Style | None) -> list[str]:
+    def entry(self, member: Member, condition: OrderCondition | None, style: Style | None) -> list[str]:
         r"""Return the lines that explain a member: its text, a drawing, what it names, its condition.
 
         Without a style there is no drawing.
@@ -97,7 +100,7 @@ def get(name: str) -> Kind:
 
 
 def of_family(label: str) -> Kind | None:
-    r"""Return the kind of trees of a family's conditions; None for words, which speak for themselves.
+    r"""Return the kind of trees of a family's conditions; None for words, which need no drawing.
 
     >>> of_family("rkmk(1)").text(b"\0\1\0")
     '[.] .'
@@ -296,7 +299,7 @@ def _lyndon_words(
     name: str,
     weigh: Callable[[int], int],
     letters: Callable[[int], Iterable[int]],
-    spell: Callable[[int], str],
+    letter: Callable[[int], str],
     between: str,
 ) -> Kind:
     from orderconds.explain import diagram, differentials
@@ -306,9 +309,9 @@ def _lyndon_words(
     return Kind(
         lambda order: lyndon_words(list(letters(order)), order, weigh),
         lambda order: lyndon_word_count(order, lambda k: sum(weigh(x) == k for x in letters(order))),
-        lambda word: between.join(map(spell, word)),
-        lambda word: diagram.word(word, spell),
-        lambda word: differentials.bracket(word, spell),
+        lambda word: between.join(map(letter, word)),
+        lambda word: diagram.word(word, letter),
+        lambda word: differentials.bracket(word, letter),
         name,
         independent=True,
     )

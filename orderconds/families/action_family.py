@@ -1,4 +1,4 @@
-"""What the variational families share: action conditions, their independent sets, their left-hand sides."""
+"""Variational families: action conditions, their independent sets, their left-hand sides."""
 
 from __future__ import annotations
 
@@ -138,11 +138,11 @@ class ActionFamily(Family):
 
 @cache
 def _relations(family: ActionFamily, order: int) -> dict[Velocity, str]:
-    return {tree: _spelled(polynomial) for tree, polynomial in family.relations(order).items()}
+    return {tree: _text(polynomial) for tree, polynomial in family.relations(order).items()}
 
 
-def _spelled(polynomial: Polynomial) -> str:
-    """Spell a polynomial, short terms first: ``3 <o(|L(o o))> - <o> <o(o)>``."""
+def _text(polynomial: Polynomial) -> str:
+    """Write a polynomial, short terms first: ``3 <o(|L(o o))> - <o> <o(o)>``."""
     text = ""
     for q, trees in sorted(polynomial, key=lambda term: len(term[1])):
         sign = ("-" if q < 0 else "") if not text else (" - " if q < 0 else " + ")

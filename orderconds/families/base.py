@@ -61,7 +61,7 @@ class Family(ABC):
     order_bound: ClassVar[int | None] = None
     """The highest order of any member, where a theorem bounds it; no condition beyond it has a meaning."""
     over_rationals: ClassVar[bool] = False
-    """Whether conditions are evaluated by :mod:`orderconds.series.nodal`, without field arithmetic."""
+    """Whether conditions are evaluated by :mod:`orderconds.ring.nodal`, without field arithmetic."""
     trees: ClassVar[str | None] = None
     """The kind of trees its conditions belong to (:mod:`orderconds.explain.kinds`); None for words."""
     illustrates: ClassVar[tuple[str, ...]] = ()

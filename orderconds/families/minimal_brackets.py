@@ -1,8 +1,7 @@
-"""Runge-Kutta-Munthe-Kaas methods written with few brackets, as compiled for ``rkmk`` without a cut-off.
+"""Runge-Kutta-Munthe-Kaas methods with the fewest brackets, as compiled for ``rkmk`` without a cut-off.
 
-The conditions are those of ``rkmk``; the left-hand sides are values of the very program that was written,
-from its own Lie-Butcher series. So the order of what is compiled is computed, not taken from the uncut
-method.
+The conditions are those of ``rkmk``; the left-hand sides are values of the compiled program,
+from its own Lie-Butcher series. So the order of the program is computed, not taken from the uncut method.
 """
 
 from __future__ import annotations

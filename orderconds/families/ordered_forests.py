@@ -1,4 +1,4 @@
-"""What the families on ordered forests share: conditions are the values on Lyndon words of ordered trees.
+"""Families on ordered forests: conditions are the values on Lyndon words of ordered trees.
 
 The step of a Lie group method and the exact flow are group-like, so their values on Lyndon words generate all
 others by shuffles (see ``words.lyndon``). Letters are ordered by falling size, ties as enumerated.

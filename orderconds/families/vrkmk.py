@@ -2,7 +2,7 @@
 
 Equation (3.16) of Bogfjellmo and Marthinsen. The order is computed from the method's own series; it comes out
 as min(p, R + 2), p the order as symplectic partitioned method and R as for RKMK, sharper than Theorem 3.5.3:
-:func:`orderconds.series.action_cutoff.highest_order` computes R + 2.
+the tests compute R + 2 from the series.
 """
 
 from __future__ import annotations

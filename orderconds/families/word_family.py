@@ -1,4 +1,4 @@
-"""What families have in common whose conditions are values on words over a graded alphabet.
+"""Families whose conditions are values on words over a graded alphabet.
 
 Values of a group-like series multiply over shuffles, so that those on Lyndon words determine all and are
 independent (Radford 1979; Reutenauer, Free Lie Algebras, Thm 6.1). Words are written in the order of action.
@@ -69,7 +69,7 @@ class WordFamily(Family):
         return 1
 
     def text(self, word: Word) -> str:
-        """Spell a word."""
+        """Return a word as text."""
         return " ".join(map(str, word))
 
     def polynomial(self, word: Word) -> Polynomial:

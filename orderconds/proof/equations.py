@@ -14,8 +14,8 @@ makes the others follow is verified exactly, on the file and not on its decimals
 ``low-storage``  a 2N scheme: on a group it has the order that it has on a vector space (see below).
 ``simplifying``  B(p), C(q), D(r) imply order min(p, q + r + 1, 2q + 2) (Butcher 1964; Hairer, Norsett and
                  Wanner, Theorem II.7.4).
-``spelling``     coefficients of the file that are spelled by others make it one of a sub-family, in which
-                 some of the conditions follow from the others (:mod:`orderconds.proof.subfamily`).
+``spelling``     coefficients given by formulas in others define a sub-family, in which some of the
+                 conditions follow from the others (:mod:`orderconds.proof.subfamily`).
 
 2N schemes. With y_j, k_j, f_j the values of Y_j, K_j, F(Y_j) on a word or tree, k_j = A_j k_{j-1} + f_j and
 y_{j+1} = y_j + B_j k_j on single trees, D_j = y_j(t) k_j(u) - y_j(u) k_j(t) is not changed by y_j ->

@@ -124,7 +124,7 @@ def _newton(
 
 
 def decimal_places(x: arb, digits: int) -> str:
-    """Spell a positive number with so many places.
+    """Return a positive number as a decimal with ``digits`` places.
 
     >>> decimal_places(arb(2.5), 3)
     '2.500'

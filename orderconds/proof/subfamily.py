@@ -1,9 +1,9 @@
-"""The conditions that are independent for every method spelled like a file: the reduction ``spelling``.
+"""Independent conditions of the sub-family that a file's formulas define: the reduction ``spelling``.
 
-Coefficients of a file that are spelled by others, ``b3 = "1 - b1 - b2"``, restrict it to a sub-family, and of
-the family's conditions fewer are independent there. A condition is left out if its value, at every member of
-the sub-family and at the exact flow, is one combination of those of its order that are kept and of products
-of kept ones of lower order. Where the kept ones hold, it then holds.
+Coefficients given by formulas in others, as ``b3 = "1 - b1 - b2"``, restrict a family to a sub-family, in
+which fewer of its conditions are independent. A condition is left out if its value, at every member of the
+sub-family and at the exact flow, is one combination of kept conditions of its order and of products of kept
+conditions of lower order. It then holds where the kept conditions hold.
 
 Combinations are found modulo primes (:mod:`orderconds.proof.dependence`), which proves nothing. Each one is
 then verified exactly at a member drawn from a digest of the file (:mod:`orderconds.proof.exact_member`). A

@@ -1,7 +1,7 @@
-"""An ansatz: a tableau file whose decimals are what is to be found.
+"""An ansatz: a tableau file whose decimals are the unknowns of a search.
 
-The layout of a family with so many stages, its coefficients named a21, b1, ... and related by constraints, is
-spelled as a file. The same text then runs through every engine: over recorded programs for the search, over
+The coefficients of a family with a number of stages, named a21, b1, ... and related by constraints, are
+written as a file. The same text then runs through every engine: over recorded programs for the search, over
 residues for ranks, over balls for the proof.
 """
 
@@ -26,9 +26,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Ansatz:
-    """Spelled coefficients: ``numbers`` by name, of them ``free`` are unknown, and ``body`` that uses them.
+    """Coefficients as text: ``numbers`` by name, the names of unknown ones in ``free``, and the ``body``.
 
-    ``cells`` are the coefficients of the file, by name, as spelled in ``numbers`` or as constants.
+    ``cells`` are the names of the coefficients that are not constants.
     """
 
     family: str
@@ -41,7 +41,7 @@ class Ansatz:
     tail: tuple[str, ...] = ()
 
     def text(self, values: Mapping[str, str], head: Sequence[str] = (), foot: Sequence[str] = ()) -> str:
-        """Return the file with these spellings for the free coefficients."""
+        """Return the file with these texts for the free coefficients."""
         spelled = {**{name: values[name] for name in self.free}, **self.numbers}
         numbers = [f'{name} = "{spelled[name]}"' for name in sorted(spelled, key=_place)]
         table = ["", "[numbers]", *numbers] if numbers else []

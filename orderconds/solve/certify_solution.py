@@ -1,10 +1,10 @@
 """From a solution in doubles to a file with a certificate.
 
-First the coefficients that the equations leave free are rounded to short decimals, the others solved again
-and sharpened by Newton's method in balls. If what comes out are algebraic numbers of one field, recognised by
-lattice reduction, the file spells them exactly and its order is checked exactly. Otherwise its decimals are
-unknowns of the conditions that the ansatz leaves (reduction ``spelling``), and interval arithmetic proves
-them.
+First the coefficients that the equations leave free are rounded to short decimals. The others are solved
+again and sharpened by Newton's method in balls. If they are algebraic numbers of one field, recognised by
+lattice reduction, the file has closed forms and its order is checked exactly. Otherwise its decimals are
+unknowns of the conditions that are independent for the ansatz (reduction ``spelling``), and interval
+arithmetic proves them.
 """
 
 from __future__ import annotations
@@ -283,7 +283,7 @@ def _proved(
 
 
 def _signed(x: arb, places: int) -> str:
-    """Spell a number as a decimal of so many places that is an unknown of the file's equations."""
+    """Return a number as a decimal with ``places`` places that is an unknown of the file's equations."""
     return ("-" if x < 0 else "") + decimal_places(abs(x), places) + "~"
 
 

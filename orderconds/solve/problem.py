@@ -22,12 +22,12 @@ from orderconds.tableau import CommutatorFree, Method, RungeKutta
 from orderconds.tableau.unknowns import RootedRing
 
 SMALLEST = 0.01
-"""What is asked to be positive is at least this."""
+"""Coefficients required to be positive are at least this."""
 
 
 @dataclass(frozen=True)
 class Problem:
-    """All that a search needs to know; equal problems of one process share their programs.
+    """The equations of one search; equal problems of one process share their programs.
 
     >>> problem = find_problem("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> problem.ansatz.free, problem.tape.size
@@ -41,7 +41,7 @@ class Problem:
 
     @cached_property
     def ansatz(self) -> Ansatz:
-        """Return the spelled coefficients."""
+        """Return the coefficients as a file with unknowns."""
         return ansatz(self.label, self.spec, self.structure)
 
     @cached_property
@@ -93,7 +93,7 @@ class Problem:
 
     @cached_property
     def positive(self) -> tuple[int, ...]:
-        """Return the places, among ``coefficients``, of what is asked to be positive."""
+        """Return the places, among ``coefficients``, of those required to be positive."""
         names = self.ansatz.cells
         found: list[int] = []
         for wish in self.spec.positive:
@@ -138,7 +138,7 @@ class Problem:
 
 @lru_cache(maxsize=8)
 def find_problem(label: str, order: int, spec: Spec, structure: str) -> Problem:
-    """Return the problem, made once in a process.
+    """Return the problem, created once in a process.
 
     >>> spec = Spec(stages=2)
     >>> find_problem("rk", 2, spec, "full") is find_problem("rk", 2, spec, "full")

@@ -1,4 +1,4 @@
-"""The whole way: refuse what cannot be, search, and write the best method that can be proved."""
+"""A search from start to end: prove infeasibility, or search and write the best method that can be proved."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ PLAIN, MINIMISED = 4096, 1024
 
 @dataclass
 class Outcome:
-    """What a search came to: a method, a proof that there is none, or neither.
+    """The outcome of a search: a method, a proof that there is none, or neither.
 
     ``best`` is the least residual norm of all starts, ``tried`` says in words what was done.
     """
@@ -37,7 +37,7 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Order:
-    """What is to be solved, and how much work may be spent on it."""
+    """A search and the work that may be spent on it."""
 
     family: str
     order: int
@@ -74,7 +74,7 @@ class Order:
 
 
 def solve(order: Order, report: Callable[[str], object] = str) -> Outcome:
-    """Return what is found; ``report`` is told how far the search is.
+    """Return the outcome; ``report`` receives lines about the progress.
 
     Raises :class:`~orderconds.errors.InputError` for contradictory options.
 

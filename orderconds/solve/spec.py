@@ -1,4 +1,4 @@
-"""What a user asks of a method."""
+"""The specification of a method to be found."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from orderconds.errors import InputError
 
 @dataclass(frozen=True)
 class Spec:
-    """What a user asks of a method: the options of ``orderconds solve``.
+    """The specification of a method: the options of ``orderconds solve``.
 
     ``exponentials`` are those of the update of a commutator-free method, ``inner`` those of each of its
     stages. ``positive`` are names of coefficients, or of weights as ``b``; ``size`` bounds all coefficients.

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from flint import fmpq_poly
 
+from orderconds.ring.nodal import NodalAlgebra, nodal_algebra
 from orderconds.ring.protocol import Element, Ring
-from orderconds.series.nodal import NodalAlgebra, nodal_algebra
 from orderconds.tableau.methods import RungeKutta
 
 

@@ -68,7 +68,7 @@ def stability(method: RungeKutta, ring: Ring) -> dict[str, bool | None]:
 def _decided(method: RungeKutta, ring: Ring) -> tuple[bool, bool]:
     if _largest_block(method, ring) > LARGEST:
         raise _Undecided
-    from orderconds.series.nodal import nodal_algebra
+    from orderconds.ring.nodal import nodal_algebra
     from orderconds.tableau.rational_stability import determinant, stable
 
     if ring is QQ:
@@ -117,7 +117,7 @@ class _Undecided(Exception):
 
 
 class _Limited:
-    """A number field that gives up after so much work."""
+    """A number field with a bound on its work."""
 
     def __init__(self, ring: Ring) -> None:
         self.ring, self.left = ring, EFFORT
@@ -126,7 +126,7 @@ class _Limited:
         return getattr(self.ring, name)
 
     def spend(self, work: int) -> None:
-        """Take off so many pairs of bits."""
+        """Subtract the cost of an operation, in pairs of bits."""
         self.left -= work
         if self.left < 0:
             raise _Undecided
@@ -139,7 +139,7 @@ def _bits(x: Element) -> int:
 
 
 def _spend(ring: Ring, count: int, numbers: Sequence[Element], quadratic: bool) -> None:
-    """Account for so many products of such numbers; quotients make it quadratic in their length."""
+    """Charge for ``count`` products of these numbers; quotients make it quadratic in their length."""
     if isinstance(ring, _Limited) and not isinstance(ring.ring, Balls):
         field = ring.ring
         degree = int(field.modulus.degree()) if isinstance(field, NumberField) else 1

@@ -1,6 +1,6 @@
 """The rounded decimals of a file as unknowns of equations, and what the file says of their proof.
 
-A decimal with ``~`` stands for a number that nobody can spell exactly. With a ``[proof]`` table it is an
+A decimal with ``~`` approximates a number without a known closed form. With a ``[proof]`` table it is an
 unknown: the true method solves the order conditions that the table names, near the decimals of the file.
 
 ::

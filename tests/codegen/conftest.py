@@ -67,7 +67,8 @@ def interpret(kernel: Kernel, values: Mapping[str, float]) -> tuple[float, ...]:
             now = [known[u] for u in statement.unknowns]
             change = max(abs(a - b) for a, b in zip(images, now, strict=True))
             scale = max(1.0, *map(abs, now))
-            if statement.settled(change, previous, scale):
+            close = change <= statement.close * scale and change * change <= 2.0**-53 * scale * previous
+            if close or 0 < previous <= change <= statement.tolerance * scale:
                 break
             previous = change
             known.update(zip(statement.unknowns, images, strict=True))

@@ -36,7 +36,7 @@ from codegen.lower import lowering, names, problem_for
 from codegen.lower.flow_words import FlowLowering
 from codegen.printers import TARGETS
 from codegen.printers.c.module import FLAGS
-from codegen.printers.precision import DOUBLE, SINGLE
+from codegen.run.precision import DOUBLE, SINGLE
 from codegen.scene.problem import Problem
 from codegen.scenes import load as gallery
 from tests.promises import clean_c, clean_python, ulps

@@ -5,7 +5,7 @@
  * order:      1
  * state:      [0..2] m: angular momentum in the body
  * operations: 14 add, 26 mul, 1 stumpff_12 a step
- * stack:      at most 512 bytes, without what the mathematical library takes
+ * stack:      at most 576 bytes, without what the mathematical library takes
  * made by:    none
  * version:    orderconds test
  *
@@ -124,28 +124,23 @@ static inline void stumpff_12(double z, double *c1, double *c2)
     }
 }
 
-int rigid_step(double state[static 3], double h)
-{
-    return rigid_run(state, h, 1, NULL, 0, NULL);
-}
-
 int rigid_run(double state[static 3], double h, size_t steps, double *trajectory,
     size_t stride, size_t *completed)
 {
     int status = RIGID_OK;
     size_t step = 0;
-    double *row = stride > 0 ? trajectory : NULL;
-    if (row != NULL) {
-        memcpy(row, state, 3 * sizeof *state);
+    const int recording = stride > 0 && trajectory != NULL;
+    size_t row = 0;
+    if (recording) {
+        memcpy(trajectory, state, 3 * sizeof *state);
     }
     if (steps > 0 && !isfinite(h)) {
         status = RIGID_BAD_STEP;
-        steps = 0;
     }
     double m0 = state[0];
     double m1 = state[1];
     double m2 = state[2];
-    while (step < steps) {
+    while (status == RIGID_OK && step < steps) {
         const double w0 = -0.5 * m0 * h;
         const double w1 = -h * m1;
         const double w2 = -1.5 * m2 * h;
@@ -159,20 +154,20 @@ int rigid_run(double state[static 3], double h, size_t steps, double *trajectory
         const double new_m1 = m1 + v1 * c1_1 + (w2 * v0 - w0 * v2) * c2_1;
         const double new_m2 = m2 + v2 * c1_1 + (w0 * v1 - w1 * v0) * c2_1;
         /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
-        if (!isfinite((new_m0 + new_m1) + new_m2)
-            && !(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
+        if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
+            + (new_m2 - new_m2) == 0.0) {
+            m0 = new_m0;
+            m1 = new_m1;
+            m2 = new_m2;
+            step++;
+            if (recording && step % stride == 0) {
+                row++;
+                trajectory[3 * row] = m0;
+                trajectory[3 * row + 1] = m1;
+                trajectory[3 * row + 2] = m2;
+            }
+        } else {
             status = RIGID_NOT_FINITE;
-            break;
-        }
-        m0 = new_m0;
-        m1 = new_m1;
-        m2 = new_m2;
-        step++;
-        if (row != NULL && step % stride == 0) {
-            row += 3;
-            row[0] = m0;
-            row[1] = m1;
-            row[2] = m2;
         }
     }
     state[0] = m0;
@@ -181,5 +176,11 @@ int rigid_run(double state[static 3], double h, size_t steps, double *trajectory
     if (completed != NULL) {
         *completed = step;
     }
+    return status;
+}
+
+int rigid_step(double state[static 3], double h)
+{
+    const int status = rigid_run(state, h, 1, NULL, 0, NULL);
     return status;
 }

@@ -1,4 +1,4 @@
-/* rigid: functions and status codes. rigid.c tells how to use them. */
+/* rigid: functions and status codes. rigid.c has an example. */
 #ifndef RIGID_H
 #define RIGID_H
 
@@ -14,7 +14,7 @@ enum {
     RIGID_BAD_STEP = 3 /* h is infinite or a NaN */
 };
 
-/* Make one step of size h. When the status is not RIGID_OK, the state is as it was. */
+/* Make one step of size h. When the status is not RIGID_OK, the state is unchanged. */
 int rigid_step(double state[3], double h);
 
 /*

@@ -29,9 +29,9 @@ class StepFailed(ArithmeticError):
     state: the last good state, as a tuple.
     """
 
-    def __init__(self, status, reason):
+    def __init__(self, status, reason, step, state):
         super().__init__(reason)
-        self.status, self.reason, self.step, self.state = status, reason, 0, ()
+        self.status, self.reason, self.step, self.state = status, reason, step, state
 
     def __str__(self):
         return f"step {self.step + 1}: {self.reason}"
@@ -115,38 +115,62 @@ def _stumpff_12(z):
     return _stumpff_12_far(z)
 
 
-def _advance(state, h):
-    """Return the state after one step as a tuple."""
+def _run(state, h, steps, trajectory, stride, completed):
+    status = OK
+    step = 0
+    recording = stride > 0 and trajectory is not None
+    row = 0
+    if recording:
+        trajectory[0][:] = state
+    if steps > 0 and not isfinite(h):
+        status = BAD_STEP
     m0, m1, m2 = state
-    w0 = -0.5 * m0 * h
-    w1 = -h * m1
-    w2 = -1.5 * m2 * h
-    z = w0 * w0 + w1 * w1 + w2 * w2
-    v0 = m2 * w1 - m1 * w2
-    v1 = m0 * w2 - m2 * w0
-    v2 = m1 * w0 - m0 * w1
-    c1_1, c2_1 = _stumpff_12(z)
-    new_m0 = m0 + v0 * c1_1 + (w1 * v2 - w2 * v1) * c2_1
-    new_m1 = m1 + v1 * c1_1 + (w2 * v0 - w0 * v2) * c2_1
-    new_m2 = m2 + v2 * c1_1 + (w0 * v1 - w1 * v0) * c2_1
-    return new_m0, new_m1, new_m2
+    while status == OK and step < steps:
+        w0 = -0.5 * m0 * h
+        w1 = -h * m1
+        w2 = -1.5 * m2 * h
+        z = w0 * w0 + w1 * w1 + w2 * w2
+        v0 = m2 * w1 - m1 * w2
+        v1 = m0 * w2 - m2 * w0
+        v2 = m1 * w0 - m0 * w1
+        c1_1, c2_1 = _stumpff_12(z)
+        new_m0 = m0 + v0 * c1_1 + (w1 * v2 - w2 * v1) * c2_1
+        new_m1 = m1 + v1 * c1_1 + (w2 * v0 - w0 * v2) * c2_1
+        new_m2 = m2 + v2 * c1_1 + (w0 * v1 - w1 * v0) * c2_1
+        if all(map(isfinite, (new_m0, new_m1, new_m2))):
+            m0 = new_m0
+            m1 = new_m1
+            m2 = new_m2
+            step += 1
+            if recording and step % stride == 0:
+                row += 1
+                trajectory[row][:] = m0, m1, m2
+        else:
+            status = NOT_FINITE
+    state[:] = m0, m1, m2
+    if completed is not None:
+        completed[0] = step
+    return status
 
 
-def _checked(state, h):
-    """Return the state after one step, which is finite."""
-    try:
-        new = _advance(state, h)
-    except StepFailed:
-        raise
-    except (ArithmeticError, ValueError) as error:
-        raise StepFailed(NOT_FINITE, f"the new state is not finite ({error})") from None
-    if not all(map(isfinite, new)):
-        raise StepFailed(NOT_FINITE, "the new state is not finite")
-    return new
+def _numbers(state):
+    """Return the numbers of a state."""
+    numbers = list(map(float, state))
+    if len(numbers) != 3:
+        raise ValueError(f"expected 3 numbers in state, found {len(numbers)}")
+    return numbers
+
+
+def _failure(status, step, state, h):
+    """Return the error of a step that could not be made."""
+    reason = "the new state is not finite"
+    if status == BAD_STEP:
+        reason = f"the step size h = {h} is not finite"
+    return StepFailed(status, reason, step, tuple(map(float, state)))
 
 
 def step(state, h):
-    """Return the state after one step of size h as a list; state itself is left alone.
+    """Return the state after one step of size h as a list; the given state is unchanged.
 
     A step that cannot be made raises StepFailed.
     """
@@ -159,22 +183,13 @@ def run(state, h, steps, *, stride=0):
     With a positive stride, return rows instead: the initial state and every stride-th one
     after it. A step that cannot be made raises StepFailed, which holds the last good state.
     """
-    state = tuple(map(float, state))
+    state = _numbers(state)
     h = float(h)
-    if len(state) != 3:
-        raise ValueError(f"expected 3 numbers in state, found {len(state)}")
     if steps < 0:
         raise ValueError(f"expected no negative number of steps, found {steps}")
-    rows = [list(state)]
-    made = 0
-    try:
-        if steps > 0 and not isfinite(h):
-            raise StepFailed(BAD_STEP, f"the step size h = {h} is not finite")
-        for made in range(steps):
-            state = _checked(state, h)
-            if stride > 0 and (made + 1) % stride == 0:
-                rows.append(list(state))
-    except StepFailed as failure:
-        failure.step, failure.state = made, state
-        raise
-    return rows if stride > 0 else list(state)
+    rows = [[0.0] * 3 for _ in range(steps // stride + 1)] if stride > 0 else None
+    completed = [0]
+    status = _run(state, h, steps, rows, stride, completed)
+    if status != OK:
+        raise _failure(status, completed[0], state, h)
+    return rows if stride > 0 else state

@@ -1,4 +1,4 @@
-"""Exit statuses of errors, interrupts, signals and closed pipes."""
+"""How the program ends: its exit status, one message, and with --json one document."""
 
 from __future__ import annotations
 

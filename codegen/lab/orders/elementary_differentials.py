@@ -8,8 +8,11 @@ of eps_1 ... eps_k is the k-th derivative. This works for every scene that is po
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import isqrt
 
-from codegen.groups import SO3, MatrixGroup, Rn
+from codegen.groups import LieGroup
+from codegen.groups.capabilities import MatrixRepresentation
+from codegen.groups.linear_algebra import units
 from codegen.ir.domain import Domain
 from codegen.ir.expr import evaluate
 from codegen.ir.number import Number
@@ -124,8 +127,9 @@ def action_fields(scene: Problem, ring: Ring) -> ActionFields:
     The group is represented by its own matrices, or for R^n by translations of affine space.
     """
     domain, q_size = RingDomain(ring), len(scene.state[0].symbols)
-    group = scene.group
-    basis = tuple(_matrix(domain, group, unit, True) for unit in _units(domain, group.dim))
+    group = scene.group.require(MatrixRepresentation, where=scene.name)
+    algebra: tuple[Vector, ...] = units(domain, group.dim)
+    basis = tuple(_rows(group.hat(domain, unit)) for unit in algebra)
     start = scene.initial(domain)
     hamiltonian = scene.hamiltonian
     assert hamiltonian is not None
@@ -135,44 +139,17 @@ def action_fields(scene: Problem, ring: Ring) -> ActionFields:
         return evaluate([hamiltonian], domain, values)[0]
 
     def coordinates(x: Scalar) -> Vector:
-        return _algebra_coordinates(domain, group, x)
+        return group.vee(domain, tuple(entry for row in x for entry in row))
 
-    point = _matrix(domain, group, start[:q_size], False)
+    point = _rows(group.matrix(domain, start[:q_size]))
     return ActionFields(ring, energy, point, start[q_size:], basis, coordinates)
 
 
-def _units(domain: Domain, n: int) -> list[Vector]:
-    return [tuple(domain.rational(int(i == j)) for j in range(n)) for i in range(n)]
-
-
-def _matrix(domain: Domain, group: object, x: Vector, algebra: bool) -> tuple[Vector, ...]:
-    """Return the matrix of an element of the group or its algebra; the affine one for R^n."""
-    if isinstance(group, Rn):
-        zero, n = domain.rational(0), group.dim
-        one = domain.rational(int(not algebra))
-        rows = [(*(one if i == j else zero for j in range(n)), x[i]) for i in range(n)]
-        return (*rows, (*((zero,) * n), one))
-    flat = _hat(domain, group, x) if algebra else x
-    n = round(len(flat) ** 0.5)
+def _rows(flat: Vector) -> tuple[Vector, ...]:
+    n = isqrt(len(flat))
     return tuple(flat[n * i : n * i + n] for i in range(n))
 
 
-def _hat(domain: Domain, group: object, x: Vector) -> Vector:
-    assert isinstance(group, SO3 | MatrixGroup)
-    return tuple(group.hat(domain, x))
-
-
-def element_coordinates(group: object, matrix: Scalar) -> Vector:
+def element_coordinates(group: LieGroup, matrix: Sequence[Vector]) -> Vector:
     """Return the coordinates of a group element, or of a difference of two, from its matrix."""
-    if isinstance(group, Rn):
-        return tuple(row[-1] for row in matrix[:-1])
-    return tuple(x for row in matrix for x in row)
-
-
-def _algebra_coordinates(domain: Domain, group: object, matrix: Scalar) -> Vector:
-    if isinstance(group, Rn):
-        return tuple(row[-1] for row in matrix[:-1])
-    if isinstance(group, SO3):
-        return (matrix[2][1], matrix[0][2], matrix[1][0])
-    assert isinstance(group, MatrixGroup)
-    return group.vee(domain, element_coordinates(group, matrix))
+    return group.require(MatrixRepresentation).element(tuple(x for row in matrix for x in row))

@@ -1,43 +1,341 @@
-"""Pieces of a kernel in C: static functions that take numbers and give one, or fill an array."""
+"""Functions of the run representation in C: types, declarations, statements.
+
+A scalar is ``const`` where it is assigned once, an array parameter where nothing writes to it. Arrays are
+copied by ``memcpy``, records cleared by ``memset``. Nothing here knows what a function computes.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Iterator, Sequence
+from itertools import groupby
 
-from codegen.ir.kernel import Function
-from codegen.kernel.schedule import Arrangement
-from codegen.printers.c.statements import Statements
-from codegen.printers.c.text import comment, fill
-from codegen.printers.identifiers import named
-from codegen.printers.interface import Interface
-from codegen.printers.names import Names
+from codegen.printers.c.terms import Terms, literal
+from codegen.printers.c.text import block_comment, comment, fill, together
+from codegen.printers.infix import closed
+from codegen.run.identifiers import Identifiers
+from codegen.run.language import (
+    Array,
+    Assign,
+    Body,
+    Call,
+    For,
+    Function,
+    If,
+    Note,
+    Return,
+    Statement,
+    Table,
+    Unit,
+    While,
+    terms,
+)
+from codegen.run.precision import Precision
+from codegen.run.scope import declarations
+from codegen.run.terms import Kind, Term, own, symbols
+from codegen.run.writes import written
+
+MANY = 20
+"""From so many short statements in a row on several share a line."""
+
+ONE_TEST = "one test for all; where only their sum overflows, x - x is zero for a number, else NaN"
 
 
-def outlined_function(
-    function: Function, arrangement: Arrangement, interface: Interface, reserved: Collection[str]
-) -> tuple[list[str], int]:
-    """Return the lines of a function's definition, and how many numbers it holds at once."""
-    real = interface.format.c_type
-    names = Names(reserved)
-    for name in function.inputs:
-        names.spelled[name] = names.fresh(name.partition(".")[2])
-    named(arrangement.statements, names)
-    statements = Statements(arrangement, names, interface.prefix, interface.format)
-    several = len(arrangement.outputs) > 1
-    body = list(statements.lines())
-    for k, value in enumerate(arrangement.outputs):
-        body += statements.declare(f"result[{k}]" if several else "return", value, "")
-    if not several:
-        body[-1:] = [body[-1].replace("return =", "return", 1)]
-    arguments = [f"{real} {names.spelled[name]}" for name in function.inputs]
-    arguments += [f"{real} result[static {len(arrangement.outputs)}]"] if several else []
-    head = f"static {'void' if several else real} {function.name}("
-    parts = (*(f"{a}," for a in arguments[:-1]), arguments[-1])
-    lines = [
-        *fill("/*", (*comment(function.about).split(), "*/"), ""),
-        *fill(head, parts, ")", joint=""),
-        "{",
-        *(f"    {line}" for line in body),
-        "}",
-    ]
-    return lines, names.count
+class Spelling:
+    """Spells the functions of one unit under a prefix."""
+
+    def __init__(
+        self, unit: Unit, identifiers: dict[str, Identifiers], precision: Precision, prefix: str
+    ) -> None:
+        self.unit, self.identifiers, self.precision, self.prefix = unit, identifiers, precision, prefix
+        self.real = precision.c_type
+        self.writes = {f.name: written(unit, f) for f in unit.functions}
+
+    def called(self, name: str) -> str:
+        """Return what a function is called."""
+        function = self.unit.parts.get(name)
+        return f"{self.prefix}{name}" if function is not None and function.public else name
+
+    def type_of(self, kind: Kind) -> str:
+        """Return the type of a scalar."""
+        return {Kind.REAL: self.real, Kind.WIDE: "double", Kind.COUNT: "size_t"}.get(kind, "int")
+
+    def record_type(self, name: str) -> str:
+        """Return the type of a record."""
+        return f"{self.prefix}{name}" if self.unit.record(name).public else f"struct {name}"
+
+    def parameter(self, function: Function, parameter: Term, header: bool) -> str:
+        """Return the declaration of a parameter; C++ reads headers, where sizes are no promise."""
+        name = self.identifiers[function.name].of(parameter)
+        const = "" if parameter.text in self.writes[function.name] else "const "
+        if parameter.kind is Kind.SIGNAL:
+            return f"{self.prefix}input input, void *context"
+        promised = "" if header else "static "
+        if parameter.kind is Kind.RECORD:
+            of = self.record_type(parameter.record)
+            size = f"[{promised}{parameter.shape[0]}]" if parameter.shape else ""
+            return f"{const}{of} {name}{size}" if size else f"{const}{of} *{name}"
+        kind = self.type_of(parameter.kind)
+        if not parameter.shape:
+            return f"{kind} {name}"
+        if parameter.cell or parameter.optional:
+            return f"{const}{kind} *{name}"
+        promised = "" if function.name == "jacobian" and parameter.text != "state" else promised
+        promised = "" if parameter.text == "inputs" else promised
+        return f"{const}{kind} {name}[{promised}{parameter.shape[0]}]"
+
+    def head(self, function: Function, header: bool = False) -> list[str]:
+        """Return the lines of a function's head, a prototype in a ``header``."""
+        storage = "" if function.public else "static inline " if function.often else "static "
+        kind = "void" if function.returns is None else self.type_of(function.returns)
+        listed = [self.parameter(function, p, header) for p in function.parameters]
+        pieces = (*(f"{p}," for p in listed[:-1]), f"{listed[-1]})")
+        return fill(f"{storage}{kind} {self.called(function.name)}(", pieces, ";" if header else "", joint="")
+
+    def definition(self, function: Function) -> list[str]:
+        """Return the lines of a function, with its comment."""
+        body = _Body(self, function).lines()
+        return [
+            *block_comment(function.about),
+            *self.head(function),
+            "{",
+            *(f"    {line}" for line in body),
+            "}",
+        ]
+
+    def table(self, table: Table) -> list[str]:
+        """Return the lines of a constant array."""
+        rows = [[literal(self.precision, x) for x in row] for row in table.rows]
+        size = "".join(f"[{n}]" for n in table.name.shape)
+        start = f"static const {self.real} {table.name.text}{size} ="
+        about = [f"/* {comment(table.about)} */"]
+        if len(table.name.shape) == 1:
+            entries = [f"{x}," for x in rows[0][:-1]] + [rows[0][-1]]
+            return [*about, *fill(start, closed("{", tuple(entries), "}"), ";")]
+        return [*about, f"{start} {{", *(f"    {{{_without_zeros(row)}}}," for row in rows), "};"]
+
+    def record(self, name: str) -> list[str]:
+        """Return the lines of a record's type."""
+        record = self.unit.record(name)
+        lines = block_comment(record.about)
+        lines.append("typedef struct {" if record.public else f"struct {record.name} {{")
+        for field, about in record.fields:
+            size = "".join(f"[{n}]" for n in field.shape)
+            note = f" /* {comment(about)} */" if about else ""
+            lines.append(f"    {self.type_of(field.kind)} {field.text}{size};{note}")
+        return [*lines, f"}} {self.record_type(name)};" if record.public else "};"]
+
+
+def _without_zeros(row: Sequence[str]) -> str:
+    """Return a row without the zeros at its end, which C fills in, as integers where it can."""
+    kept = list(row)
+    while len(kept) > 1 and kept[-1].startswith("0.0"):
+        kept.pop()
+    return ", ".join(kept)
+
+
+class _Body:
+    """The lines of one function's body."""
+
+    def __init__(self, spelling: Spelling, function: Function) -> None:
+        self.spelling, self.function = spelling, function
+        self.identifiers = spelling.identifiers[function.name]
+        self.declared = declarations(function, self.identifiers)
+        pointers = {p.text for p in function.parameters if p.kind is Kind.RECORD}
+        self.terms = Terms(self.identifiers, spelling.precision, spelling.prefix, pointers)
+        self.pointers = pointers
+
+    def lines(self) -> list[str]:
+        """Return the lines of the whole body."""
+        read = {self.identifiers.variable(t) for t in terms(self.function.body) if t.op == "name"}
+        for term in terms(self.function.body):
+            if term.value is not None:
+                read |= {self.identifiers.variable(own(s)) for s in symbols(term.value)}
+        parameters = [p for p in self.function.parameters if p.kind is not Kind.SIGNAL]
+        unread = [self.identifiers.of(p) for p in parameters if self.identifiers.of(p) not in read]
+        signals = [p for p in self.function.parameters if p.kind is Kind.SIGNAL and p.text not in read]
+        unread += ["input", "context"] if signals else []
+        return [*(f"(void){name};" for name in unread), *self.block(self.function.body)]
+
+    def block(self, body: Body) -> list[str]:
+        """Return the lines of some statements; short ones share lines where they are many."""
+        found: list[tuple[bool, list[str]]] = []
+        for statement in body:
+            before = self.before(statement)
+            own = list(self.statement(statement))
+            short = isinstance(statement, Assign) and not before and len(own) == 1 and _is_short(own[0])
+            found += [(False, before)] if before else []
+            found.append((short, own))
+        lines: list[str] = []
+        for short, group in groupby(found, key=lambda x: x[0]):
+            flat = [line for _, part in group for line in part]
+            lines += together(flat) if short and len(flat) > MANY else flat
+        return lines
+
+    def before(self, statement: Statement) -> list[str]:
+        """Return the declarations that stand before a statement, one line a type."""
+        waiting = self.declared.before.get(id(statement), [])
+        lines: list[str] = []
+        for kind, group in groupby(waiting, key=lambda x: self.spelling.type_of(x[1].kind)):
+            names = [name for name, _ in group]
+            lines += fill(kind, (*(f"{n}," for n in names[:-1]), names[-1]), ";")
+        return lines
+
+    def statement(self, statement: Statement) -> Iterator[str]:
+        """Yield the lines of a statement."""
+        match statement:
+            case Assign():
+                yield from self.assign(statement)
+            case Array():
+                yield from self.array(statement)
+            case Call():
+                yield from self.call(statement)
+            case Return(value):
+                yield from fill("return", self.terms.text(value).pieces, ";")
+            case Note(text):
+                yield f"/* {comment(text)} */"
+            case If():
+                yield from self.branch(statement)
+            case While():
+                yield from self.loop(statement)
+            case For(index, count, body, reverse):
+                i, n = self.identifiers.of(index), self.terms.line(count)
+                yield (
+                    f"for (size_t {i} = {n}; {i}-- > 0;) {{"
+                    if reverse
+                    else (f"for (size_t {i} = 0; {i} < {n}; {i}++) {{")
+                )
+                yield from self.inner(body)
+                yield "}"
+
+    def inner(self, body: Body) -> list[str]:
+        """Return the lines of a body inside a statement."""
+        return [f"    {line}" for line in self.block(body)]
+
+    def branch(self, statement: If) -> Iterator[str]:
+        """Yield the lines of a branch, those of an else that is a branch beside it."""
+        test = statement.test
+        finite = test.args[0] if test.op == "not" else test
+        if finite.op == "finite" and len(finite.args) > 1:
+            yield f"/* {ONE_TEST} */"
+        yield from fill("if (", self.terms.text(test).pieces, ") {", joint="")
+        yield from self.inner(statement.body)
+        orelse = statement.orelse
+        if len(orelse) == 1 and isinstance(orelse[0], If) and not self.declared.before.get(id(orelse[0])):
+            first, *rest = self.branch(orelse[0])
+            yield f"}} else {first}"
+            yield from rest
+            return
+        if orelse:
+            yield "} else {"
+            yield from self.inner(orelse)
+        yield "}"
+
+    def loop(self, statement: While) -> Iterator[str]:
+        """Yield the lines of a loop."""
+        test = self.terms.text(statement.test).pieces
+        if statement.at_least_once:
+            yield "do {"
+            yield from self.inner(statement.body)
+            yield from fill("} while (", test, ");", joint="")
+            return
+        yield from fill("while (", test, ") {", joint="")
+        yield from self.inner(statement.body)
+        yield "}"
+
+    def kind(self, statement: Statement, target: Term) -> str:
+        """Return the type where a statement declares its target, else nothing."""
+        name = self.identifiers.of(target) if target.op == "name" else ""
+        constant = self.declared.by.get(id(statement), {}).get(name)
+        if constant is None:
+            return ""
+        return f"{'const ' if constant else ''}{self.spelling.type_of(target.kind)} "
+
+    def assign(self, statement: Assign) -> Iterator[str]:
+        """Yield the lines of an assignment, a copy, or a record that is cleared."""
+        target, value = statement.target, statement.value
+        if value.op == "fresh":
+            name = self.terms.line(target)
+            record = (
+                f"{name}, 0, sizeof *{name}" if target.text in self.pointers else f"&{name}, 0, sizeof {name}"
+            )
+            yield f"memset({record});"
+            return
+        if target.shape:
+            copied = (self.terms.line(target), self.terms.line(value), self.extent(target, value))
+            yield f"memcpy({', '.join(copied)});"
+            return
+        kind, name = self.kind(statement, target), self.terms.line(target)
+        changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
+        if changed and not kind:
+            more = self.terms.text(value.args[1])
+            if value.op in "+-" and more.line == "1":
+                yield f"{name}{value.op * 2};"
+                return
+            yield from fill(f"{name} {value.op}=", more.pieces, ";")
+            return
+        yield from fill(f"{kind}{name} =", self.terms.text(value).pieces, ";")
+
+    def extent(self, target: Term, value: Term) -> str:
+        """Return how many bytes are copied: the size of an array of this function, or a count of numbers."""
+        parameters = {p.text for p in self.function.parameters}
+        for term in (target, value):
+            if term.op == "name" and term.text not in parameters:
+                return f"sizeof {self.terms.line(term)}"
+        named = next(
+            (t for t in (value, target) if t.op in ("name", "field")), value.args[0] if value.args else value
+        )
+        return f"{target.shape[0]} * sizeof *{self.terms.line(named)}"
+
+    def array(self, statement: Array) -> Iterator[str]:
+        """Yield the lines of an array's declaration."""
+        name = statement.name
+        identifier = self.identifiers.of(name)
+        size = "".join(f"[{n}]" for n in name.shape)
+        if name.kind is Kind.RECORD:
+            yield f"{self.spelling.record_type(name.record)} {identifier}{size} = {{0}};"
+            return
+        kind = self.spelling.type_of(name.kind)
+        if statement.zero:
+            yield f"{kind} {identifier}{size} = {{{literal(self.spelling.precision, 0.0)}}};"
+            return
+        if not statement.values:
+            yield f"{kind} {identifier}{size};"
+            return
+        entries = [self.terms.line(x) for x in statement.values]
+        pieces = closed("{", (*(f"{x}," for x in entries[:-1]), entries[-1]), "}")
+        yield from fill(f"const {kind} {identifier}{size} =", pieces, ";")
+
+    def argument(self, term: Term) -> str:
+        """Return an argument: of a record its address."""
+        text = self.terms.line(term)
+        if term.kind is not Kind.RECORD or term.op == "none" or term.shape:
+            return text
+        return text if term.text in self.pointers and term.op == "name" else f"&{text}"
+
+    def call(self, statement: Call) -> Iterator[str]:
+        """Yield the lines of a call."""
+        given = [self.argument(a) for a in statement.arguments]
+        name, results = statement.function, statement.results
+        if name == "sample":
+            given = [given[0].partition(",")[0], *given[1:], self.terms.line(results[0]), "context"]
+            callee, *given = given
+            yield from fill(f"{callee}(", _arguments(given), ";", joint="")
+            return
+        if len(results) > 1:
+            names = [self.identifiers.of(r) for r in results]
+            given += [f"&{n}" for n in names]
+            results = ()
+        start = f"{self.spelling.called(name)}("
+        if results:
+            (target,) = results
+            start = f"{self.kind(statement, target)}{self.terms.line(target)} = {start}"
+        yield from fill(start, _arguments(given), ";", joint="")
+
+
+def _arguments(given: Sequence[str]) -> tuple[str, ...]:
+    return (*(f"{x}," for x in given[:-1]), f"{given[-1]})")
+
+
+def _is_short(line: str) -> bool:
+    """Whether a statement copies one thing and declares nothing."""
+    return len(line.split()) == 3 and line.endswith(";")

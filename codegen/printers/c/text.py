@@ -3,29 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from textwrap import wrap
+
+from codegen.printers.infix import closed
 
 WIDTH = 100
 
 
-def paired(terms: list[str]) -> tuple[str, ...]:
-    """Spell a sum of terms, added in pairs and then left to right, for lines to break between.
+def greatest(terms: list[str]) -> tuple[str, ...]:
+    """Spell the greatest of some terms as a balanced tree of two-argument calls, cut after its commas.
 
-    >>> paired(["a", "b", "c"])
-    ('(a + b)', '+ c')
+    >>> greatest(["a", "b", "c"])
+    ('greater(a,', 'greater(b,', 'c))')
     """
-    if len(terms) < 3:
-        return (terms[0], *(f"+ {x}" for x in terms[1:]))
-    pairs = [terms[k : k + 2] for k in range(0, len(terms), 2)]
-    texts = [f"({x[0]} + {x[1]})" if len(x) == 2 else x[0] for x in pairs]
-    return (texts[0], *(f"+ {x}" for x in texts[1:]))
-
-
-def greatest(terms: list[str]) -> str:
-    """Spell the greatest of some terms as a balanced tree of two-argument calls."""
     if len(terms) == 1:
-        return terms[0]
+        return (terms[0],)
     middle = len(terms) // 2
-    return f"greater({greatest(terms[:middle])}, {greatest(terms[middle:])})"
+    first, second = greatest(terms[:middle]), greatest(terms[middle:])
+    return (*closed("greater(", first, ","), *closed("", second, ")"))
+
+
+def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
+    """Spell a call, cut after its commas.
+
+    >>> closed_call("f", ["a", "b"])
+    ('f(a,', 'b)')
+    """
+    pieces = [f"{x}," for x in arguments[:-1]] + [f"{x})" for x in arguments[-1:]]
+    return (f"{name}({pieces[0]}", *pieces[1:]) if pieces else (f"{name}()",)
 
 
 def comment(text: str) -> str:
@@ -33,9 +38,13 @@ def comment(text: str) -> str:
     return text.replace("*/", "* /").replace("/*", "/ *")
 
 
-def broken(text: str) -> tuple[str, ...]:
-    """Cut nested calls after their commas."""
-    return tuple(text.replace(", ", ",|").split("|"))
+def block_comment(text: str) -> list[str]:
+    """Return a comment on one line, or on several with stars before them; nothing for no text."""
+    safe = comment(text)
+    lines = wrap(safe, WIDTH, break_long_words=False, break_on_hyphens=False)
+    if len(lines) < 2:
+        return [f"/* {line} */" for line in lines]
+    return ["/*", *(f" * {line}" for line in lines), " */"]
 
 
 def fill(start: str, pieces: tuple[str, ...], end: str, width: int = WIDTH, joint: str = " ") -> list[str]:

@@ -1,39 +1,282 @@
-"""Pieces of a kernel in Python: functions that take numbers and return one, or a tuple."""
+"""Functions of the run representation in Python: lists that are changed in place, statuses that are returned.
+
+Neighbouring entries of a list are read, and written, together. An arithmetic error, where C computes with an
+infinity or a NaN, becomes what the function's guard says. Nothing here knows what a function computes.
+"""
 
 from __future__ import annotations
 
-from codegen.ir.kernel import Function
-from codegen.kernel.schedule import Arrangement
-from codegen.printers.identifiers import named
-from codegen.printers.interface import Interface
-from codegen.printers.names import Names
-from codegen.printers.python.statements import RESERVED, Statements
-from codegen.printers.python.text import filled, listed
+from collections.abc import Iterator, Sequence
+from math import prod
+
+from codegen.printers.python.terms import Constants, Terms
+from codegen.printers.python.text import filled, indented, listed, unpacked
+from codegen.run.identifiers import Identifiers
+from codegen.run.language import (
+    RAISES_STATUS,
+    Array,
+    Assign,
+    Body,
+    Call,
+    For,
+    Function,
+    If,
+    Note,
+    Record,
+    Return,
+    Statement,
+    Table,
+    Unit,
+    While,
+    root,
+)
+from codegen.run.terms import Kind, Term, names
+from codegen.run.writes import written
+
+TOGETHER = 3
+"""From so many neighbouring entries on they are read or written by one statement."""
 
 
-def outlined_function(
-    function: Function, arrangement: Arrangement, interface: Interface
-) -> tuple[list[str], dict[str, str]]:
-    """Return the lines of a function's definition, and the constants it uses in single precision."""
-    names = Names(RESERVED)
-    for name in function.inputs:
-        names.spelled[name] = names.fresh(name.partition(".")[2])
-    named(arrangement.statements, names)
-    letter = "P" + function.name.rpartition("_")[2] + "_"
-    statements = Statements(arrangement, names, interface.format, letter)
-    body = list(statements.lines())
-    results = []
-    for k, value in enumerate(arrangement.outputs):
-        if value.op == "sym":
-            results.append(names.spelled[value.payload])
-            continue
-        results.append(names.fresh(f"result_{k}"))
-        body += statements.assign(results[-1], value, 1)
-    ending = [f"    return {results[0]}"] if len(results) == 1 else listed("return ", results, 1)
-    lines = [
-        *filled(f"def _{function.name}(", [names.spelled[name] for name in function.inputs], "):", 0),
-        '    """' + function.about.replace("\\", "\\\\") + '"""',
-        *body,
-        *ending,
-    ]
-    return lines, statements.constants
+class Spelling:
+    """Spells the functions of one unit."""
+
+    def __init__(self, unit: Unit, identifiers: dict[str, Identifiers], constants: Constants) -> None:
+        self.unit, self.identifiers, self.constants = unit, identifiers, constants
+
+    def definition(self, function: Function) -> list[str]:
+        """Return the lines of a function."""
+        own = self.identifiers[function.name]
+        head = filled(f"def _{function.name}(", [own.of(p) for p in function.parameters], "):", 0)
+        about = function.about.replace("\\", "\\\\").replace('"""', "'''")
+        lines = [*head, *docstring(about)] if about else head
+        depth = 2 if function.guard else 1
+        body = _Body(self, function).block(function.body, depth)
+        if not function.guard:
+            return [*lines, *body]
+        return [*lines, "    try:", *body, "    except (ArithmeticError, ValueError):", *self.guard(function)]
+
+    def guard(self, function: Function) -> list[str]:
+        """Return the lines of what an arithmetic error makes of a function."""
+        if function.guard == RAISES_STATUS:
+            return ["        return NOT_FINITE"]
+        if function.returns is not None:
+            return ["        return nan"]
+        (changed,) = written(self.unit, function)
+        return [f"        {changed}[:] = [nan] * len({changed})"]
+
+    def table(self, table: Table) -> list[str]:
+        """Return the lines of a constant array."""
+        rows = [[self.constants.text(x) for x in row] for row in table.rows]
+        about = [f"# {table.about}"] if table.about else []
+        if len(table.name.shape) == 1:
+            return [*about, *filled(f"{table.name.text} = (", rows[0], ")", 0)]
+        lines = [*about, f"{table.name.text} = ("]
+        for row in rows:
+            lines += filled("(", row, "),", 1)
+        return [*lines, ")"]
+
+    def zeros(self, shape: Sequence[int], kind: Kind, record: str = "") -> str:
+        """Return a list of zeros, or a record."""
+        if not shape:
+            if kind is Kind.RECORD:
+                return f"{class_of(self.unit.record(record))}()"
+            return self.constants.text(0.0) if kind in (Kind.REAL, Kind.WIDE) else "0"
+        inner = self.zeros(shape[1:], kind, record)
+        if len(shape) > 1 or kind is Kind.RECORD:
+            return f"[{inner} for _ in range({shape[0]})]"
+        return f"[{inner}] * {shape[0]}"
+
+    def record(self, record: Record) -> list[str]:
+        """Return the lines of a class whose fields are zero at first and after ``clear``."""
+        lines = [f"class {class_of(record)}:", *docstring(record.about), "", "    def __init__(self):"]
+        lines += ["        self.clear()", "", "    def clear(self):", '        """Set all fields to zero."""']
+        for field, about in record.fields:
+            note = f"  # {about}" if about and prod(field.shape) < 100 else ""
+            line = f"        self.{field.text} = {self.zeros(field.shape, field.kind)}"
+            lines.append(line + note)
+        return lines
+
+
+def class_of(record: Record) -> str:
+    """Return the name of a record's class."""
+    return record.name.capitalize() if record.public else f"_{record.name.capitalize()}"
+
+
+def docstring(text: str) -> list[str]:
+    """Return a docstring of one paragraph."""
+    lines = filled_words(text)
+    if len(lines) == 1:
+        return [f'    """{lines[0]}"""']
+    return [f'    """{lines[0]}', *(f"    {line}" for line in lines[1:]), '    """']
+
+
+def filled_words(text: str, width: int = 78) -> list[str]:
+    """Return the words of a text on lines."""
+    lines = [""]
+    for word in text.split():
+        if lines[-1] and len(lines[-1]) + 1 + len(word) > width:
+            lines.append(word)
+        else:
+            lines[-1] += f" {word}" if lines[-1] else word
+    return lines
+
+
+class _Body:
+    """The lines of one function's body."""
+
+    def __init__(self, spelling: Spelling, function: Function) -> None:
+        self.spelling = spelling
+        self.identifiers = spelling.identifiers[function.name]
+        self.terms = Terms(self.identifiers, spelling.constants)
+
+    def block(self, body: Body, depth: int) -> list[str]:
+        """Return the lines of some statements."""
+        lines: list[str] = []
+        place = 0
+        while place < len(body):
+            group = self.entries(body[place:])
+            if len(group) >= TOGETHER:
+                lines += self.together(group, depth)
+                place += len(group)
+                continue
+            lines += self.statement(body[place], depth)
+            place += 1
+        return lines
+
+    def entries(self, body: Sequence[Statement]) -> list[Assign]:
+        """Return the statements at the beginning that read, or write, neighbouring entries of one list."""
+        found: list[Assign] = []
+        for statement in body:
+            if not isinstance(statement, Assign):
+                break
+            if found and not (self.follow(found, statement, True) or self.follow(found, statement, False)):
+                break
+            if not found and _entry(statement.target) is None and _entry(statement.value) is None:
+                break
+            found.append(statement)
+        return found
+
+    def follow(self, found: Sequence[Assign], statement: Assign, reading: bool) -> bool:
+        """Whether a statement goes on with what some statements do."""
+
+        def one(s: Assign) -> Term:
+            return s.value if reading else s.target
+
+        entries = [_entry(one(s)) for s in (*found, statement)]
+        if any(e is None for e in entries) or (
+            reading and any(s.target.op != "name" for s in (*found, statement))
+        ):
+            return False
+        first = self.terms.line(one(found[0]).args[0])
+        neighbours = all(b == (entries[0] or 0) + k for k, b in enumerate(entries))
+        same = self.terms.line(one(statement).args[0]) == first
+        changed = root(one(statement)).text
+        apart = reading or all(x.text != changed for s in (*found, statement) for x in names([s.value]))
+        return neighbours and same and apart
+
+    def together(self, group: Sequence[Assign], depth: int) -> list[str]:
+        """Return the lines that read or write neighbouring entries."""
+        reading = all(_entry(s.value) is not None and s.target.op == "name" for s in group)
+        entry = group[0].value if reading else group[0].target
+        array, start = entry.args[0], _entry(entry) or 0
+        whole = start == 0 and array.shape == (len(group),)
+        name = self.terms.line(array)
+        if reading:
+            part = name if whole else f"{name}[{start}:{start + len(group)}]"
+            return unpacked([self.terms.line(s.target) for s in group], part, depth)
+        part = f"{name}[:]" if whole else f"{name}[{start}:{start + len(group)}]"
+        return listed(f"{part} = ", [self.terms.line(s.value) for s in group], depth)
+
+    def statement(self, statement: Statement, depth: int) -> Iterator[str]:
+        """Yield the lines of a statement."""
+        space = "    " * depth
+        match statement:
+            case Assign():
+                yield from self.assign(statement, depth)
+            case Array():
+                yield from self.array(statement, depth)
+            case Call():
+                yield from self.call(statement, depth)
+            case Return(value):
+                yield from indented("return ", self.terms.text(value).pieces, depth)
+            case Note(text):
+                yield from (f"{space}# {line}" for line in filled_words(text))
+            case If():
+                yield from self.branch(statement, depth, "if")
+            case While():
+                yield from self.loop(statement, depth)
+            case For(index, count, body, reverse):
+                places = f"range({self.terms.line(count)})"
+                places = f"reversed({places})" if reverse else places
+                yield f"{space}for {self.identifiers.of(index)} in {places}:"
+                yield from self.block(body, depth + 1)
+
+    def branch(self, statement: If, depth: int, word: str) -> Iterator[str]:
+        """Yield the lines of a branch."""
+        yield from self.condition(word, statement.test, depth)
+        yield from self.block(statement.body, depth + 1)
+        orelse = statement.orelse
+        if len(orelse) == 1 and isinstance(orelse[0], If):
+            yield from self.branch(orelse[0], depth, "elif")
+        elif orelse:
+            yield f"{'    ' * depth}else:"
+            yield from self.block(orelse, depth + 1)
+
+    def condition(self, word: str, test: Term, depth: int) -> list[str]:
+        """Return the lines of a test."""
+        lines = indented(f"{word} ", self.terms.text(test).pieces, depth)
+        return [*lines[:-1], f"{lines[-1]}:"]
+
+    def loop(self, statement: While, depth: int) -> Iterator[str]:
+        """Yield the lines of a loop."""
+        if not statement.at_least_once:
+            yield from self.condition("while", statement.test, depth)
+            yield from self.block(statement.body, depth + 1)
+            return
+        yield f"{'    ' * depth}while True:"
+        yield from self.block(statement.body, depth + 1)
+        yield from self.condition("if", Term("not", (statement.test,), Kind.FLAG), depth + 1)
+        yield f"{'    ' * (depth + 2)}break"
+
+    def assign(self, statement: Assign, depth: int) -> Iterator[str]:
+        """Yield the lines of an assignment, a copy, or a record that is cleared."""
+        target, value = statement.target, statement.value
+        name = self.terms.line(target)
+        if value.op == "fresh":
+            yield f"{'    ' * depth}{name}.clear()"
+            return
+        if target.shape:
+            name = name if target.op == "part" else f"{name}[:]"
+            yield f"{'    ' * depth}{name} = {self.terms.line(value)}"
+            return
+        text = self.terms.text(value)
+        changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
+        if changed:
+            yield from indented(f"{name} {value.op}= ", self.terms.text(value.args[1]).pieces, depth)
+            return
+        yield from indented(f"{name} = ", text.pieces, depth)
+
+    def array(self, statement: Array, depth: int) -> Iterator[str]:
+        """Yield the lines that make a list."""
+        name = statement.name
+        start = f"{self.identifiers.of(name)} = "
+        if statement.values:
+            yield from filled(f"{start}[", [self.terms.line(x) for x in statement.values], "]", depth)
+            return
+        yield f"{'    ' * depth}{start}{self.spelling.zeros(name.shape, name.kind, name.record)}"
+
+    def call(self, statement: Call, depth: int) -> Iterator[str]:
+        """Yield the lines of a call."""
+        given = [self.terms.line(a) for a in statement.arguments]
+        results = [self.terms.line(r) for r in statement.results]
+        name = "sampled" if statement.function == "sample" else statement.function
+        start = f"{', '.join(results)} = " if results else ""
+        called = "invert" if name == "invert" else f"_{name}"
+        yield from filled(f"{start}{called}(", given, ")", depth)
+
+
+def _entry(term: Term) -> int | None:
+    """Return the place of an entry of a list of scalars, None where that is not known before a run."""
+    if term.op != "item" or term.shape or term.args[1].op != "number":
+        return None
+    return int(term.args[1].number)

@@ -2,261 +2,185 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
 
 from codegen.ir.angle_depth import chain
-from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Deferred, Kernel, Start
+from codegen.ir.kernel import Kernel
 from codegen.kernel.operations import costs
-from codegen.kernel.schedule import Arrangement, arrange
-from codegen.printers.expression import spell
-from codegen.printers.identifiers import blocks, inverts, layout, register, times
 from codegen.printers.interface import Interface
-from codegen.printers.names import Names
-from codegen.printers.precision import DOUBLE
-from codegen.printers.python.carried import turning
-from codegen.printers.python.functions import outlined_function
-from codegen.printers.python.statements import RESERVED, Statements
-from codegen.printers.python.text import listed, quoted, unpacking
+from codegen.printers.layout import layout, times
+from codegen.printers.needs import functions_of
+from codegen.printers.python.functions import Spelling, class_of
+from codegen.printers.python.terms import Constants
+from codegen.printers.python.text import quoted
+from codegen.printers.python.words import PUBLIC, RESERVED
 from codegen.printers.recipe import Recipe, header
-from codegen.snippets.graph import needed
+from codegen.run.identifiers import Identifiers, identify
+from codegen.run.language import RAISES_STATUS, Unit, terms
+from codegen.run.plan import Plan
+from codegen.run.precision import DOUBLE
+from codegen.run.unit import unit_of
+from codegen.snippets.graph import Needed, needed
 from codegen.templates import environment
 
 LIMITS = ["rtol=1e-6", "atol=1e-9", "limit=100000"]
-"""What a run that chooses its steps is told by default."""
+"""The defaults of a run that chooses its steps."""
 
 
 def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[str, str]:
     """Return the text of PREFIX.py for one step."""
-    arrangement = arrange(kernel)
-    names = register(kernel, arrangement, Names(RESERVED))
-    symbols = tuple(s for f in kernel.state for s in f.symbols)
-    precision = interface.format
-    single = precision is not DOUBLE
-    statements = Statements(arrangement, names, precision, blocks=blocks(kernel))
-    body = list(statements.lines())
-    ends, new = statements.outputs(symbols)
-    functions = {*arrangement.functions(), "isfinite"}
-    if inverts(kernel):
-        functions.add("invert")
-    ending: dict[str, object] | None = None
-    if kernel.deferred is not None:
-        ending, more, constants = deferred(kernel.deferred, arrangement, names, interface)
-        statements.constants |= constants
-        functions |= more
-    carried: dict[str, object] | None = None
-    if kernel.carried is not None:
-        carried, constants = turning(kernel.carried, interface)
-        statements.constants |= constants
-    derivative: dict[str, object] | None = None
-    if kernel.vary is not None:
-        derivative, more, constants = jacobian(kernel.vary, interface)
-        statements.constants |= constants
-        functions |= more
-    outlined = []
-    for function, arranged in arrangement.outlined:
-        lines, constants = outlined_function(function, arranged, interface)
-        statements.constants |= constants
-        outlined.append(lines)
-    found = needed("python", sorted(functions), precision, chain=chain(kernel))
-    library = found.library
-    imports = ["isfinite"] if single else library
-    if kernel.estimate is not None:
-        imports = sorted({*imports, "copysign", "inf", "sqrt"})
-    if kernel.start is not None:
-        imports = sorted({*imports, "comb"})
-    arrays = ["errstate", "float32", *(n for n in library if n != "isfinite")] if single else []
-    parameters = [names.spelled[p] for p in interface.parameters]
-    arguments = parameters
-    if all(p in recipe.defaults for p in interface.parameters):
-        pairs = zip(interface.parameters, parameters, strict=True)
-        arguments = [f"{name}={float(recipe.defaults[p])!r}" for p, name in pairs]
-    time = ["t"] if interface.time else []
-    statistics = ["statistics"] if interface.blocks else []
-    inputs = ["inputs"] if interface.inputs else []
-    held = ["lambda t: inputs"] if interface.inputs else []
-    optional = [f"{s}=None" for s in statistics]
-    start = kernel.start
-    memory = ["memory"] if start or interface.newton else []
-    adaptive: dict[str, object] | None = None
-    if kernel.estimate is not None:
-        order = kernel.estimate.order
-        adaptive = {
+    return {f"{interface.module}.py": _Module(kernel, interface, recipe).text()}
+
+
+@dataclass(frozen=True)
+class _Module:
+    """One module on its way to text."""
+
+    kernel: Kernel
+    interface: Interface
+    recipe: Recipe
+
+    @cached_property
+    def unit(self) -> Unit:
+        """What the module defines; a caller's step is a run of one step."""
+        unit = unit_of(Plan(self.kernel, self.interface.format))
+        kept = tuple(f for f in unit.functions if f.name != "step")
+        return Unit(unit.scalars, unit.records, unit.tables, kept)
+
+    @cached_property
+    def identifiers(self) -> dict[str, Identifiers]:
+        """What names are called in each function."""
+        underscored = {f"_{f.name}" for f in self.unit.functions}
+        classes = {class_of(record) for record in self.unit.records}
+        return identify(self.unit, RESERVED | PUBLIC | underscored | classes)
+
+    @cached_property
+    def constants(self) -> Constants:
+        """How constants are spelled."""
+        taken = {name for found in self.identifiers.values() for name in found.spelled.values()}
+        return Constants(self.interface.format, frozenset(taken))
+
+    @cached_property
+    def spelling(self) -> Spelling:
+        """What spells the unit."""
+        return Spelling(self.unit, self.identifiers, self.constants)
+
+    @property
+    def single(self) -> bool:
+        """Whether numbers are NumPy's float32."""
+        return self.interface.format is not DOUBLE
+
+    @cached_property
+    def parameters(self) -> list[str]:
+        """What the run-time parameters are called."""
+        names = self.identifiers["run"].spelled
+        return [names[p] for p in self.interface.parameters]
+
+    @cached_property
+    def called(self) -> set[str]:
+        """Functions of the library, by the names that the run representation gives them."""
+        functions = [t for f in self.unit.functions for t in terms(f.body)]
+        found = {t.text for t in functions if t.op == "call"}
+        found |= {t.op for t in functions if t.op in ("finite", "infinity")}
+        guards = {f.guard for f in self.unit.functions} - {"", RAISES_STATUS}
+        return found | ({"nan"} if guards else set())
+
+    @cached_property
+    def needed(self) -> Needed:
+        """The snippets that the module calls, and what these need of the library."""
+        wanted = {*functions_of(self.unit)}
+        wanted |= {"power"} & self.called | {"sqrt"} & self.called
+        return needed("python", sorted(wanted), self.interface.format, chain=chain(self.kernel))
+
+    def imports(self) -> tuple[list[str], list[str]]:
+        """Return what is imported from ``math`` and from NumPy."""
+        found = set(self.needed.library)
+        plain = {"isfinite"} if self.called & {"finite", "isfinite"} else set[str]()
+        plain |= {"inf"} if self.called & {"infinity", "power"} else set()
+        plain |= self.called & {"nan", "copysign"}
+        if not self.single:
+            return sorted(found | plain), []
+        return sorted(plain), ["errstate", "float32", *sorted(found - {"isfinite"})]
+
+    def parts(self) -> list[list[str]]:
+        """Return the lines of what the module defines, before the functions for callers."""
+        found = [self.spelling.record(r) for r in self.unit.records if not r.public]
+        found += [[text] for text in self.needed.texts]
+        found += [self.spelling.table(table) for table in self.unit.tables]
+        return [*found, *map(self.spelling.definition, self.unit.functions)]
+
+    def keyword_arguments(self) -> list[str]:
+        """Return the run-time parameters with the scene's values, where these are known."""
+        known = self.recipe.defaults
+        if not all(p in known for p in self.interface.parameters):
+            return self.parameters
+        pairs = zip(self.interface.parameters, self.parameters, strict=True)
+        return [f"{name}={float(known[p])!r}" for p, name in pairs]
+
+    def text(self) -> str:
+        """Return the text."""
+        interface, kernel = self.interface, self.kernel
+        time, inputs = ["t"] if interface.time else [], ["inputs"] if interface.inputs else []
+        optional = ["statistics=None"] if interface.blocks else []
+        counted, rows = ["counted"] if interface.blocks else [], ["rows", "stride"]
+        given, held = self.keyword_arguments(), ["lambda t: inputs"] if inputs else []
+        passed = [f"{n}={n}" for n in (["statistics"] if interface.blocks else [])]
+        comments = header(self.recipe, layout(kernel), costs(kernel), 84, "", times(kernel))
+        public = [r for r in self.unit.records if r.public]
+        parts = self.parts()  # before the constants, which they use
+        imports, arrays = self.imports()
+        variables: dict[str, object] = {
+            "recipe": [line.replace("\\", "\\\\").replace('"""', "'''") for line in comments],
+            "usage": usage(interface, self.recipe),
+            "imports": imports,
+            "arrays": arrays,
+            "constants": self.constants.digits,
+            "single": self.single,
+            "number": "float32" if self.single else "float",
+            "blocks": [quoted(label) for label in interface.blocks],
+            "statistics": [line for record in public for line in self.spelling.record(record)],
+            "parts": parts,
+            "size": interface.size,
+            "inputs": interface.inputs,
+            "floats": [*time, "h", *self.parameters],
+            "step": ", ".join(["state", *time, "h", *inputs, *given, *keywords(optional)]),
+            "once": ", ".join(["state", *time, "h", "1", *held, *self.parameters, *passed]),
             "run": ", ".join(
-                [*("state", "t", "end"), *inputs, "h=0.0", *keywords(LIMITS), *arguments, *optional]
+                ["state", *time, "h", "steps", *inputs, *given, *keywords(["stride=0", *optional])]
             ),
-            "floats": ["rtol", "atol", *parameters],
-            "passed": ", ".join([*parameters, *inputs, *(["_Memory()"] if memory else []), *statistics]),
-            "present": repr(-0.7 / order),
-            "past": repr(0.4 / order),
-            "alone": repr(-1.0 / order),
+            "run_arguments": ", ".join(
+                ["state", *time, "h", "steps", *self.parameters, *inputs, *rows, *counted, "completed"]
+            ),
+            "adaptive": self.adaptive(inputs, given, optional, counted),
+            "jacobian": self.jacobian(time, inputs, given),
         }
-    parts = substeps(kernel, interface)
-    moment = [*([str(parts["time"])] if interface.time and parts else []), "fraction * h"]
-    body = [*samples(kernel, arrangement.symbols(), names, statements), *body]
-    text = (
-        environment("python")
-        .get_template("module/module.py.j2")
-        .render(
-            recipe=[
-                line.replace("\\", "\\\\").replace('"""', "'''")
-                for line in header(recipe, layout(kernel), costs(kernel), 84, "", times(kernel))
-            ],
-            usage=usage(interface, recipe),
-            imports=imports,
-            arrays=arrays,
-            constants=statements.constants,
-            single=single,
-            later="float32(float(t) + made * float(h))" if single else "t + made * h",
-            snippets=found.texts,
-            blocks=[quoted(label) for label in interface.blocks],
-            size=interface.size,
-            time=interface.time,
-            floats=[*time, "h", *parameters],
-            state=unpacking([names.spelled[s] for s in symbols]),
-            newton=interface.newton,
-            memory=bool(memory),
-            depth=start.depth if start else 0,
-            rough=start.ROUGH if start else 0.0,
-            remembered=listed("found = ", [names.spelled[u] for u in start.unknowns], 1) if start else [],
-            unread=[i for i, s in enumerate(symbols) if s not in arrangement.symbols()],
-            inner=", ".join(["state", *time, "h", *parameters, *inputs, *memory, *statistics]),
-            substeps=parts,
-            passed_substep=", ".join([*parameters, *inputs, *(["memory[k]"] if memory else []), *statistics]),
-            inputs=interface.inputs,
-            step=", ".join(["state", *time, "h", *inputs, *arguments, *keywords(optional)]),
-            run=", ".join(
-                ["state", *time, "h", "steps", *inputs, *arguments, *keywords(["stride=0", *optional])]
-            ),
-            once=", ".join(["state", *time, "h", "1", *held, *parameters, *(f"{n}={n}" for n in statistics)]),
-            passed=", ".join(["h", *parameters, *inputs, *memory, *statistics]),
-            continued=", ".join(["state", *time, "part * h", *parameters, *inputs, *memory, *statistics]),
-            tries=Start.TRIES,
-            shortest=Start.SHORTEST,
-            deferred=ending,
-            carried=carried,
-            outlined=outlined,
-            again=", ".join(["state", *time, "h", "made", *parameters]),
-            body=[*body, *ends],
-            new=listed("return ", (*new, *statements.errors()), 1),
-            adaptive=adaptive,
-            jacobian=None
-            if derivative is None
-            else derivative
-            | {
-                "inner": ", ".join(["state", "vector", *time, "h", *parameters, *inputs]),
-                "arguments": ", ".join(["state", *time, "h", *inputs, *arguments]),
-                "passed": ", ".join(["state", "vector", *time, "h", *parameters, *held]),
-                "substep": parts
-                and {
-                    "vary": ", ".join(["state", "vector", *moment, *parameters, *inputs]),
-                    "state": ", ".join(
-                        ["state", *moment, *parameters, *inputs]
-                        + ["_Memory()" for _ in memory]
-                        + ["None" for _ in statistics]
-                    ),
-                },
-            },
-        )
-    )
-    return {f"{interface.module}.py": text}
+        return environment("python").get_template("module/module.py.j2").render(variables)
 
-
-def jacobian(kernel: Kernel, interface: Interface) -> tuple[dict[str, object], set[str], dict[str, str]]:
-    """Return what the template needs of the kernel of variations, and its functions and constants."""
-    arrangement = arrange(kernel)
-    names = register(kernel, arrangement, Names(RESERVED))
-    symbols = tuple(s for f in kernel.state for s in f.symbols)
-    statements = Statements(arrangement, names, interface.format, "D", blocks(kernel))
-    body = list(statements.lines())
-    ends, new = statements.outputs(symbols[interface.size :])
-    asked = samples(kernel, arrangement.symbols(), names, statements)
-    spelled = [names.spelled[s] for s in symbols]
-    vector = unpacking(spelled[interface.size :])
-    found: dict[str, object] = {
-        "dim": interface.variations,
-        "state": unpacking(spelled[: interface.size]),
-        "vector": [*vector[:-1], vector[-1].replace(" = state", " = vector")],
-        "body": [*asked, *body, *ends],
-        "new": listed("return ", new, 1),
-    }
-    return found, set(arrangement.functions()), statements.constants
-
-
-def deferred(
-    what: Deferred, arrangement: Arrangement, names: Names, interface: Interface
-) -> tuple[dict[str, object], set[str], dict[str, str]]:
-    """Return what the template needs of what is put off, and its functions and constants."""
-    precision = interface.format
-    single = precision is not DOUBLE
-    scalars = ("t", "h", *interface.parameters, LEAD, ELAPSED)
-    elapsed = "float32(late * float(h))" if single else "late * h"
-    time = "float32(float(t) + made * float(h))" if single else "t + made * h"
-    functions: set[str] = set()
-    constants: dict[str, str] = {}
-
-    def passed(read: Sequence[str]) -> str:
-        values = {"t": time, LEAD: "lead", ELAPSED: elapsed}
-        return ", ".join(["moving", *(values.get(s, names.spelled.get(s, s)) for s in read)])
-
-    def function(letter: str, kernel: Kernel) -> dict[str, object]:
-        arranged = arrange(kernel)
-        own = register(kernel, arranged, Names(RESERVED))
-        symbols = tuple(s for f in kernel.state for s in f.symbols)
-        statements = Statements(arranged, own, precision, letter)
-        body = list(statements.lines())
-        ends, new = statements.outputs(symbols)
-        read = [s for s in scalars if s in arranged.symbols()]
-        functions.update(arranged.functions())
-        constants.update(statements.constants)
+    def adaptive(
+        self, inputs: list[str], given: list[str], optional: list[str], counted: list[str]
+    ) -> dict[str, object] | None:
+        """Return what the template needs of a run that chooses its steps."""
+        if not self.interface.adaptive:
+            return None
+        arguments = ["state", "now", "end", "size", "rtol", "atol", "limit", *self.parameters, *inputs]
         return {
-            "head": ", ".join(["state", *(own.spelled[s] for s in read)]),
-            "each": passed(read),
-            "state": unpacking([own.spelled[s] for s in symbols]),
-            "body": [*body, *ends],
-            "new": listed("return ", new, 1),
+            "run": ", ".join(
+                ["state", "t", "end", *inputs, "h=0.0", *keywords([*LIMITS, *given, *optional])]
+            ),
+            "floats": ["end", "rtol", "atol", *self.parameters],
+            "arguments": ", ".join([*arguments, *counted, "accepted", "rejected"]),
         }
 
-    number = "float32({})" if single else "{}"
-    read = [s for s in scalars if s in arrangement.symbols()]
-    found: dict[str, object] = {
-        "begin": None if what.begin is None else function("B", what.begin),
-        "finish": None if what.finish is None else function("E", what.finish),
-        "longest": LONGEST,
-        "last": number.format(precision.text(precision.round(what.last))),
-        "later": number.format(precision.text(precision.round(what.later))),
-        "head": ", ".join(["state", *(names.spelled[s] for s in read)]),
-        "each": passed(read),
-    }
-    return found, functions, constants
-
-
-def substeps(kernel: Kernel, interface: Interface) -> dict[str, object] | None:
-    """Return the table of the parts of a step and how their times are spelled, None where there are none."""
-    if not kernel.substeps:
-        return None
-    precision = interface.format
-    single = precision is not DOUBLE
-    number = "float32({})" if single else "{}"
-    rows = []
-    for step in kernel.substeps:
-        values = [step.fraction, *([step.offset] if interface.time else [])]
-        spelled = [number.format(precision.text(precision.round(x))) for x in values]
-        rows.append(f"({', '.join(spelled)})" if interface.time else spelled[0])
-    return {
-        "rows": rows,
-        "time": "float32(float(t) + float(offset) * float(h))" if single else "t + offset * h",
-    }
-
-
-def samples(kernel: Kernel, read: frozenset[str], names: Names, statements: Statements) -> list[str]:
-    """Return the lines that ask for the inputs at each time they are read, and name what is read."""
-    lines = []
-    for sample in kernel.samples:
-        targets = [names.spelled[s] if s in read else "_" for s in sample.symbols]
-        time = " ".join(spell(sample.time, names.spelled, statements.style))
-        lines += listed("", targets, 1)
-        lines[-1] += f" = _sampled(inputs, {time})"
-    return lines
+    def jacobian(self, time: list[str], inputs: list[str], given: list[str]) -> dict[str, object] | None:
+        """Return what the template needs of the derivative of a step."""
+        if not self.interface.variations:
+            return None
+        return {
+            "dim": self.interface.variations,
+            "arguments": ", ".join(["state", *time, "h", *inputs, *given]),
+            "passed": ", ".join(["state", *time, "h", *self.parameters, *inputs, "found"]),
+        }
 
 
 def keywords(arguments: list[str]) -> list[str]:

@@ -13,17 +13,6 @@ def quoted(text: str) -> str:
     return json.dumps(text, ensure_ascii=False)
 
 
-def call(start: str, terms: list[str], depth: int) -> list[str]:
-    """Return a call of a function of several terms; of one term, the term itself."""
-    space = "    " * depth
-    if len(terms) == 1:
-        return [f"{space}{start.rpartition(' ')[0]} {terms[0]}"]
-    line = f"{space}{start}({', '.join(terms)})"
-    if len(line) <= WIDTH:
-        return [line]
-    return filled(f"{start}(", terms, ")", depth)
-
-
 def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
     """Return start, terms with commas and end on one line, or with as many terms a line as there is room for.
 
@@ -71,11 +60,9 @@ def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
     return filled(f"{start}(", terms, ")", depth)
 
 
-def unpacking(symbols: list[str]) -> list[str]:
-    """Return the lines that give the numbers of a state their names."""
-    lines = listed("", symbols, 1)
-    return (
-        [*lines[:-1], f"{lines[-1]} = state"]
-        if len(f"{lines[-1]} = state") <= WIDTH
-        else filled("(", symbols, ") = state", 1)
-    )
+def unpacked(names: Sequence[str], value: str, depth: int) -> list[str]:
+    """Return the lines that give the entries of a list their names."""
+    lines = listed("", names, depth)
+    if len(lines) == 1 and len(f"{lines[0]} = {value}") <= WIDTH:
+        return [f"{lines[0]} = {value}"]
+    return filled("(", names, f") = {value}", depth)

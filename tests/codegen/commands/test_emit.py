@@ -16,6 +16,7 @@ from codegen.commands.emit import command as emit
 from codegen.commands.regenerate import command as regenerate
 from codegen.loader import load
 from orderconds.errors import InputError
+from orderconds.output_file import SUFFIX
 
 ROOT = Path(__file__).parents[3]
 
@@ -153,6 +154,16 @@ def test_regenerate_never_removes_what_was_not_emitted(made):
     assert f"{letter}: unknown" in run(regenerate, *arguments)
     assert letter.read_text() == "mine"
     assert f"{letter}: unknown" in run(regenerate, *arguments, "--check", status=1)
+
+
+def test_what_a_killed_write_leaves_is_no_difference_and_the_next_write_removes_it(made):
+    folder, arguments = made
+    left = folder / "free_rigid_body" / f".free_rigid_body_cf4.c.k3_x91ab{SUFFIX}"
+    left.write_text("half")
+    assert run(regenerate, *arguments, "--check").startswith("0 differences")
+    (folder / "free_rigid_body" / "free_rigid_body_cf4.c").write_text("old")
+    run(regenerate, *arguments)
+    assert not left.exists()
 
 
 def test_a_list_that_cannot_be_read_is_bad_input(tmp_path):

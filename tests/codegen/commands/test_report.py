@@ -41,7 +41,7 @@ def test_json_holds_the_measurements_and_stdout_nothing_else(tmp_path: Path) -> 
     assert method["c"]["verdict"] == method["python"]["verdict"] == method["verdict"] == "holds"
 
 
-def test_an_order_that_is_not_observed_exits_1_and_stands_in_the_page(
+def test_an_order_that_is_not_observed_exits_1_and_is_on_the_page(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(order_study, "certified_order", lambda method, scene: CertifiedOrder(4, "exact"))

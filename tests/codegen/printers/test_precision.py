@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from codegen.ir.number import Number
-from codegen.printers.precision import DOUBLE, SINGLE, precision
+from codegen.run.precision import DOUBLE, SINGLE, precision
 from orderconds.errors import InputError, UnknownName
 from tests.strategies import shipped
 

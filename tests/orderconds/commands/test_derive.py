@@ -116,10 +116,10 @@ def test_written_out_for_two_stages() -> None:
 @pytest.mark.parametrize("explicit", [False, True])
 def test_written_out_conditions_have_the_values_of_the_engine(family: str, explicit: bool) -> None:
     from orderconds.derivation import derive
-    from orderconds.formula.brute_force import value as brute_force
     from orderconds.ring import QQ
     from orderconds.stage_expansion import expand_stages
     from orderconds.tableau import RungeKutta
+    from tests.oracles.index_sums import value as brute_force
 
     entries = [QQ.rational(k * k - 7, 5 + k) for k in range(6)]
     A, b = (tuple(entries[:2]), tuple(entries[2:4])), tuple(entries[4:])

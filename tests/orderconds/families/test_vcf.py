@@ -8,11 +8,11 @@ from flint import fmpq
 from orderconds.errors import ZeroWeight
 from orderconds.families import get
 from orderconds.families.cf import coefficient_tables
-from orderconds.formula.brute_force import value
 from orderconds.ring import QQ
 from orderconds.tableau import Tableau
 from orderconds.tableau.library import find
 from orderconds.tableau.methods import CommutatorFree, RungeKutta, Stage
+from tests.oracles.index_sums import value
 
 ROWS = [
     [[fmpq(1, 3), fmpq(1, 5)], [fmpq(-1, 2), fmpq(1, 7)]],

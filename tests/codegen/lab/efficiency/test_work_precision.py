@@ -69,7 +69,7 @@ def test_evaluations_and_exponentials_are_those_of_the_program(rows: tuple[Row, 
             assert (row.evaluations, row.exponentials, row.iterations) == (4 * row.steps, 4 * row.steps, 0)
 
 
-def test_iterations_multiply_what_stands_in_a_block() -> None:
+def test_iterations_multiply_the_operations_of_a_block() -> None:
     scene = scenes.load("dipole")
     (method,) = methods_for(scene, ["vcg:midpoint"])
     row = EmittedCandidate(scene, method, cached_reference(scene)).measure(8.0)
@@ -253,8 +253,8 @@ def test_bad_input_is_one_error(arguments: list[str], message: str) -> None:
     assert message in str(done.exception)
 
 
-def test_a_method_that_chooses_its_steps_stands_beside_those_of_equal_steps() -> None:
-    """The mean step is the span over the steps made; refused ones are paid for in evaluations."""
+def test_a_method_with_step_size_control_is_a_candidate() -> None:
+    """The mean step is the span over the accepted steps; rejected ones are counted in evaluations."""
     match = bench("free_rigid_body", [], ["c"], [], 1e-4, None, str, ["ambient:lobatto3a4"])
     rows = match.run(str).rows
     assert {r.method for r in rows} == {"adaptive ambient:lobatto3a4"}
@@ -293,7 +293,7 @@ def test_stiff_equations_are_solved_in_steps_that_the_fast_rates_do_not_bound(
     assert "tolerance" in failed.failure
 
 
-def test_what_is_no_estimate_cannot_choose_steps() -> None:
+def test_a_method_without_an_error_estimate_is_refused() -> None:
     with pytest.raises(InputError, match="embedded row"):
         bench("free_rigid_body", [], ["c"], [], 1e-4, None, str, ["ambient:gauss2"])
 

@@ -1,4 +1,4 @@
-"""Long runs tell bounded errors from drifts, symplectic maps from others, and who finds the way back."""
+"""Long runs distinguish bounded errors from drifts, symplectic maps from others, reversible methods."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Compensated steps are the same steps, and lose less; random walks are told from drifts."""
+"""Compensated steps are the same steps with smaller rounding errors; random walks differ from drifts."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def test_a_compensated_run_stays_beside_the_plain_one():
 
 
 @pytest.mark.parametrize(("exponent", "law"), [(0.5, "random walk"), (1.0, "systematic"), (0.0, "bounded")])
-def test_laws_are_told_apart(exponent, law):
+def test_each_exponent_has_its_law(exponent, law):
     counts = [2**k for k in range(4, 4 + TIMES)]
     draw = random.Random(5)
     members = []

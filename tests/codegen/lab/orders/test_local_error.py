@@ -1,4 +1,4 @@
-"""An emitted program's order is computed: its local error over Q[[h]] is what the conditions predict.
+"""The order of an emitted program is computed: its local error over Q[[h]] agrees with the conditions.
 
 Every family, on scenes without symmetry: the coefficients vanish exactly up to the order that the conditions
 give, and the first that do not are residuals times elementary differentials, exactly.
@@ -265,7 +265,7 @@ def test_a_weight_off_by_a_little_breaks_the_order(method, scene):
     assert valuation(error_of(scene, wrong, 2)[1]) == 1
 
 
-def test_another_method_of_the_same_order_is_told_apart():
+def test_another_method_of_the_same_order_has_another_leading_term():
     scene, one, other = field_scene("S^2"), Method("cg", shipped("cg3")), Method("cg", shipped("cg3b"))
     view, error = error_of(scene, one, 4)
     power, found = leading_term(error)

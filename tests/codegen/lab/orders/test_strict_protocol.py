@@ -21,7 +21,7 @@ from codegen.lab.orders.strict_scenes import fields, hamiltonians
 from codegen.lower import names
 from codegen.method import Method, parse
 
-INVALID = Path(__file__).parents[2] / "invalid"
+INVALID = Path(__file__).parents[3] / "invalid"
 
 
 def method(spelling: str) -> Method:

@@ -133,7 +133,7 @@ def test_an_answer_without_digits_is_undetermined_however_well_rounding_explains
 
 
 def test_rounding_within_a_step_is_not_taken_for_a_fault():
-    """CF4 finds a momentum that stands still as a difference: its digits go with the angle."""
+    """CF4 computes a constant momentum as a difference, which loses digits as the angle grows."""
     made = compile_method("free_rigid_body_attitude", "cf:cf4")
     runner = Emitted(made, "c")
     angle = next(case for case in cases(made) if case.name == "angle 100")

@@ -15,12 +15,12 @@ from codegen.emitter import compile_method
 from codegen.lab.default_methods import methods_for
 from codegen.lab.reference import cached_reference
 from codegen.lab.runner import Emitted
-from codegen.lab.stability import limits
+from codegen.lab.stability import largest_step as limits
 from codegen.lab.stability.endurance import Endurance, endure
 from codegen.lab.stability.largest_step import largest_step
 from codegen.lab.stability.linear_stability import reach, region
 from codegen.lab.stability.order_reduction import order_reduction
-from codegen.lab.stability.stiff_variants import body, spin
+from codegen.lab.stability.stiff_variants import body, spin, variants_of
 
 
 def method(scene, spelling):
@@ -66,8 +66,8 @@ def test_an_interval_ends_where_the_function_leaves_the_disk():
 
 
 def test_order_is_lost_on_a_thin_body_and_kept_by_nothing_that_is_resolved():
-    harsh = body(10**6)
-    left = order_reduction(harsh, method("free_rigid_body", "cf:cf4"), cached_reference(harsh.scene))
+    thin = body(10**6)
+    left = order_reduction(thin, method("free_rigid_body", "cf:cf4"), cached_reference(thin.scene))
     assert left.stated == 4
     assert "order reduction 4 to" in left.verdict
     gentle = body(10)
@@ -77,9 +77,9 @@ def test_order_is_lost_on_a_thin_body_and_kept_by_nothing_that_is_resolved():
 
 def test_the_stiff_spin_answers_at_every_step_size():
     """Explicit methods find the solution where h times 2000 is near one; a tenth of the span shows it."""
-    harsh = spin()
-    harsh = replace(harsh, scene=replace(harsh.scene, span=(0, Fraction(1, 10))))
-    left = order_reduction(harsh, method("driven_spin", "rkmk:rk4"), cached_reference(harsh.scene))
+    thin = spin()
+    thin = replace(thin, scene=replace(thin.scene, span=(0, Fraction(1, 10))))
+    left = order_reduction(thin, method("driven_spin", "rkmk:rk4"), cached_reference(thin.scene))
     assert len(left.runs) > 10
     assert all(error is not None or "finite" in why for _, error, why in left.runs)
     usable = [h for h, error, _ in left.runs if error is not None and error < 1e-3]
@@ -114,3 +114,16 @@ def test_the_command_prints_its_tables_and_needs_one_scene():
         assert word in done.output
     assert CliRunner().invoke(command, ["dipole", "--all"]).exit_code == 2
     assert CliRunner().invoke(command, []).exit_code == 2
+
+
+def test_the_dipole_passes_the_charge_at_the_distance_that_its_scene_gives():
+    """The charges of the dipole are at sqrt(1 + a^2) from the pivot, a = 1/10 in the scene."""
+    (variant,) = (v for v in variants_of(scenes.load("dipole")) if v.name.endswith("0.01"))
+    depth = variant.scene.parameters["depth"].fraction() - Fraction(1, 100)
+    assert depth**2 == pytest.approx(Fraction(101, 100), abs=1e-14)
+
+
+def test_a_scene_of_the_user_with_the_name_of_a_gallery_scene_has_no_stiff_variants():
+    own = replace(scenes.load("free_rigid_body"), name="dipole")
+    assert variants_of(own) == ()
+    assert len(variants_of(scenes.load("dipole"))) == 3

@@ -1,0 +1,170 @@
+"""Terms in C: names, literals, entries of arrays, fields, calls of the mathematical library."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from typing import ClassVar
+
+from codegen.printers.c.text import closed_call, greatest
+from codegen.printers.expression import Style, spell
+from codegen.printers.infix import AND, ATOM, CHOICE, OR, PRODUCT, SIGN, SUM, Infix, Text, closed, joined
+from codegen.run.identifiers import Identifiers
+from codegen.run.precision import DOUBLE, Precision
+from codegen.run.terms import Kind, Term, paired
+from codegen.snippets.graph import LIBRARY
+
+FUNCTIONS = {"abs": "fabs", "power": "pow"}
+"""Library functions that C calls otherwise."""
+
+
+def literal(precision: Precision, x: float) -> str:
+    """Spell a number that needs no rounding, or that is rounded already."""
+    return precision.text(x) + precision.suffix
+
+
+def style(precision: Precision) -> Style:
+    """Return how C spells constants and functions in a precision: ``0.5f`` and ``sqrtf``."""
+
+    def called(name: str) -> str:
+        return name + precision.suffix if name in LIBRARY and name != "isfinite" else name
+
+    return Style(lambda value: literal(precision, precision.round(value)), called)
+
+
+class Terms(Infix):
+    """Spells the terms of one function; ``pointers`` are those parameters that are records."""
+
+    words: ClassVar[dict[str, str]] = {"and": "&&", "or": "||", "//": "/"}
+
+    def __init__(
+        self, identifiers: Identifiers, precision: Precision, prefix: str, pointers: Collection[str]
+    ) -> None:
+        self.identifiers, self.precision, self.upper = identifiers, precision, prefix.upper()
+        self.pointers = frozenset(pointers)
+        self.style = style(precision)
+
+    def negated(self, test: Term) -> Text:
+        """Return the text of a test that fails."""
+        if test.op == "given":
+            return Text((f"{self.line(test.args[0])} == NULL",), ATOM - 4)
+        if test.op == "finite" and len(test.args) > 1:
+            finite, exact = self.one_test(test.args)
+            return Text((*closed("!", finite, ""), *closed("&& !(", exact, ")")), AND)
+        inner = self.text(test)
+        return Text(closed("!", inner.within(SIGN), ""), SIGN)
+
+    def one_test(self, values: Sequence[Term]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """Return the two tests of which one says that all values are numbers."""
+        finite = closed("isfinite(", self.text(paired(values)).pieces, ")")
+        differences = paired([x - x for x in values])
+        zero = literal(self.precision, 0.0)
+        return finite, (*self.text(differences).pieces, f"== {zero}")
+
+    def special(self, term: Term) -> Text:
+        """Return the text of any other term."""
+        match term.op:
+            case "name":
+                return Text((self.name(term),))
+            case "number":
+                return Text((self.number(term),))
+            case "value":
+                assert term.value is not None
+                return Text(spell(term.value, dict(self.identifiers.spelled), self.style), SUM)
+            case "status":
+                return Text((self.upper + term.text,))
+            case "item" | "part" | "field":
+                return self.access(term)
+            case "select":
+                return self.choice(*term.args)
+            case "call":
+                return self.called(term)
+            case "finite":
+                return self.finite(term.args)
+            case "given":
+                return Text((f"{self.line(term.args[0])} != NULL",), PRODUCT - 2)
+            case "wide" | "narrow":
+                return self.converted(term)
+            case "holding":
+                return Text((f"hold, {self.line(term.args[0])}",))
+            case "none":
+                return Text(("NULL",))
+            case _:
+                assert term.op == "infinity"
+                return Text(("INFINITY",))
+
+    def name(self, term: Term) -> str:
+        """Return a name; the signal of inputs is a function and its context."""
+        return "input, context" if term.kind is Kind.SIGNAL else self.identifiers.of(term)
+
+    def number(self, term: Term) -> str:
+        """Return a constant."""
+        if term.kind is Kind.REAL:
+            return literal(self.precision, term.number)
+        return str(int(term.number))
+
+    def access(self, term: Term) -> Text:
+        """Return an entry, a part or a field."""
+        base = term.args[0]
+        if term.op == "field":
+            arrow = "->" if base.op == "name" and self.identifiers.of(base) in self.pointers else "."
+            return Text((f"{self.line(base)}{arrow}{term.text}",))
+        if term.op == "part":
+            start = int(term.number)
+            return Text((f"{self.line(base)} + {start}",), SUM) if start else self.text(base)
+        if base.cell:
+            return Text((f"*{self.line(base)}",), SIGN)
+        if base.shape[0] == 0 and len(base.shape) > 1:  # rows that a caller gives lie one after the other
+            if _is_zero(term.args[1]):
+                return self.text(base)
+            return Text((f"{self.line(base)} + {base.shape[1]} * {self.line(term.args[1])}",), SUM)
+        if base.op == "item" and base.args[0].shape[0] == 0:
+            row, width = base.args[1], base.args[0].shape[1]
+            place = (
+                self.line(width * row + term.args[1])
+                if not _is_zero(term.args[1])
+                else f"{width} * {self.line(row)}"
+            )
+            return Text((f"{self.line(base.args[0])}[{place}]",))
+        return Text((f"{self.line(base)}[{self.line(term.args[1])}]",))
+
+    def choice(self, test: Term, yes: Term, no: Term) -> Text:
+        """Return one of two values."""
+        pieces = self.text(test).within(OR)
+        first, second = self.text(yes).within(OR), self.text(no).within(CHOICE)
+        return Text((*joined(pieces), *closed("? ", joined(first), ""), *closed(": ", second, "")), CHOICE)
+
+    def finite(self, values: Sequence[Term]) -> Text:
+        """Return whether all values are numbers."""
+        first = values[0]
+        if first.shape:
+            return Text((f"all_finite({self.line(first)}, {first.shape[0]})",))
+        if len(values) == 1:
+            return Text(closed("isfinite(", self.text(first).pieces, ")"))
+        finite, exact = self.one_test(values)
+        return Text((*finite, *closed("|| ", exact, "")), OR)
+
+    def called(self, term: Term) -> Text:
+        """Return a call of the library."""
+        if term.text == "greatest":
+            return Text(greatest([self.line(x) for x in term.args]))
+        if term.text == "largest":
+            (array,) = term.args
+            return Text((f"largest({self.line(array)}, {array.shape[0]})",))
+        name = FUNCTIONS.get(term.text, term.text)
+        name += "" if name == "isfinite" else self.precision.suffix
+        if len(term.args) == 1:
+            return Text(closed(f"{name}(", self.text(term.args[0]).pieces, ")"))
+        return Text(closed_call(name, [self.line(x) for x in term.args]))
+
+    def converted(self, term: Term) -> Text:
+        """Return a term as a double, or a double rounded to the format."""
+        (x,) = term.args
+        inner = self.text(x)
+        if self.precision is DOUBLE and (term.op == "narrow" or x.kind is Kind.REAL):
+            return inner
+        to = "double" if term.op == "wide" else self.precision.c_type
+        return Text(closed(f"({to})", inner.within(SIGN), ""), SIGN)
+
+
+def _is_zero(term: Term) -> bool:
+    return term.op == "number" and not term.number

@@ -1,0 +1,100 @@
+"""Terms of the run representation as infix text: precedence, parentheses, and where lines may be broken.
+
+Both targets write terms alike but for a few words; :class:`Infix` leaves those open. Operations are never
+regrouped: parentheses stand wherever the tree says so, except that a b + c needs none.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import ClassVar
+
+from codegen.run.terms import Term
+
+CHOICE, OR, AND, NOT, COMPARED, SUM, PRODUCT, SIGN, ATOM = range(9)
+"""How strongly operations bind."""
+
+LEVELS = {
+    "or": OR,
+    "and": AND,
+    **dict.fromkeys(("<", "<=", ">", ">=", "==", "!="), COMPARED),
+    **dict.fromkeys("+-", SUM),
+    **dict.fromkeys(("*", "/", "//", "%"), PRODUCT),
+}
+
+
+@dataclass(frozen=True)
+class Text:
+    """The text of a term in pieces, between which a line may be broken, and how strongly it binds."""
+
+    pieces: tuple[str, ...]
+    level: int = ATOM
+
+    @property
+    def line(self) -> str:
+        """The text on one line."""
+        return " ".join(self.pieces)
+
+    def within(self, level: int) -> tuple[str, ...]:
+        """Return the pieces, in parentheses where the text binds less than ``level``."""
+        if self.level >= level:
+            return self.pieces
+        return closed("(", self.pieces, ")")
+
+
+def closed(start: str, pieces: tuple[str, ...], end: str) -> tuple[str, ...]:
+    """Return pieces with a text before the first and one behind the last."""
+    if len(pieces) == 1:
+        return (f"{start}{pieces[0]}{end}",)
+    return (f"{start}{pieces[0]}", *pieces[1:-1], f"{pieces[-1]}{end}")
+
+
+SHORT, LONG = 48, 80
+"""How long an operand, and a comparison, may be that no line breaks within."""
+
+
+def joined(pieces: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
+    """Return pieces as one where they are short together."""
+    line = " ".join(pieces)
+    return (line,) if len(line) <= most else pieces
+
+
+class Infix(ABC):
+    """Spells terms; ``words`` are operators that a target calls otherwise."""
+
+    words: ClassVar[dict[str, str]]
+
+    def text(self, term: Term) -> Text:
+        """Return the text of a term."""
+        if term.op in LEVELS:
+            return self.binary(term)
+        if term.op == "not":
+            return self.negated(term.args[0])
+        if term.op == "neg":
+            return Text(closed("-", self.text(term.args[0]).within(SIGN), ""), SIGN)
+        return self.special(term)
+
+    def line(self, term: Term) -> str:
+        """Return the text of a term on one line."""
+        return self.text(term).line
+
+    def binary(self, term: Term) -> Text:
+        """Return the text of an operation on two terms."""
+        level, word = LEVELS[term.op], self.words.get(term.op, term.op)
+        left, right = map(self.text, term.args)
+        if level in (AND, OR):
+            tight = {OR: COMPARED, AND: NOT}[level]
+            first = left.pieces if left.level == level else left.within(tight)
+            return Text((*first, *closed(f"{word} ", right.within(tight), "")), level)
+        first = left.within(level if level in (SUM, PRODUCT) else SUM)
+        pieces = (*first, *closed(f"{word} ", joined(right.within(level + 1)), ""))
+        return Text(joined(pieces, LONG) if level == COMPARED else pieces, level)
+
+    @abstractmethod
+    def negated(self, test: Term) -> Text:
+        """Return the text of a test that fails."""
+
+    @abstractmethod
+    def special(self, term: Term) -> Text:
+        """Return the text of what targets spell each in its own way."""

@@ -1,0 +1,137 @@
+"""Terms in Python: names, literals, entries of lists, attributes, calls of the standard library.
+
+In single precision constants are NumPy's float32, each made once and named: a product of one with a float of
+Python may be a double.
+"""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from codegen.ir.number import Number
+from codegen.printers.expression import Style, spell
+from codegen.printers.infix import CHOICE, COMPARED, NOT, OR, SUM, Infix, Text, closed, joined
+from codegen.run.identifiers import Identifiers
+from codegen.run.precision import DOUBLE, Precision
+from codegen.run.terms import Kind, Term
+
+
+class Constants:
+    """How a module spells constants; in single precision ``digits`` are those of its named ones."""
+
+    def __init__(self, precision: Precision, taken: frozenset[str]) -> None:
+        self.precision, self.taken = precision, taken
+        self.digits: dict[str, str] = {}
+        self._names: dict[str, str] = {}
+        self.style = Style() if precision is DOUBLE else Style(self._rounded)
+
+    def _rounded(self, value: Number) -> str:
+        return self.text(self.precision.round(value))
+
+    def text(self, x: float) -> str:
+        """Return how a number of the format is spelled, with its sign."""
+        text = self.precision.text(x)
+        if self.precision is DOUBLE:
+            return text
+        size = text.removeprefix("-")
+        if size not in self._names:
+            place = 1 + len(self._names)
+            while f"C{place}" in self.taken or f"C{place}" in self.digits:
+                place += 1
+            self._names[size] = f"C{place}"
+            self.digits[f"C{place}"] = size
+        return ("-" if text.startswith("-") else "") + self._names[size]
+
+
+class Terms(Infix):
+    """Spells the terms of one function."""
+
+    words: ClassVar[dict[str, str]] = {}
+
+    def __init__(self, identifiers: Identifiers, constants: Constants) -> None:
+        self.identifiers, self.constants = identifiers, constants
+        self.single = constants.precision is not DOUBLE
+
+    def negated(self, test: Term) -> Text:
+        """Return the text of a test that fails."""
+        if test.op == "given":
+            return Text((f"{self.line(test.args[0])} is None",), COMPARED)
+        return Text(closed("not ", self.text(test).within(COMPARED), ""), NOT)
+
+    def special(self, term: Term) -> Text:
+        """Return the text of any other term."""
+        match term.op:
+            case "name":
+                return Text((self.identifiers.of(term),))
+            case "number":
+                return Text((self.number(term),))
+            case "value":
+                assert term.value is not None
+                return Text(spell(term.value, dict(self.identifiers.spelled), self.constants.style), SUM)
+            case "status":
+                return Text((term.text,))
+            case "item":
+                return Text((f"{self.line(term.args[0])}[{self.line(term.args[1])}]",))
+            case "part":
+                start, n = int(term.number), term.shape[0]
+                return Text((f"{self.line(term.args[0])}[{start}:{start + n}]",))
+            case "field":
+                return Text((f"{self.line(term.args[0])}.{term.text}",))
+            case "select":
+                return self.choice(*term.args)
+            case "call":
+                return Text(self.called(term))
+            case "finite":
+                first = term.args[0]
+                listed = self.line(first) if first.shape else self.tuple_of(term.args)
+                return Text((f"all(map(isfinite, {listed}))",))
+            case "wide" | "narrow":
+                return self.converted(term)
+            case _:
+                return self.argument(term)
+
+    def argument(self, term: Term) -> Text:
+        """Return what stands for an argument that is there, is not there, or is a function."""
+        match term.op:
+            case "given":
+                return Text((f"{self.line(term.args[0])} is not None",), COMPARED)
+            case "holding":
+                return Text((f"lambda t: {self.line(term.args[0])}",), CHOICE)
+            case "none":
+                return Text(("None",))
+            case _:
+                assert term.op == "infinity"
+                return Text(("inf",))
+
+    def tuple_of(self, terms: tuple[Term, ...]) -> str:
+        """Return a tuple of terms."""
+        return f"({', '.join(map(self.line, terms))}{',' if len(terms) == 1 else ''})"
+
+    def number(self, term: Term) -> str:
+        """Return a constant."""
+        if term.kind is Kind.REAL:
+            return self.constants.text(term.number)
+        return str(bool(term.number)) if term.kind is Kind.FLAG else str(int(term.number))
+
+    def choice(self, test: Term, yes: Term, no: Term) -> Text:
+        """Return one of two values."""
+        first = joined(self.text(yes).within(OR))
+        condition, last = self.text(test).within(OR), self.text(no).within(CHOICE)
+        return Text((*first, *closed("if ", joined(condition), ""), *closed("else ", last, "")), CHOICE)
+
+    def called(self, term: Term) -> tuple[str, ...]:
+        """Return a call of the library."""
+        given = [self.line(x) for x in term.args]
+        if term.text == "largest":
+            return (f"max(map(abs, {given[0]}))",)
+        name = {"greatest": "max", "power": "_power"}.get(term.text, term.text)
+        pieces = closed(f"{name}(", (*(f"{x}," for x in given[:-1]), given[-1]), ")")
+        return closed("float32(", pieces, ")") if self.single and name == "copysign" else pieces
+
+    def converted(self, term: Term) -> Text:
+        """Return a term as a double, or a double rounded to the format."""
+        (x,) = term.args
+        inner = self.text(x)
+        if not self.single or (term.op == "wide" and x.kind is not Kind.REAL):
+            return inner
+        return Text(closed("float(" if term.op == "wide" else "float32(", inner.pieces, ")"))

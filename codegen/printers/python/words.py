@@ -1,0 +1,23 @@
+"""Words that no variable of emitted Python may take."""
+
+from __future__ import annotations
+
+import keyword
+
+_WORDS = """
+    abs all max range float len list map reversed tuple zip ArithmeticError TypeError ValueError
+    sqrt sin cos exp log sinh cosh inf nan isfinite copysign quotient signed_stumpff0 signed_stumpff1
+    invert fabs slope2 slope3 float32 errstate self
+    OK NOT_CONVERGED NOT_FINITE BAD_STEP LIMIT StepFailed Statistics step run run_adaptive jacobian
+"""
+
+RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split())
+"""Keywords, and what a module imports or defines, which no variable may hide."""
+
+_PUBLIC = """
+    state steps stride statistics counted rows completed status rtol atol limit end now size accepted rejected
+    found inputs failure given
+"""
+
+PUBLIC = frozenset(_PUBLIC.split())
+"""Names that the functions for callers use, which parameters may not take."""

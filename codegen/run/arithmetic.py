@@ -1,0 +1,95 @@
+"""The arithmetic of a kernel as statements of the run representation: its body, its state, its inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from codegen.ir.kernel import Function as Outlined
+from codegen.kernel.schedule import (
+    Arrangement,
+    Beginning,
+    Iteration,
+    Simple,
+)
+from codegen.run.language import RAISES_NAN, Array, Assign, Call, Function, Return, Statement
+from codegen.run.plan import INPUTS, Plan
+from codegen.run.sweeps import sweeps
+from codegen.run.terms import Kind, Term, own, real, value
+from codegen.run.values import simple
+from codegen.run.warm_start import begun
+
+
+def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: bool = True) -> list[Statement]:
+    """Return the statements of a kernel, in order, with ``after_loops`` behind the last loop."""
+    found: list[Statement] = []
+    statements = plan.arrangement.statements
+    last = max((k for k, s in enumerate(statements) if isinstance(s, Iteration)), default=-1)
+    for place, statement in enumerate(statements):
+        if isinstance(statement, Iteration):
+            found += sweeps(plan, statement, counting)
+            found += after_loops if place == last else ()
+        elif isinstance(statement, Beginning):
+            found.append(begun(plan, statement))
+        else:
+            found += simple(statement)
+    return found
+
+
+def loaded(symbols: Sequence[str], array: Term, read: Iterable[str]) -> list[Statement]:
+    """Return the statements that name those entries of an array that are read."""
+    wanted = frozenset(read)
+    return [Assign(own(s), array[i]) for i, s in enumerate(symbols) if s in wanted]
+
+
+def outputs(arrangement: Arrangement, symbols: Sequence[str]) -> tuple[list[Statement], list[Term]]:
+    """Return the statements that name a kernel's outputs, and the names; those that have one keep it."""
+    found: list[Statement] = []
+    named: list[Term] = []
+    for symbol, output in zip(symbols, arrangement.outputs, strict=True):
+        if output.op == "sym" and output.payload not in symbols:
+            named.append(own(output.payload))
+            continue
+        named.append(own(f"new {symbol}"))
+        found.append(Assign(named[-1], value(output)))
+    return found, named
+
+
+def stored(array: Term, values: Sequence[Term]) -> list[Statement]:
+    """Return the statements that fill an array."""
+    return [Assign(array[k], x) for k, x in enumerate(values)]
+
+
+def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
+    """Return the statements that ask for the run-time inputs at each time, and name what is read of them."""
+    found: list[Statement] = []
+    read, n = plan.arrangement.symbols(), len(plan.kernel.inputs)
+    for number, sample in enumerate(plan.kernel.samples, 1):
+        values = real(f"inputs_{number}", n)
+        found += [Array(values), Call("sample", (inputs, value(sample.time)), (values,))]
+        found += loaded(sample.symbols, values, read)
+    return found
+
+
+def outlined(function: Outlined, arrangement: Arrangement) -> Function:
+    """Return a function that a kernel calls in several places: it returns its result, or fills an array."""
+    body: list[Statement] = []
+    for statement in arrangement.statements:
+        assert isinstance(statement, Simple)
+        body += simple(statement)
+    parameters = tuple(map(own, function.inputs))
+    if len(arrangement.outputs) == 1:
+        body.append(Return(value(arrangement.outputs[0])))
+        return Function(function.name, function.about, parameters, tuple(body), Kind.REAL)
+    result = real("result", len(arrangement.outputs))
+    body += stored(result, [value(x) for x in arrangement.outputs])
+    return Function(function.name, function.about, (*parameters, result), tuple(body))
+
+
+def filling(plan: Plan, name: str, about: str, result: Term) -> Function:
+    """Return a function that fills an array by what a kernel computes of the state."""
+    arrangement = plan.arrangement
+    state = plan.state()
+    body = loaded(plan.symbols, state, arrangement.symbols())
+    body += computed(plan)
+    body += stored(result, [value(x) for x in arrangement.outputs])
+    return Function(name, about, (state, result), tuple(body), guard=RAISES_NAN, often=True)

@@ -1,0 +1,213 @@
+"""Runs of a splitting that defer flows: the first flow of a step joins the last of the step before, and flows
+that commute with all others are carried out once for many steps.
+
+Both are exact (:class:`codegen.ir.kernel.Deferred`). A state is complete, and may be looked at, only after
+the deferred flows: where a row is due, after the last step, and after :data:`codegen.ir.kernel.LONGEST`
+steps. A state that is no number stays so until then; the run is then repeated carefully, every step
+completed, to find the last good state.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Deferred, Kernel
+from codegen.run.arithmetic import computed, loaded, outputs, stored
+from codegen.run.language import (
+    RAISES_NAN,
+    Array,
+    Assign,
+    Call,
+    Function,
+    If,
+    Return,
+    Statement,
+    While,
+)
+from codegen.run.plan import STEP, STEPS, TIME, Plan
+from codegen.run.step import ADVANCE, exact_time
+from codegen.run.terms import (
+    BAD_STEP,
+    NOT_FINITE,
+    OK,
+    STATUS,
+    Kind,
+    Term,
+    all_finite,
+    both,
+    code,
+    count,
+    either,
+    flag,
+    is_finite,
+    narrow,
+    negated,
+    number,
+    real,
+    select,
+    truth,
+    whole,
+    wide,
+)
+from codegen.run.trajectory import DONE, Rows, completed, run_parameters
+
+BEGIN, FINISH = "begin", "finish"
+"""The names of the functions for the leading flow and for the deferred ones."""
+
+LATE = count("late")
+"""How many steps were made since the deferred flows."""
+
+
+def functions(plan: Plan) -> tuple[Function, ...]:
+    """Return all functions of a unit with deferred flows, the public ones last."""
+    deferred = plan.kernel.deferred
+    assert deferred is not None
+    found = [_core(plan, ADVANCE, "One step without the deferred flows.")]
+    if deferred.begin is not None:
+        found.append(
+            _core(_plan(plan, deferred.begin), BEGIN, "Leading flow, applied once before the first step.")
+        )
+    if deferred.finish is not None:
+        about = "Flows that commute with all others, applied once for many steps."
+        found.append(_core(_plan(plan, deferred.finish), FINISH, about))
+    return (*found, _Deferring(plan, deferred).step(), _Deferring(plan, deferred).run())
+
+
+def _plan(plan: Plan, kernel: Kernel) -> Plan:
+    return Plan(kernel, plan.format)
+
+
+def _core(plan: Plan, name: str, about: str) -> Function:
+    """Return a function that changes the state by a kernel; nothing is checked."""
+    state, read = plan.state(), plan.arrangement.symbols()
+    ends, new = outputs(plan.arrangement, plan.symbols)
+    body = [*loaded(plan.symbols, state, read), *computed(plan), *ends, *stored(state, new)]
+    return Function(name, about, (state, *_read(plan)), tuple(body), guard=RAISES_NAN, often=True)
+
+
+def _scalars(plan: Plan) -> Sequence[str]:
+    return ("t", "h", *(s for s in plan.kernel.scalars if s not in ("t", "h", LEAD, ELAPSED)), LEAD, ELAPSED)
+
+
+def _read(plan: Plan) -> tuple[Term, ...]:
+    """Return the scalars that a kernel's statements read."""
+    return plan.read(_scalars(plan))
+
+
+class _Deferring:
+    """The functions that callers see."""
+
+    lead, stop, begun = real("lead"), flag("stop"), flag("begun")
+    shown, careful, good, again = flag("shown"), flag("careful"), flag("good"), flag("again")
+    asked = count("asked")
+
+    def __init__(self, plan: Plan, deferred: Deferred) -> None:
+        self.plan, self.deferred = plan, deferred
+        self.moving, self.complete = plan.state("next"), plan.state("complete")
+        rounded = plan.format.round
+        self.last, self.later = (number(rounded(x)) for x in (deferred.last, deferred.later))
+
+    def call(self, name: str, kernel: Kernel | None, t: Term, elapsed: Term) -> list[Statement]:
+        """Return the call of one of the inner functions, none where it is not there."""
+        if kernel is None:
+            return []
+        known = {"t": t, LEAD: self.lead, ELAPSED: elapsed}
+        plan = _plan(self.plan, kernel)
+        passed = tuple(known.get(x.text, x) for x in _read(plan))
+        return [Call(name, (self.moving, *passed))]
+
+    def step(self) -> Function:
+        """Return the function that makes one step for a caller."""
+        plan, state, deferred = self.plan, self.plan.state(), self.deferred
+        kernel = plan.kernel
+        begin: list[Statement] = []
+        if deferred.begin is not None:
+            begin = [Assign(self.lead, self.last * STEP), *self.call(BEGIN, deferred.begin, TIME, STEP)]
+        body: tuple[Statement, ...] = (
+            If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
+            If(negated(all_finite(state)), (Return(code(NOT_FINITE)),)),
+            Array(self.moving),
+            Assign(self.moving, state),
+            *begin,
+            *self.call(ADVANCE, kernel, TIME, STEP),
+            *self.call(FINISH, deferred.finish, TIME, STEP),
+            If(negated(all_finite(self.moving)), (Return(code(NOT_FINITE)),)),
+            Assign(state, self.moving),
+            Return(code(OK)),
+        )
+        parameters = (state, *plan.moment(), *plan.parameters)
+        return Function("step", "", parameters, body, Kind.STATUS, public=True)
+
+    def run(self) -> Function:
+        """Return the function that makes a run."""
+        plan, state = self.plan, self.plan.state()
+        bad_step = both(STEPS > 0, negated(is_finite(STEP)))
+        bad_state = both(STATUS.equals(code(OK)), STEPS > 0, negated(all_finite(state)))
+        body: tuple[Statement, ...] = (
+            Assign(STATUS, code(OK)),
+            Assign(self.asked, STEPS),
+            If(bad_step, (Assign(STATUS, code(BAD_STEP)), Assign(self.asked, whole(0)))),
+            If(bad_state, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, whole(0)))),
+            Array(self.moving),
+            Array(self.complete),
+            Assign(self.careful, truth(False)),
+            Assign(DONE, whole(0)),
+            While(self.again, self.attempt(), at_least_once=True),
+            Assign(state, self.complete),
+            *completed(),
+            Return(STATUS),
+        )
+        return Function("run", "", run_parameters(plan), body, Kind.STATUS, public=True)
+
+    def attempt(self) -> tuple[Statement, ...]:
+        """Return the statements that make all steps, or find out how many can be made."""
+        state = self.plan.state()
+        failed = (
+            If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
+            Assign(self.careful, truth(True)),
+        )
+        begun = [Assign(self.begun, truth(False))] if self.deferred.begin is not None else []
+        return (
+            Assign(DONE, whole(0)),
+            Assign(LATE, whole(0)),
+            *begun,
+            *Rows(self.plan).begin(state),
+            Assign(self.moving, state),
+            Assign(self.complete, state),
+            Assign(self.good, truth(True)),
+            While(both(self.good, self.asked > DONE), self.one()),
+            Assign(self.again, negated(self.good)),
+            If(self.again, failed),
+        )
+
+    def one(self) -> tuple[Statement, ...]:
+        """Return the statements that make one step of a run."""
+        rows, deferred = Rows(self.plan), self.deferred
+        last = (DONE + 1).equals(self.asked)
+        t = exact_time(TIME, DONE, STEP)
+        elapsed = narrow(wide(LATE) * wide(STEP))
+        found: list[Statement] = [
+            Assign(self.shown, rows.due(DONE + 1)),
+            Assign(LATE, LATE + 1),
+            Assign(self.stop, either(self.shown, self.careful, last, LATE.equals(LONGEST))),
+        ]
+        if deferred.begin is not None:
+            begin = tuple(self.call(BEGIN, deferred.begin, t, elapsed))
+            found += [
+                Assign(self.lead, select(self.stop, self.last, self.later) * STEP),
+                If(negated(self.begun), begin),
+                Assign(self.begun, negated(self.stop)),
+            ]
+        found += self.call(ADVANCE, self.plan.kernel, t, elapsed)
+        taken = (
+            Assign(LATE, whole(0)),
+            Assign(self.complete, self.moving),
+            If(self.shown, tuple(rows.add(self.complete))),
+        )
+        ended: list[Statement] = [
+            *self.call(FINISH, deferred.finish, t, elapsed),
+            Assign(self.good, all_finite(self.moving)),
+            If(self.good, taken),
+        ]
+        found += [If(self.stop, tuple(ended)), If(self.good, (Assign(DONE, DONE + 1),))]
+        return tuple(found)

@@ -1,0 +1,463 @@
+"""The run representation carried out over any scalars: floats, numbers of many digits, a ring that compares.
+
+It makes the sweeps, matrices and steps that emitted code makes, for they are the same statements; only the
+arithmetic is that of a domain (:mod:`codegen.ir.domain`). Each function becomes closures once, so that a run
+of many steps does not walk the statements again.
+
+>>> from codegen.ir.domain import FloatDomain
+>>> from codegen.run.language import Assign, Function, Return, Unit, While
+>>> from codegen.run.terms import Kind, count, real
+>>> x, n, root = real("x"), count("n"), real("root")
+>>> halve = While(n < 6, (Assign(root, 0.5 * (root + x / root)), Assign(n, n + 1)))
+>>> body = (Assign(root, x), Assign(n, n - n), halve, Return(root))
+>>> heron = Function("heron", "", (x,), body, Kind.REAL)
+>>> Machine(Unit((), (), (), (heron,)), FloatDomain(0.0)).call("heron", 2.0)
+1.414213562373095
+"""
+
+from __future__ import annotations
+
+import math
+import operator
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
+from types import SimpleNamespace
+from typing import Any
+
+from codegen.ir.domain import Domain
+from codegen.ir.expr import Expr, power
+from codegen.run.identifiers import Identifiers, identify
+from codegen.run.language import (
+    RAISES_STATUS,
+    Array,
+    Assign,
+    Body,
+    Call,
+    For,
+    Function,
+    If,
+    Note,
+    Return,
+    Statement,
+    Unit,
+    While,
+)
+from codegen.run.terms import NOT_FINITE, STATUSES, Kind, Term
+from codegen.run.writes import written
+
+Environment = dict[str, Any]
+Value = Callable[[Environment], Any]
+Action = Callable[[Environment], bool]
+"""An action says whether the function has returned."""
+
+RESULT = "result of the function"
+"""Where an environment keeps what a function returns; no identifier."""
+
+_BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+    "//": operator.floordiv,
+    "%": operator.mod,
+    "<": operator.lt,
+    "<=": operator.le,
+    ">": operator.gt,
+    ">=": operator.ge,
+    "==": operator.eq,
+    "!=": operator.ne,
+}
+
+
+class Machine:
+    """A unit ready to be carried out over a domain.
+
+    Arrays are lists, rows lists of lists, cells lists of one entry; :meth:`record` makes records. Absent
+    arguments are None; the signal of run-time inputs is a function from the time to a sequence.
+    """
+
+    def __init__(self, unit: Unit, domain: Domain) -> None:
+        self.unit, self.domain = unit, domain
+        self.tables: Environment = {}
+        for table in unit.tables:
+            rows = [[self.number(x) for x in row] for row in table.rows]
+            self.tables[table.name.text] = rows if len(table.name.shape) > 1 else rows[0]
+        identifiers = identify(unit, ())
+        self.compiled = {f.name: _Compiler(self, identifiers[f.name]).body(f.body) for f in unit.functions}
+        self.parameters = {f.name: [identifiers[f.name].of(p) for p in f.parameters] for f in unit.functions}
+
+    def number(self, x: float) -> Any:
+        """Return a float as a scalar of the domain."""
+        if not math.isfinite(x):
+            return x
+        fraction = Fraction(x)
+        return self.domain.rational(fraction.numerator, fraction.denominator)
+
+    def record(self, name: str) -> Any:
+        """Return a record whose fields are all zero."""
+        found = SimpleNamespace()
+        self.clear(found, name)
+        return found
+
+    def clear(self, found: Any, name: str) -> None:
+        """Set every field of a record to zero."""
+        for term, _ in self.unit.record(name).fields:
+            setattr(found, term.text, self.zero(term.shape, term.kind))
+
+    def zero(self, shape: Sequence[int], kind: Kind, record: str = "") -> Any:
+        """Return zeros of a shape."""
+        if shape:
+            return [self.zero(shape[1:], kind, record) for _ in range(shape[0])]
+        if kind is Kind.RECORD:
+            return self.record(record)
+        return self.number(0.0) if kind in (Kind.REAL, Kind.WIDE) else 0
+
+    def call(self, name: str, *arguments: Any) -> Any:
+        """Return what a function returns; arrays and records among the arguments may be changed."""
+        function = self.unit.parts[name]
+        environment = dict(zip(self.parameters[name], arguments, strict=True)) | self.tables
+        if not function.guard:
+            self.compiled[name](environment)
+            return environment.get(RESULT)
+        try:
+            self.compiled[name](environment)
+        except (ArithmeticError, ValueError):
+            return self.guarded(function, arguments)
+        return environment.get(RESULT)
+
+    def guarded(self, function: Function, arguments: Sequence[Any]) -> Any:
+        """Return what an arithmetic error makes of a function."""
+        if function.guard == RAISES_STATUS:
+            return STATUSES.index(NOT_FINITE)
+        changed = written(self.unit, function)
+        for parameter, argument in zip(function.parameters, arguments, strict=True):
+            if parameter.text in changed:
+                argument[:] = [math.nan] * len(argument)
+        return math.nan
+
+
+def is_number(x: Any) -> bool:
+    """Whether a scalar is neither infinite nor NaN."""
+    return bool(x - x == 0)
+
+
+class _Compiler:
+    """Closures for the body of one function."""
+
+    def __init__(self, machine: Machine, identifiers: Identifiers) -> None:
+        self.machine, self.identifiers = machine, identifiers
+
+    def body(self, body: Body) -> Action:
+        """Return the action of a sequence of statements."""
+        actions = [self.statement(s) for s in body if not isinstance(s, Note)]
+
+        def run(env: Environment) -> bool:
+            return any(action(env) for action in actions)
+
+        return run
+
+    def statement(self, statement: Statement) -> Action:
+        """Return the action of a statement."""
+        match statement:
+            case Assign(target, value):
+                return self.assign(target, value)
+            case Array(name, values, _):
+                return self.array(name, values)
+            case For():
+                return self.counted(statement)
+            case While():
+                return self.repeated(statement)
+            case If(test, body, orelse):
+                return self.branch(self.term(test), self.body(body), self.body(orelse))
+            case Call(function, arguments, results):
+                return self.call(function, arguments, results)
+            case Return(value):
+                return self.returned(self.term(value))
+            case Note():
+                raise AssertionError(statement)
+
+    def returned(self, value: Value) -> Action:
+        def run(env: Environment) -> bool:
+            env[RESULT] = value(env)
+            return True
+
+        return run
+
+    def branch(self, test: Value, yes: Action, no: Action) -> Action:
+        return lambda env: yes(env) if test(env) else no(env)
+
+    def counted(self, loop: For) -> Action:
+        index, number, body = self.identifiers.of(loop.index), self.term(loop.count), self.body(loop.body)
+
+        def run(env: Environment) -> bool:
+            places = range(number(env))
+            for k in reversed(places) if loop.reverse else places:
+                env[index] = k
+                if body(env):
+                    return True
+            return False
+
+        return run
+
+    def repeated(self, loop: While) -> Action:
+        test, body = self.term(loop.test), self.body(loop.body)
+
+        def run(env: Environment) -> bool:
+            again = loop.at_least_once or test(env)
+            while again:
+                if body(env):
+                    return True
+                again = test(env)
+            return False
+
+        return run
+
+    def array(self, name: Term, values: Sequence[Term]) -> Action:
+        identifier, listed = self.identifiers.of(name), [self.term(v) for v in values]
+        machine = self.machine
+
+        def run(env: Environment) -> bool:
+            env[identifier] = (
+                [value(env) for value in listed]
+                if listed
+                else machine.zero(name.shape, name.kind, name.record)
+            )
+            return False
+
+        return run
+
+    def assign(self, target: Term, value: Term) -> Action:
+        """Return the action that changes a name, an entry, a part, a field or a record."""
+        if value.op == "fresh":
+            record, machine = self.term(target), self.machine
+
+            def clear(env: Environment) -> bool:
+                machine.clear(record(env), value.record)
+                return False
+
+            return clear
+        if target.shape:
+            return self.copied(target, self.term(value))
+        store, given = self.store(target), self.term(value)
+
+        def run(env: Environment) -> bool:
+            store(env, given(env))
+            return False
+
+        return run
+
+    def copied(self, target: Term, value: Value) -> Action:
+        """Return the action that copies an array."""
+        start = int(target.number) if target.op == "part" else 0
+        array, n = self.term(target.args[0] if target.op == "part" else target), target.shape[0]
+
+        def run(env: Environment) -> bool:
+            array(env)[start : start + n] = value(env)
+            return False
+
+        return run
+
+    def store(self, target: Term) -> Callable[[Environment, Any], None]:
+        """Return what changes a scalar."""
+        if target.op == "item":
+            array, index = self.term(target.args[0]), self.term(target.args[1])
+
+            def entry(env: Environment, x: Any) -> None:
+                array(env)[index(env)] = x
+
+            return entry
+        if target.op == "field":
+            record, name = self.term(target.args[0]), target.text
+            return lambda env, x: setattr(record(env), name, x)
+        identifier = self.identifiers.of(target)
+        return lambda env, x: env.__setitem__(identifier, x)
+
+    def call(self, function: str, arguments: Sequence[Term], results: Sequence[Term]) -> Action:
+        given = [self.term(a) for a in arguments]
+        stores = [self.store(r) for r in results if not r.shape]
+        machine = self.machine
+        if function == "sample":
+            inputs, time = given
+            array = self.identifiers.of(results[0])
+
+            def sample(env: Environment) -> bool:
+                env[array] = list(inputs(env)(time(env)))
+                return False
+
+            return sample
+        library = _library(function, machine.domain)
+
+        def run(env: Environment) -> bool:
+            passed = [value(env) for value in given]
+            found = library(*passed) if library is not None else [machine.call(function, *passed)]
+            for store, x in zip(stores, found, strict=False):
+                store(env, x)
+            return False
+
+        return run
+
+    def term(self, term: Term) -> Value:
+        """Return what computes a term."""
+        if term.op in _BINARY:
+            left, right, binary = self.term(term.args[0]), self.term(term.args[1]), _BINARY[term.op]
+            return lambda env: binary(left(env), right(env))
+        match term.op:
+            case "name":
+                return self.name(self.identifiers.of(term))
+            case "value":
+                assert term.value is not None
+                return self.expression(term.value)
+            case "number" | "status" | "none" | "infinity":
+                return self.constant(term)
+            case "and" | "or" | "not" | "select":
+                return self.logical(term.op, [self.term(a) for a in term.args])
+            case _:
+                return self.access(term, [self.term(a) for a in term.args])
+
+    def name(self, identifier: str) -> Value:
+        base, bracket, index = identifier.partition("[")
+        if bracket:
+            place = int(index.removesuffix("]"))
+            return lambda env: env[base][place]
+        return lambda env: env[identifier]
+
+    def constant(self, term: Term) -> Value:
+        """Return a constant; a flag or count is a Python number."""
+        found: Any = None
+        if term.op == "status":
+            found = STATUSES.index(term.text)
+        elif term.op == "infinity":
+            found = math.inf
+        elif term.op == "number":
+            found = self.machine.number(term.number) if term.kind is Kind.REAL else int(term.number)
+        return lambda env: found
+
+    def logical(self, op: str, args: Sequence[Value]) -> Value:
+        if op == "not":
+            (x,) = args
+            return lambda env: not x(env)
+        if op == "select":
+            test, yes, no = args
+            return lambda env: yes(env) if test(env) else no(env)
+        a, b = args
+        if op == "and":
+            return lambda env: a(env) and b(env)
+        return lambda env: a(env) or b(env)
+
+    def access(self, term: Term, args: Sequence[Value]) -> Value:
+        """Return entries, parts, fields, and what concerns whole arguments."""
+        first = args[0]
+        match term.op:
+            case "item":
+                index = args[1]
+                return lambda env: first(env)[index(env)]
+            case "part":
+                start, n = int(term.number), term.shape[0]
+                return lambda env: first(env)[start : start + n]
+            case "field":
+                field = term.text
+                return lambda env: getattr(first(env), field)
+            case "neg":
+                return lambda env: -first(env)
+            case "wide" | "narrow":
+                return first
+            case "given":
+                return lambda env: first(env) is not None
+            case "holding":
+                return lambda env: lambda t: first(env)
+            case "finite" if term.args[0].shape:
+                return lambda env: all(map(is_number, first(env)))
+            case "finite":
+                return lambda env: all(is_number(value(env)) for value in args)
+            case _:
+                return self.function(term.text, args)
+
+    def function(self, name: str, args: Sequence[Value]) -> Value:
+        """Return a function of the mathematical library."""
+        domain, first = self.machine.domain, args[0]
+        match name:
+            case "abs":
+                return lambda env: abs(first(env))
+            case "greatest":
+                return lambda env: max(value(env) for value in args)
+            case "largest":
+                return lambda env: max(map(abs, first(env)))
+            case "isfinite":
+                return lambda env: is_number(first(env))
+            case "sqrt":
+                return lambda env: domain.call("sqrt", first(env))
+            case "copysign":
+                second = args[1]
+                return lambda env: abs(first(env)) if second(env) >= 0 else -abs(first(env))
+            case _:
+                assert name == "power"
+                exponent = args[1]
+                return lambda env: _power(first(env), exponent(env))
+
+    def expression(self, root: Expr) -> Value:
+        """Return what computes an expression of the kernel."""
+        domain = self.machine.domain
+        args = [self.expression(a) for a in root.args]
+        match root.op:
+            case "const":
+                constant = domain.number(root.payload)
+                return lambda env: constant
+            case "sym":
+                return self.name(self.identifiers.spelled.get(root.payload, root.payload))
+            case "add" | "sub" | "mul" | "div":
+                left, right = args
+                binary = _BINARY[{"add": "+", "sub": "-", "mul": "*", "div": "/"}[root.op]]
+                return lambda env: binary(left(env), right(env))
+            case "neg":
+                (x,) = args
+                return lambda env: -x(env)
+            case "pow":
+                (base,), exponent = args, root.payload
+                return lambda env: power(base(env), exponent)
+            case _:
+                name = root.payload
+                return lambda env: domain.call(name, *(value(env) for value in args))
+
+
+def _power(x: Any, exponent: Any) -> Any:
+    """Return a power as C does: of zero it may be infinite."""
+    if not x:
+        return math.inf if exponent < 0 else x
+    return x**exponent
+
+
+def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | None:
+    """Return a function with several results from the library, None where it is none."""
+    if function == "invert":
+        return lambda n, matrix: [_inverted(n, matrix)]
+    if function.startswith("stumpff_"):
+        orders = [int(k) for k in function.removeprefix("stumpff_")]
+        joint = getattr(domain, "joint", None)
+        if joint is not None:
+            return lambda z: joint(orders, z)
+        return lambda z: [domain.call(f"stumpff{k}", z) for k in orders]
+    return None
+
+
+def _inverted(n: int, matrix: list[Any]) -> int:
+    """Replace a matrix, by rows, by its inverse, as emitted code does; return 0 where it has none, else 1."""
+    rows = [matrix[n * i : n * i + n] for i in range(n)]
+    order = []
+    for k in range(n):
+        pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
+        if not abs(rows[pivot][k]) > 0:
+            return 0
+        order.append(pivot)
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        factor = 1 / rows[k][k]
+        rows[k] = [factor if j == k else x * factor for j, x in enumerate(rows[k])]
+        for i in range(n):
+            if i != k:
+                multiple = rows[i][k]
+                pairs = enumerate(zip(rows[i], rows[k], strict=True))
+                rows[i] = [-(multiple * factor) if j == k else x - multiple * y for j, (x, y) in pairs]
+    for k in reversed(range(n)):
+        for row in rows:
+            row[k], row[order[k]] = row[order[k]], row[k]
+    matrix[:] = [x for row in rows for x in row]
+    return 1

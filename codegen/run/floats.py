@@ -1,0 +1,112 @@
+"""Doubles as emitted code computes with them: Stumpff functions by the same polynomials and closed forms.
+
+The interpreter's own (:func:`codegen.ir.domain.stumpff`) round differently in the last place, which near the
+end of an iteration may cost or save a sweep. An executor that shall count the sweeps of emitted code takes
+these.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import cache
+
+from codegen.ir.domain import FloatDomain
+from codegen.run.precision import DOUBLE
+from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, economised, limit, slopes
+
+
+class EmittedFloats(FloatDomain):
+    """Doubles; ``chain`` is how many angles depend one on the other (:mod:`codegen.ir.angle_depth`)."""
+
+    def __init__(self, h: float = 0.0, chain: int = 1) -> None:
+        super().__init__(h)
+        self.limit = limit(DOUBLE, chain)
+
+    def joint(self, orders: Sequence[int], z: float) -> list[float]:
+        """Return c_k(z) of some orders, computed together."""
+        if z <= TINY and len(orders) < 3:
+            return [_short(k, z, "tiny") for k in orders]
+        if z <= SMALL:
+            return [_short(k, z, "small") for k in orders]
+        return self._far(tuple(orders), z)
+
+    def _far(self, orders: tuple[int, ...], z: float) -> list[float]:
+        if z <= SWITCH[orders[0] if len(orders) == 1 else 0]:
+            return [_series(k, z) for k in orders]
+        allowed = z if z <= self.limit else math.nan
+        if 2 not in orders:
+            return self._by_angle(orders, z, math.sqrt(allowed))
+        half = 0.5 * math.sqrt(allowed)
+        sine, cosine = math.sin(half), math.cos(half)
+        ratio = sine / half
+        closed = {0: math.cos(2.0 * half), 1: ratio * cosine, 2: 0.5 * (ratio * ratio)}
+        if 3 in orders:
+            closed[3] = _series(3, z) if z <= SWITCH[3] else (1.0 - ratio * cosine) / z
+        return [closed[k] for k in orders]
+
+    def _by_angle(self, orders: tuple[int, ...], z: float, s: float) -> list[float]:
+        ratio = math.sin(s) / s
+        closed = {0: math.cos(s), 1: ratio}
+        if 3 in orders:
+            closed[3] = _series(3, z) if z <= SWITCH[3] else (1.0 - ratio) / z
+        return [closed[k] for k in orders]
+
+    def call(self, function: str, *args: float) -> float:
+        """Call a function as emitted code does."""
+        (z, *_) = args
+        if function.startswith("signed_stumpff"):
+            k = int(function[-1])
+            if z >= 0:
+                return self.joint([k], z)[0]
+            r = math.sqrt(-z)
+            return math.cosh(r) if k == 0 else math.sinh(r) / r
+        if function.startswith("stumpff"):
+            return self.joint([int(function[-1])], z)[0]
+        if function.startswith("slope"):
+            return self._slope(int(function[-1]), z)
+        return super().call(function, *args)
+
+    def _slope(self, k: int, z: float) -> float:
+        if z > 1.0:
+            before, c = self.joint([k - 1, k], z)
+            return 0.5 * (before - float(k) * c) / z
+        *rest, total = slopes(k)
+        for term in reversed(rest):
+            total = term + z * total
+        return total
+
+
+@cache
+def _terms(k: int, name: str) -> tuple[float, ...]:
+    if name == "series":
+        return constants(k)
+    return tuple(DOUBLE.round(c) for c in economised(k, TINY if name == "tiny" else SMALL))
+
+
+def _short(k: int, z: float, name: str) -> float:
+    """Return a short polynomial: pairs of terms, added from left to right."""
+    terms, w = _terms(k, name), z * z
+    total, factor = 0.0, 1.0
+    for place in range(0, len(terms), 2):
+        pair = terms[place] + z * terms[place + 1] if place + 1 < len(terms) else terms[place]
+        total = pair if place == 0 else total + factor * pair
+        factor = w if place == 0 else factor * w
+    return total
+
+
+def _series(k: int, z: float) -> float:
+    """Return the Taylor polynomial: even and odd part side by side, each in pairs."""
+    first, *rest = _terms(k, "series")
+    w = z * z
+    even, odd = _chain(rest[::2], w), _chain(rest[1::2], w)
+    return first + z * (even + z * odd)
+
+
+def _chain(terms: Sequence[float], w: float) -> float:
+    w2, total = w * w, 0.0
+    pairs = [terms[k : k + 2] for k in range(0, len(terms), 2)]
+    for number, pair in enumerate(reversed(pairs)):
+        value = pair[0] + w * pair[1] if len(pair) == 2 else pair[0]
+        total = value if number == 0 else value + w2 * total
+    return total

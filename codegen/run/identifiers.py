@@ -1,0 +1,58 @@
+"""Identifiers of a unit in a target: the kernel's names made legal, and apart from all others.
+
+The names of the run representation are legal everywhere and stay as they are. Names of a kernel come from
+scenes and programs; each function gives them identifiers that no other name of the unit has.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass
+
+from codegen.run.language import Array, Function, Unit, direct, statements, terms
+from codegen.run.names import Names
+from codegen.run.terms import Term, names
+
+
+@dataclass(frozen=True)
+class Identifiers:
+    """What the kernel's names are called in one function; entries of its arrays are ``array[k]``."""
+
+    spelled: Mapping[str, str]
+
+    def of(self, name: Term) -> str:
+        """Return the identifier of a name."""
+        return self.spelled[name.text] if name.own else name.text
+
+    def variable(self, name: Term) -> str:
+        """Return the variable that a name is, or that it is an entry of."""
+        return self.of(name).partition("[")[0]
+
+
+def plain_names(function: Function) -> frozenset[str]:
+    """Return the names that a function of the run representation itself uses."""
+    used = (*function.parameters, *terms(function.body))
+    return frozenset(t.text for t in used if t.op == "name" and not t.own)
+
+
+def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
+    """Return the identifiers in each function, by its name; ``reserved`` are words that none may take."""
+    outside = frozenset(reserved) | {f.name for f in unit.functions} | {t.name.text for t in unit.tables}
+    return {
+        f.name: Identifiers(_identified(f, unit.scalars, outside | plain_names(f))) for f in unit.functions
+    }
+
+
+def _identified(function: Function, scalars: Iterable[str], taken: Collection[str]) -> dict[str, str]:
+    own = Names(taken)
+    own.add_all(scalars)
+    entries: dict[str, str] = {}
+    for statement in statements(function.body):
+        if isinstance(statement, Array) and statement.name.own:
+            name = statement.name.text
+            own.add_all([name])
+            entries |= {f"{name}.{k}": f"{own.spelled[name]}[{k}]" for k in range(statement.name.shape[0])}
+        for text in (t.text for t in names(direct(statement)) if t.own):
+            if text not in entries and text not in own.spelled:
+                own.spelled[text] = own.fresh(text.removeprefix(f"{function.name}."))
+    return own.spelled | entries

@@ -1,0 +1,150 @@
+"""The derivative of a step: a variation is carried along it, once for each unit vector.
+
+The kernel of variations computes the step with its rates. Implicit equations, and the linear ones for their
+variations, are iterated there; a step that Newton's method alone can solve has no derivative from here.
+"""
+
+from __future__ import annotations
+
+from codegen.run.arithmetic import computed, loaded, outputs, sampled, stored
+from codegen.run.language import (
+    RAISES_STATUS,
+    Array,
+    Assign,
+    Call,
+    For,
+    Function,
+    If,
+    Return,
+    Statement,
+    While,
+)
+from codegen.run.momentum import ENTER, LEAVE, MOVING, momentum_before
+from codegen.run.plan import STEP, Plan
+from codegen.run.step import SUBSTEP, part_moment
+from codegen.run.terms import (
+    BAD_STEP,
+    NOT_FINITE,
+    OK,
+    STATUS,
+    Kind,
+    Term,
+    absent,
+    all_finite,
+    both,
+    code,
+    count,
+    holding,
+    is_finite,
+    negated,
+    number,
+    real,
+    record,
+    whole,
+)
+
+
+def functions(plan: Plan) -> tuple[Function, ...]:
+    """Return the functions of the derivative, none where it was not asked for."""
+    if plan.kernel.vary is None:
+        return ()
+    varying = Plan(plan.kernel.vary, plan.format)
+    return vary(plan, varying), _Jacobian(plan, varying).function()
+
+
+def _vector(varying: Plan) -> Term:
+    return real("vector", len(varying.kernel.outputs))
+
+
+def vary(plan: Plan, varying: Plan) -> Function:
+    """Return the function that carries a variation along one step, or one part of it."""
+    state, vector, n = plan.state(), _vector(varying), plan.size
+    symbols, read = varying.symbols, varying.arrangement.symbols()
+    ends, new = outputs(varying.arrangement, symbols[n:])
+    body: list[Statement] = [
+        If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
+        *sampled(varying),
+        *loaded(symbols[:n], state, read),
+        *loaded(symbols[n:], vector, read),
+        *computed(varying, counting=False),
+        *ends,
+        If(negated(all_finite(*new)), (Return(code(NOT_FINITE)),)),
+        *stored(vector, new),
+        Return(code(OK)),
+    ]
+    parameters = (state, vector, *plan.moment(), *plan.parameters, *plan.sampled())
+    about = "Carry a variation of the state through one step; the vector receives it."
+    return Function("vary", about, parameters, tuple(body), Kind.STATUS, RAISES_STATUS)
+
+
+class _Jacobian:
+    """The function that callers see."""
+
+    column, row = count("column"), count("row")
+
+    def __init__(self, plan: Plan, varying: Plan) -> None:
+        self.plan, self.vector = plan, _vector(varying)
+        self.dim = self.vector.shape[0]
+        self.given = real("inputs", len(plan.kernel.inputs))
+        self.inputs = tuple(map(holding, plan.held))
+
+    def function(self) -> Function:
+        """Return the whole."""
+        plan, dim = self.plan, self.dim
+        found = real("jacobian", dim * dim)
+        given = (self.given,) if plan.held else ()
+        entry = Assign(found[dim * self.row + self.column], self.vector[self.row])
+        inner: tuple[Statement, ...] = (
+            Array(self.vector, zero=True),
+            Assign(self.vector[self.column], number(1.0)),
+            *(self.composed() if plan.parts else self.single()),
+            If(STATUS.equals(code(OK)), (For(self.row, whole(dim), (entry,)),)),
+            Assign(self.column, self.column + 1),
+        )
+        body: list[Statement] = []
+        for held in plan.held:
+            body += [Array(held), Assign(held, self.given)]
+        body += [
+            Assign(STATUS, code(OK)),
+            Assign(self.column, whole(0)),
+            While(both(STATUS.equals(code(OK)), self.column < dim), inner),
+            Return(STATUS),
+        ]
+        parameters = (plan.state(), *plan.moment(), *plan.parameters, *given, found)
+        return Function("jacobian", "", parameters, tuple(body), Kind.STATUS, public=True)
+
+    def single(self) -> list[Statement]:
+        """Return the call for a step in one piece."""
+        plan = self.plan
+        arguments = (*plan.moment(), *plan.parameters, *self.inputs)
+        return [Call("vary", (plan.state(), self.vector, *arguments), (STATUS,))]
+
+    def composed(self) -> list[Statement]:
+        """Return the loop over the parts of a step: the variation first, then the state itself."""
+        plan, part, point = self.plan, count("part_number"), self.plan.state("point")
+        memories = record("memory", "memory", plan.parts)
+        moment = (*part_moment(plan, part), *plan.parameters, *self.inputs)
+        more = (*plan.remembering(memories[part]), *(absent(x) for x in plan.counted))
+        moved: list[Statement] = [Call(SUBSTEP, (point, *moment, *more), (STATUS,))]
+        arrays: list[Statement] = []
+        if plan.kernel.carried is not None:
+            moving, before = plan.state(MOVING), momentum_before(plan)
+            arrays = [Array(moving), Array(before)]
+            moved = [
+                Call(ENTER, (point, moving, before)),
+                Call(SUBSTEP, (moving, *moment, *more), (STATUS,)),
+                If(STATUS.equals(code(OK)), (Call(LEAVE, (moving, before, point), (STATUS,)),)),
+            ]
+        inner: tuple[Statement, ...] = (
+            Call("vary", (point, self.vector, *moment), (STATUS,)),
+            If(STATUS.equals(code(OK)), tuple(moved)),
+            Assign(part, part + 1),
+        )
+        return [
+            Array(point),
+            Assign(point, plan.state()),
+            *([Array(memories, zero=True)] if plan.remembers else []),
+            *arrays,
+            Assign(part, whole(0)),
+            While(both(STATUS.equals(code(OK)), part < plan.parts), inner),
+        ]

@@ -1,0 +1,230 @@
+"""The run representation: what surrounds a kernel at run time, as a small imperative program.
+
+Stopping rules, warm starts, continuation, runs and step control are written in it once, one file a concern.
+Printers spell it in a target, :mod:`codegen.run.execute` carries it out over any scalars.
+
+A :class:`Function` has seven kinds of statement besides notes: :class:`Assign`, :class:`Array`, :class:`For`,
+:class:`While`, :class:`If`, :class:`Call` and :class:`Return`; ``select`` is a term. Its rules suit targets
+in which a loop is a ``while_loop`` and a branch is a ``select``:
+
+- No loop is left from its middle: a status or flag ends it.
+- Return stands at the end of a function, or alone in an If of its outermost block: a guard. What follows a
+  guard may be computed and then not selected.
+- Statuses are values; there are no pointers. Arrays that a function receives may be changed in place.
+- Scalars are declared by their first assignment; each is assigned before it is read on every path.
+- An arithmetic error (a target may raise where C gives an infinity or a NaN) is the function's ``guard``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+from codegen.run.terms import Kind, Term, names
+
+
+@dataclass(frozen=True)
+class Assign:
+    """target = value; of arrays every entry, of records every field."""
+
+    target: Term
+    value: Term
+
+
+@dataclass(frozen=True)
+class Array:
+    """An array (or record) of its shape, undefined, zero, or with the given values."""
+
+    name: Term
+    values: tuple[Term, ...] = ()
+    zero: bool = False
+
+
+@dataclass(frozen=True)
+class For:
+    """The body for index = 0, ..., count - 1, or in ``reverse``."""
+
+    index: Term
+    count: Term
+    body: tuple[Statement, ...]
+    reverse: bool = False
+
+
+@dataclass(frozen=True)
+class While:
+    """The body as long as the test holds; ``at_least_once`` the test comes after it."""
+
+    test: Term
+    body: tuple[Statement, ...]
+    at_least_once: bool = False
+
+
+@dataclass(frozen=True)
+class If:
+    """One of two bodies."""
+
+    test: Term
+    body: tuple[Statement, ...]
+    orelse: tuple[Statement, ...] = ()
+
+
+@dataclass(frozen=True)
+class Call:
+    """results = function(arguments); a function of the unit, or one of the target's library."""
+
+    function: str
+    arguments: tuple[Term, ...]
+    results: tuple[Term, ...] = ()
+
+
+@dataclass(frozen=True)
+class Return:
+    """The end of a function."""
+
+    value: Term
+
+
+@dataclass(frozen=True)
+class Note:
+    """A comment."""
+
+    text: str
+
+
+Statement = Assign | Array | For | While | If | Call | Return | Note
+Body = tuple[Statement, ...]
+
+RAISES_STATUS, RAISES_NAN = "status", "nan"
+"""What an arithmetic error makes of a function: the status NOT_FINITE, or NaN in its result or array."""
+
+
+@dataclass(frozen=True)
+class Function:
+    """A function of the unit; ``public`` ones are called from outside, ``often`` ones are worth inlining."""
+
+    name: str
+    about: str
+    parameters: tuple[Term, ...]
+    body: Body
+    returns: Kind | None = None
+    guard: str = ""
+    public: bool = False
+    often: bool = False
+
+
+@dataclass(frozen=True)
+class Record:
+    """Named values that live from call to call; a public one is the caller's."""
+
+    name: str
+    about: str
+    fields: tuple[tuple[Term, str], ...]
+    public: bool = False
+
+
+@dataclass(frozen=True)
+class Table:
+    """A constant array, by rows where it has two dimensions."""
+
+    name: Term
+    rows: tuple[tuple[float, ...], ...]
+    about: str = ""
+
+
+@dataclass(frozen=True)
+class Unit:
+    """Everything that surrounds one kernel: records, tables, and functions after those that they call.
+
+    ``scalars`` are the kernel's names that are arguments; they are spelled alike in all functions.
+    """
+
+    scalars: tuple[str, ...]
+    records: tuple[Record, ...]
+    tables: tuple[Table, ...]
+    functions: tuple[Function, ...]
+    parts: dict[str, Function] = field(default_factory=dict, compare=False)
+
+    def __post_init__(self) -> None:
+        self.parts.update({f.name: f for f in self.functions})
+
+    def record(self, name: str) -> Record:
+        """Return a record by its name."""
+        return next(r for r in self.records if r.name == name)
+
+
+def blocks(statement: Statement) -> tuple[Body, ...]:
+    """Return the bodies inside a statement."""
+    match statement:
+        case For(body=body) | While(body=body):
+            return (body,)
+        case If(body=body, orelse=orelse):
+            return (body, orelse)
+        case _:
+            return ()
+
+
+def direct(statement: Statement) -> tuple[Term, ...]:
+    """Return the terms of a statement itself, targets first, without those of bodies inside."""
+    match statement:
+        case Assign(target, term):
+            return (target, term)
+        case Array(name, values):
+            return (name, *values)
+        case For(index, count):
+            return (index, count)
+        case While(test) | If(test):
+            return (test,)
+        case Call(arguments=arguments, results=results):
+            return (*results, *arguments)
+        case Return(term):
+            return (term,)
+        case Note():
+            return ()
+
+
+def statements(body: Iterable[Statement]) -> Iterator[Statement]:
+    """Yield every statement, those of inner bodies included."""
+    for statement in body:
+        yield statement
+        for inner in blocks(statement):
+            yield from statements(inner)
+
+
+def terms(body: Iterable[Statement]) -> Iterator[Term]:
+    """Yield every term of a body with all its parts."""
+    waiting = [term for statement in statements(body) for term in direct(statement)]
+    while waiting:
+        term = waiting.pop()
+        yield term
+        waiting += term.args
+
+
+def root(target: Term) -> Term:
+    """Return the name that an assignment changes: of ``memory.values[3]`` it is ``memory``."""
+    while target.args:
+        target = target.args[0]
+    return target
+
+
+def assigned(statement: Statement) -> tuple[Term, ...]:
+    """Return what a statement itself gives values to."""
+    match statement:
+        case Assign(target):
+            return (target,)
+        case Array(name):
+            return (name,)
+        case For(index):
+            return (index,)
+        case Call(results=results):
+            return results
+        case _:
+            return ()
+
+
+def reads(statement: Statement) -> Iterator[Term]:
+    """Yield the names that a statement itself reads; changing an entry of an array reads the array."""
+    given = assigned(statement)
+    whole = {id(t) for t in given if t.op == "name"}
+    for term in direct(statement):
+        if id(term) not in whole:
+            yield from names([term])

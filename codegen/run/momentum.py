@@ -1,0 +1,73 @@
+"""The momentum that a run carries: steps are made with that of the body, a state holds that of space.
+
+Turning it once at the beginning of a run and once at its end costs less than turning it in each step. What
+the momentum has gained in space is added to that of the state; where rounding has made q not quite
+orthogonal, the turning so changes the gain alone.
+"""
+
+from __future__ import annotations
+
+from codegen.ir.kernel import Carried
+from codegen.run.arithmetic import filling
+from codegen.run.language import Array, Assign, Call, For, Function, If, Return
+from codegen.run.plan import Plan
+from codegen.run.terms import NOT_FINITE, OK, Kind, Term, all_finite, code, count, negated, real, whole
+
+ENTER, LEAVE = "enter_body", "leave_body"
+
+MOVING = "moving"
+"""The state that steps are made with."""
+
+
+def momentum_before(plan: Plan) -> Term:
+    """Return the array for the momentum in space where a run begins."""
+    assert plan.kernel.carried is not None
+    return real("before", plan.size - plan.kernel.carried.first)
+
+
+def turning(plan: Plan) -> tuple[Function, ...]:
+    """Return the functions that turn the momentum, and those that begin and end a run with it."""
+    carried = plan.kernel.carried
+    if carried is None:
+        return ()
+    n = plan.size - carried.first
+    momentum = real("momentum", n)
+    to_body = filling(
+        Plan(carried.inward, plan.format), "to_body", "Convert space momentum to body momentum.", momentum
+    )
+    to_space = filling(
+        Plan(carried.outward, plan.format), "to_space", "Convert body momentum to space momentum.", momentum
+    )
+    return to_body, to_space, _enter(plan, carried), _leave(plan, carried, n)
+
+
+def _enter(plan: Plan, carried: Carried) -> Function:
+    state, moving, before = plan.state(), plan.state(MOVING), momentum_before(plan)
+    first, n = carried.first, plan.size - carried.first
+    body = (
+        Call("to_body", (state, before)),
+        Assign(moving.part(0, first), state.part(0, first)),
+        Assign(moving.part(first, n), before),
+        Call("to_space", (moving, before)),
+    )
+    about = "Begin: the state with body momentum, and what this momentum is in space."
+    return Function(ENTER, about, (state, moving, before), body)
+
+
+def _leave(plan: Plan, carried: Carried, n: int) -> Function:
+    state, moving, before = plan.state(), plan.state(MOVING), momentum_before(plan)
+    momentum, i = real("momentum", n), count("i")
+    gained = state[i + carried.first] + (momentum[i] - before[i])
+    body = (
+        Array(momentum),
+        Call("to_space", (moving, momentum)),
+        For(i, whole(n), (Assign(momentum[i], gained),)),
+        If(negated(all_finite(momentum)), (Return(code(NOT_FINITE)),)),
+        Assign(state.part(0, carried.first), moving.part(0, carried.first)),
+        Assign(state.part(carried.first, n), momentum),
+        Return(code(OK)),
+    )
+    about = (
+        "End: change the state to the moving one; its space momentum is increased by the gain since before."
+    )
+    return Function(LEAVE, about, (moving, before, state), body, Kind.STATUS)

@@ -1,0 +1,34 @@
+"""How many numbers a unit holds at once, which bounds the stack of a call."""
+
+from __future__ import annotations
+
+from math import prod
+
+from codegen.run.identifiers import Identifiers, identify
+from codegen.run.language import Array, Function, Unit, assigned, statements
+from codegen.run.terms import Kind, Term
+
+
+def numbers_held(unit: Unit) -> int:
+    """Return the numbers in all functions that callers do not see, and the most in one that they do."""
+    identifiers = identify(unit, ())
+    held = {f.name: _held(unit, f, identifiers[f.name]) for f in unit.functions}
+    public = [held[f.name] for f in unit.functions if f.public]
+    return sum(held.values()) - sum(public) + max(public)
+
+
+def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
+    arrays, scalars = 0, set()
+    for statement in statements(function.body):
+        if isinstance(statement, Array):
+            arrays += prod(statement.name.shape) * _size(unit, statement.name)
+            continue
+        scalars |= {identifiers.of(t) for t in assigned(statement) if t.op == "name" and not t.shape}
+    return arrays + len(scalars) + len(function.parameters)
+
+
+def _size(unit: Unit, name: Term) -> int:
+    """Return how many numbers one entry is."""
+    if name.kind is not Kind.RECORD:
+        return 1
+    return sum(prod(field.shape) for field, _ in unit.record(name.record).fields)

@@ -1,0 +1,158 @@
+"""Where a target that declares variables declares those of a function: as far in, and as late, as it can.
+
+A variable belongs to the innermost block that holds all that assigns or reads it; where blocks side by side
+each assign it before they read it, to each of them. It is declared by its first assignment where that stands
+in the block itself, before the first statement that holds it otherwise. One that is assigned once is
+constant.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from codegen.run.identifiers import Identifiers
+from codegen.run.language import (
+    Array,
+    Assign,
+    Body,
+    Call,
+    For,
+    Function,
+    Statement,
+    While,
+    assigned,
+    blocks,
+    direct,
+    reads,
+)
+from codegen.run.terms import Term, names
+
+
+@dataclass
+class Declarations:
+    """By the identity of statements: the variables declared before them, and by them.
+
+    Of the latter each is mapped to whether it is constant.
+    """
+
+    before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
+    by: dict[int, dict[str, bool]] = field(default_factory=dict)
+
+
+def declarations(function: Function, identifiers: Identifiers) -> Declarations:
+    """Return where a function's variables are declared; arrays and indices of loops declare themselves."""
+    found = Declarations()
+    _Scopes(identifiers, found).place(function.body, _variables(function, identifiers))
+    return found
+
+
+def _variables(function: Function, identifiers: Identifiers) -> dict[str, Term]:
+    """Return the scalars that a function assigns, in order, which are neither parameters nor arrays."""
+    found: dict[str, Term] = {}
+
+    def collect(body: Body) -> None:
+        for statement in body:
+            if isinstance(statement, Assign | Call):
+                for target in assigned(statement):
+                    if target.op == "name" and not target.shape and not target.record:
+                        found.setdefault(identifiers.variable(target), target)
+            for inner in blocks(statement):
+                collect(inner)
+
+    collect(function.body)
+    for parameter in function.parameters:
+        found.pop(identifiers.of(parameter), None)
+    return found
+
+
+class _Scopes:
+    """The analysis of one function."""
+
+    def __init__(self, identifiers: Identifiers, found: Declarations) -> None:
+        self.identifiers, self.found = identifiers, found
+        self.cached: dict[int, frozenset[str]] = {}
+
+    def place(self, body: Body, variables: dict[str, Term]) -> None:
+        """Declare variables that no statement outside the body mentions."""
+        inside: dict[int, dict[str, Term]] = {}
+        holders: dict[str, list[int]] = {name: [] for name in variables}
+        for k, statement in enumerate(body):
+            for name in self.mentioned(statement):
+                if name in holders:
+                    holders[name].append(k)
+        for name, variable in variables.items():
+            places = holders[name]
+            if not places:
+                continue
+            deeper = self.deeper(body, places, name)
+            if not deeper:
+                self.declare(body, places, name, variable)
+            for block in deeper:
+                inside.setdefault(id(block), {})[name] = variable
+        for statement in body:
+            for block in blocks(statement):
+                if id(block) in inside:
+                    self.place(block, inside[id(block)])
+
+    def deeper(self, body: Body, places: list[int], name: str) -> list[Body]:
+        """Return the inner blocks to which a variable belongs, none where it belongs to this one."""
+        found: list[Body] = []
+        for k in places:
+            statement = body[k]
+            if name in self.own(statement):
+                return []
+            found += [block for block in blocks(statement) if self.within(block, name)]
+        if len(found) > 1 and not all(self.begins(block, name) for block in found):
+            return []
+        return found
+
+    def begins(self, body: Body, name: str) -> bool:
+        """Whether a body assigns a variable before it reads it."""
+        for statement in body:
+            if name not in self.mentioned(statement):
+                continue
+            if name in {self.identifiers.variable(x) for x in reads(statement)}:
+                return False
+            if isinstance(statement, Assign | Call):
+                return any(
+                    t.op == "name" and self.identifiers.variable(t) == name for t in assigned(statement)
+                )
+            if isinstance(statement, For) or (isinstance(statement, While) and statement.at_least_once):
+                return self.begins(statement.body, name)
+            return False
+        return False
+
+    def declare(self, body: Body, places: list[int], name: str, variable: Term) -> None:
+        """Declare a variable in this block."""
+        first = body[places[0]]
+        times = sum(self.assignments(body[k], name) for k in places)
+        direct_first = isinstance(first, Assign) and self.assignments(first, name) > 0
+        called = isinstance(first, Call) and len(first.results) == 1 and self.assignments(first, name) > 0
+        if (direct_first or called) and name not in {self.identifiers.variable(x) for x in reads(first)}:
+            self.found.by.setdefault(id(first), {})[name] = times == 1
+        else:
+            self.found.before.setdefault(id(first), []).append((name, variable))
+
+    def assignments(self, statement: Statement, name: str) -> int:
+        """Return how many assignments to a variable stand in a statement."""
+        targets = [] if isinstance(statement, Array) else assigned(statement)
+        own = sum(t.op == "name" and self.identifiers.variable(t) == name for t in targets)
+        return own + sum(self.assignments(x, name) for block in blocks(statement) for x in block)
+
+    def own(self, statement: Statement) -> frozenset[str]:
+        """Return the variables that a statement itself mentions."""
+        return frozenset(self.identifiers.variable(x) for x in names(direct(statement)))
+
+    def within(self, body: Body, name: str) -> bool:
+        """Whether a body mentions a variable."""
+        return any(name in self.mentioned(statement) for statement in body)
+
+    def mentioned(self, statement: Statement) -> frozenset[str]:
+        """Return the variables that a statement and its inner blocks mention."""
+        if id(statement) not in self.cached:
+            found = set(self.own(statement))
+            for block in blocks(statement):
+                for inner in block:
+                    found |= self.mentioned(inner)
+            self.cached[id(statement)] = frozenset(found)
+        return self.cached[id(statement)]

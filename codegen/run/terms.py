@@ -1,0 +1,329 @@
+"""Terms: the small expressions of the run representation, over reals, counts, flags, status codes and arrays.
+
+Arithmetic of a kernel stays :class:`codegen.ir.expr.Expr` and enters as one term (:func:`value`). A term
+knows its kind and its shape, so that no printer infers types. Operators build terms, they compute nothing:
+
+>>> change, scale = real("change"), real("scale")
+>>> (change <= 0.5 * scale).op
+'<='
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from enum import Enum
+from functools import reduce
+
+from codegen.ir.expr import Expr
+
+OK, NOT_CONVERGED, NOT_FINITE, BAD_STEP, LIMIT = "OK", "NOT_CONVERGED", "NOT_FINITE", "BAD_STEP", "LIMIT"
+STATUSES = (OK, NOT_CONVERGED, NOT_FINITE, BAD_STEP, LIMIT)
+"""The status codes; each is its place in this tuple."""
+
+
+class Kind(Enum):
+    """What a term is: a WIDE real has the range and precision of a double, whatever the format is."""
+
+    REAL = "real"
+    WIDE = "wide"
+    COUNT = "count"
+    FLAG = "flag"
+    STATUS = "status"
+    RECORD = "record"
+    SIGNAL = "signal"
+
+
+@dataclass(frozen=True, eq=False)
+class Term:
+    """An operation on terms, a name, or a constant.
+
+    ``text`` is the name, function or field; a name that is ``own`` is one of the kernel, which a target may
+    have to change. ``shape`` is that of an array, () for one value; a size that only a caller knows is 0.
+    ``optional`` arguments may be absent; a ``cell`` is an array of one entry that hands a value back.
+    """
+
+    op: str
+    args: tuple[Term, ...] = ()
+    kind: Kind = Kind.REAL
+    text: str = ""
+    number: float = 0.0
+    value: Expr | None = None
+    shape: tuple[int, ...] = ()
+    own: bool = False
+    optional: bool = False
+    cell: bool = False
+    record: str = field(default="")
+
+    def __add__(self, other: Operand) -> Term:
+        return _arithmetic("+", self, other)
+
+    def __radd__(self, other: Operand) -> Term:
+        return _arithmetic("+", _term(other, self), self)
+
+    def __sub__(self, other: Operand) -> Term:
+        return _arithmetic("-", self, other)
+
+    def __mul__(self, other: Operand) -> Term:
+        return _arithmetic("*", self, other)
+
+    def __rmul__(self, other: Operand) -> Term:
+        return _arithmetic("*", _term(other, self), self)
+
+    def __truediv__(self, other: Operand) -> Term:
+        return _arithmetic("/", self, other)
+
+    def __floordiv__(self, other: Operand) -> Term:
+        return _arithmetic("//", self, other)
+
+    def __mod__(self, other: Operand) -> Term:
+        return _arithmetic("%", self, other)
+
+    def __neg__(self) -> Term:
+        return Term("neg", (self,), self.kind)
+
+    def __lt__(self, other: Operand) -> Term:
+        return _comparison("<", self, other)
+
+    def __le__(self, other: Operand) -> Term:
+        return _comparison("<=", self, other)
+
+    def __gt__(self, other: Operand) -> Term:
+        return _comparison(">", self, other)
+
+    def __ge__(self, other: Operand) -> Term:
+        return _comparison(">=", self, other)
+
+    def equals(self, other: Operand) -> Term:
+        """Return whether two counts or status codes are the same."""
+        return _comparison("==", self, other)
+
+    def differs(self, other: Operand) -> Term:
+        """Return whether two counts or status codes differ."""
+        return _comparison("!=", self, other)
+
+    def __getitem__(self, index: Operand) -> Term:
+        """Return an entry of an array, or a row of an array of rows."""
+        place = _term(index, _COUNT)
+        return Term("item", (self, place), self.kind, shape=self.shape[1:], record=self.record)
+
+    def __iter__(self) -> Iterator[Term]:
+        """Refuse: an array is not a Python sequence."""
+        raise TypeError("a term has no entries until a program runs")
+
+    def part(self, start: int, size: int) -> Term:
+        """Return ``size`` entries of an array of reals, from ``start`` on."""
+        if start == 0 and self.shape == (size,):
+            return self
+        return Term("part", (self,), self.kind, number=start, shape=(size,))
+
+    def field(self, name: str, kind: Kind = Kind.REAL, shape: tuple[int, ...] = ()) -> Term:
+        """Return a field of a record."""
+        return Term("field", (self,), kind, name, shape=shape)
+
+
+Operand = Term | float | int
+
+_COUNT = Term("name", kind=Kind.COUNT)
+
+
+def _term(x: Operand, like: Term) -> Term:
+    if isinstance(x, Term):
+        return x
+    counted = like.kind in (Kind.COUNT, Kind.FLAG)
+    return Term("number", kind=Kind.COUNT if counted else Kind.REAL, number=x)
+
+
+def _arithmetic(op: str, x: Term, y: Operand) -> Term:
+    right = _term(y, x)
+    return Term(op, (x, right), Kind.WIDE if Kind.WIDE in (x.kind, right.kind) else x.kind)
+
+
+def _comparison(op: str, x: Term, y: Operand) -> Term:
+    return Term(op, (x, _term(y, x)), Kind.FLAG)
+
+
+def real(name: str, *shape: int, optional: bool = False, cell: bool = False) -> Term:
+    """Return the name of a real, or of an array of them."""
+    return Term("name", (), Kind.REAL, name, shape=shape, optional=optional, cell=cell)
+
+
+def count(name: str, *shape: int, optional: bool = False, cell: bool = False) -> Term:
+    """Return the name of a count: an integer that is never negative."""
+    return Term("name", (), Kind.COUNT, name, shape=shape, optional=optional, cell=cell)
+
+
+def flag(name: str) -> Term:
+    """Return the name of a flag."""
+    return Term("name", (), Kind.FLAG, name)
+
+
+def own(name: str, *shape: int) -> Term:
+    """Return the name of a real of the kernel."""
+    return Term("name", (), Kind.REAL, name, shape=shape, own=True)
+
+
+def record(name: str, of: str, *shape: int, optional: bool = False) -> Term:
+    """Return the name of a record, or of an array of them; ``of`` names its fields."""
+    return Term("name", (), Kind.RECORD, name, shape=shape, optional=optional, record=of)
+
+
+def signal(name: str) -> Term:
+    """Return the name of a function of time that gives the run-time inputs."""
+    return Term("name", (), Kind.SIGNAL, name)
+
+
+STATUS = Term("name", (), Kind.STATUS, "status")
+"""The status of the function that runs."""
+
+
+def code(name: str) -> Term:
+    """Return a status code."""
+    return Term("status", (), Kind.STATUS, name)
+
+
+def number(x: float) -> Term:
+    """Return a real constant."""
+    return Term("number", (), Kind.REAL, number=x)
+
+
+def whole(n: int) -> Term:
+    """Return a count."""
+    return Term("number", (), Kind.COUNT, number=n)
+
+
+def truth(x: bool) -> Term:
+    """Return a constant flag."""
+    return Term("number", (), Kind.FLAG, number=int(x))
+
+
+def value(x: Expr) -> Term:
+    """Return an expression of the kernel; a bare symbol becomes a name."""
+    if x.op == "sym":
+        return own(x.payload)
+    return Term("value", value=x)
+
+
+INFINITY = Term("infinity")
+
+
+def both(*tests: Term) -> Term:
+    """Return whether all tests hold; later ones are not looked at where one before does not."""
+    return reduce(lambda a, b: Term("and", (a, b), Kind.FLAG), tests)
+
+
+def either(*tests: Term) -> Term:
+    """Return whether some test holds; later ones are not looked at where one before does."""
+    return reduce(lambda a, b: Term("or", (a, b), Kind.FLAG), tests)
+
+
+def negated(test: Term) -> Term:
+    """Return whether a test fails."""
+    return Term("not", (test,), Kind.FLAG)
+
+
+def select(test: Term, yes: Operand, no: Operand) -> Term:
+    """Return one of two values; this is no branch: an array language computes both."""
+    like = yes if isinstance(yes, Term) else no if isinstance(no, Term) else number(0.0)
+    first, second = _term(yes, like), _term(no, like)
+    return Term("select", (test, first, second), first.kind)
+
+
+def call(function: str, *args: Term) -> Term:
+    """Return a function of reals from the mathematical library: abs, sqrt, power, copysign."""
+    return Term("call", args, Kind.REAL, function)
+
+
+def size(x: Term) -> Term:
+    """Return the absolute value."""
+    return call("abs", x)
+
+
+def greatest(terms: Iterable[Term]) -> Term:
+    """Return the greatest of some reals."""
+    listed = tuple(terms)
+    return listed[0] if len(listed) == 1 else call("greatest", *listed)
+
+
+def largest(array: Term) -> Term:
+    """Return the largest absolute value in an array."""
+    return call("largest", array)
+
+
+def is_finite(x: Term) -> Term:
+    """Return whether one real is a number."""
+    return Term("call", (x,), Kind.FLAG, "isfinite")
+
+
+def all_finite(*terms: Term) -> Term:
+    """Return whether all reals, or all entries of one array, are numbers."""
+    return Term("finite", terms, Kind.FLAG)
+
+
+def total(terms: Iterable[Term]) -> Term:
+    """Return a sum from left to right."""
+    return reduce(lambda a, b: a + b, terms)
+
+
+def paired(terms: Iterable[Term]) -> Term:
+    """Return a sum of pairs, from left to right: fewer additions wait for one another."""
+    listed = list(terms)
+    if len(listed) < 3:
+        return total(listed)
+    return total(total(listed[k : k + 2]) for k in range(0, len(listed), 2))
+
+
+def given(argument: Term) -> Term:
+    """Return whether an optional argument is there."""
+    return Term("given", (argument,), Kind.FLAG)
+
+
+def absent(parameter: Term) -> Term:
+    """Return what is passed for an optional parameter to leave it out."""
+    return replace(parameter, op="none", args=())
+
+
+def holding(inputs: Term) -> Term:
+    """Return the signal that has the same values at all times."""
+    return Term("holding", (inputs,), Kind.SIGNAL)
+
+
+def fresh(of: Term) -> Term:
+    """Return a record whose fields are all zero."""
+    return Term("fresh", (), Kind.RECORD, record=of.record)
+
+
+def wide(x: Term) -> Term:
+    """Return a real or a count in the range and precision of a double."""
+    return Term("wide", (x,), Kind.WIDE)
+
+
+def narrow(x: Term) -> Term:
+    """Return a wide real rounded to the format."""
+    return Term("narrow", (x,))
+
+
+def names(terms: Iterable[Term]) -> Iterator[Term]:
+    """Yield every name below some terms, those in expressions of the kernel included."""
+    waiting = list(terms)[::-1]
+    while waiting:
+        term = waiting.pop()
+        if term.op == "name":
+            yield term
+        elif term.value is not None:
+            yield from map(own, symbols(term.value))
+        waiting += term.args[::-1]
+
+
+def symbols(root: Expr) -> Iterator[str]:
+    """Yield the symbols of an expression, in the order in which it reads them."""
+    seen: set[int] = set()
+    waiting = [root]
+    while waiting:
+        node = waiting.pop()
+        if node.id in seen:
+            continue
+        seen.add(node.id)
+        if node.op == "sym":
+            yield node.payload
+        waiting += node.args[::-1]

@@ -1,0 +1,199 @@
+"""A run of steps of one size, with rows of a trajectory, and a single step for callers.
+
+A run ends where all steps are made or one fails; the state is then the last good one. Rows are written at the
+beginning and after every stride-th step.
+
+A small explicit kernel stands in the loop of the run itself: its state then stays in registers.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from codegen.run.arithmetic import computed, outputs
+from codegen.run.continuation import retried
+from codegen.run.language import Array, Assign, Call, Function, If, Return, Statement, While
+from codegen.run.momentum import ENTER, LEAVE, MOVING, momentum_before
+from codegen.run.plan import INPUTS, STEP, STEPS, STRIDE, TIME, Plan
+from codegen.run.step import ADVANCE, exact_time
+from codegen.run.terms import (
+    BAD_STEP,
+    NOT_FINITE,
+    OK,
+    STATUS,
+    Term,
+    absent,
+    all_finite,
+    both,
+    code,
+    count,
+    flag,
+    given,
+    holding,
+    is_finite,
+    negated,
+    own,
+    real,
+    whole,
+)
+
+REGISTERS = 6
+"""How many numbers of a state stay in registers beside what a step computes with them."""
+
+DONE = count("step")
+"""How many steps are made."""
+
+COMPLETED = count("completed", 1, optional=True, cell=True)
+
+
+def is_looped(plan: Plan) -> bool:
+    """Whether the loop of a run holds the kernel: where nothing else calls it and its state is small."""
+    kernel = plan.kernel
+    alone = kernel.deferred is None and not plan.parts and plan.size <= REGISTERS
+    return alone and not (plan.counting or plan.time or kernel.estimate is not None)
+
+
+@dataclass(frozen=True)
+class Rows:
+    """The rows of a trajectory, where a caller wants them: at first and after every stride-th step."""
+
+    plan: Plan
+
+    recording, written = flag("recording"), count("row")
+
+    @property
+    def trajectory(self) -> Term:
+        """The array of rows."""
+        return real("trajectory", 0, self.plan.size, optional=True)
+
+    def begin(self, state: Term) -> list[Statement]:
+        """Return the statements that write the first row."""
+        return [
+            Assign(self.recording, both(STRIDE > 0, given(self.trajectory))),
+            Assign(self.written, whole(0)),
+            If(self.recording, (Assign(self.trajectory[0], state),)),
+        ]
+
+    def due(self, step: Term = DONE) -> Term:
+        """Return whether the state after so many steps is a row."""
+        return both(self.recording, (step % STRIDE).equals(0))
+
+    def add(self, state: Term) -> list[Statement]:
+        """Return the statements that write another row."""
+        return [
+            Assign(self.written, self.written + 1),
+            Assign(self.trajectory[self.written], state),
+        ]
+
+
+def own_memory(plan: Plan) -> list[Statement]:
+    """Return the statement that makes the memory of a run."""
+    return [Array(plan.memories, zero=True)] if plan.remembers else []
+
+
+def arguments(plan: Plan, inputs: Term = INPUTS, t: Term = TIME) -> tuple[Term, ...]:
+    """Return what a step is called with besides the state."""
+    return (
+        *plan.moment(t),
+        *plan.parameters,
+        *plan.sampled(inputs),
+        *plan.remembering(plan.memories),
+        *plan.counted,
+    )
+
+
+def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list[Statement]:
+    """Return the statements that make a step and set the status."""
+    error = (absent(plan.error),) if plan.kernel.estimate is not None else ()
+    call = Call(ADVANCE, (state, *given_arguments, *error), (STATUS,))
+    return [call, *([] if plan.parts else retried(plan, state, given_arguments))]
+
+
+def step(plan: Plan) -> Function:
+    """Return the function that makes one step for a caller; run-time inputs stay the same over it."""
+    state = plan.state()
+    held = real("inputs", len(plan.kernel.inputs))
+    parameters = (state, *plan.moment(), *plan.parameters, *((held,) if plan.held else ()), *plan.counted)
+    body: list[Statement] = []
+    if is_looped(plan):
+        nothing = (absent(Rows(plan).trajectory), whole(0), absent(COMPLETED))
+        body = [Call("run", (state, STEP, whole(1), *plan.parameters, *nothing), (STATUS,))]
+        return Function("step", "", parameters, (*body, Return(STATUS)), STATUS.kind, public=True)
+    carried = plan.kernel.carried is not None
+    moving, before = plan.state(MOVING), momentum_before(plan) if carried else STATUS
+    if carried:
+        body += [Array(moving), Array(before), Call(ENTER, (state, moving, before))]
+    body += own_memory(plan)
+    for copy in plan.held:
+        body += [Array(copy), Assign(copy, held)]
+    inputs = holding(*plan.held) if plan.held else INPUTS
+    body += advanced(plan, moving if carried else state, arguments(plan, inputs))
+    if carried:
+        body.append(If(STATUS.equals(code(OK)), (Call(LEAVE, (moving, before, state), (STATUS,)),)))
+    return Function("step", "", parameters, (*body, Return(STATUS)), STATUS.kind, public=True)
+
+
+def run_parameters(plan: Plan) -> tuple[Term, ...]:
+    """Return the parameters of a run."""
+    rows = (Rows(plan).trajectory, STRIDE)
+    time = (TIME,) if plan.time else ()
+    counted = (*plan.counted, COMPLETED)
+    return (plan.state(), *time, STEP, STEPS, *plan.parameters, *plan.sampled(), *rows, *counted)
+
+
+def run(plan: Plan) -> Function:
+    """Return the function that makes a run."""
+    state, rows = plan.state(), Rows(plan)
+    carried = plan.kernel.carried is not None
+    moving, before = plan.state(MOVING), momentum_before(plan) if carried else STATUS
+    body: list[Statement] = [Assign(STATUS, code(OK)), Assign(DONE, whole(0))]
+    body += [*own_memory(plan), *rows.begin(state)]
+    if carried:
+        body += [Array(moving), Array(before), Call(ENTER, (state, moving, before))]
+    if is_looped(plan):
+        body += _looped(plan, rows)
+    else:
+        now = moving if carried else state
+        row = rows.add(state)
+        if carried:
+            row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
+        made = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
+        later = exact_time(TIME, DONE, STEP)
+        inner = (*advanced(plan, now, arguments(plan, t=later)), If(STATUS.equals(code(OK)), made))
+        body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
+    if carried:
+        ended = Term("name", (), STATUS.kind, "ended")
+        failed = (Assign(STATUS, code(NOT_FINITE)), Assign(DONE, whole(0)))
+        finite = (Call(LEAVE, (moving, before, state), (ended,)), If(ended.differs(code(OK)), failed))
+        body.append(If(DONE > 0, finite))
+    body += completed()
+    return Function("run", "", run_parameters(plan), (*body, Return(STATUS)), STATUS.kind, public=True)
+
+
+def completed() -> list[Statement]:
+    """Return the statement that tells a caller how many steps were made."""
+    return [If(given(COMPLETED), (Assign(COMPLETED[0], DONE),))]
+
+
+def _looped(plan: Plan, rows: Rows) -> list[Statement]:
+    """Return the loop of a run that holds the kernel itself."""
+    state, numbers = plan.state(), [own(s) for s in plan.symbols]
+    read = plan.arrangement.symbols()
+    ends, new = outputs(plan.arrangement, plan.symbols)
+    unread = [x for x in numbers if x.text not in read]
+    row = [Assign(rows.written, rows.written + 1)]
+    row += [Assign(rows.trajectory[rows.written][k], x) for k, x in enumerate(numbers)]
+    taken: list[Statement] = [Assign(x, y) for x, y in zip(numbers, new, strict=True)]
+    taken += [Assign(DONE, DONE + 1), If(rows.due(), tuple(row))]
+    inner: list[Statement] = [
+        *computed(plan),
+        *ends,
+        If(all_finite(*new, *unread), tuple(taken), (Assign(STATUS, code(NOT_FINITE)),)),
+    ]
+    bad_step = both(STEPS > 0, negated(is_finite(STEP)))
+    return [
+        If(bad_step, (Assign(STATUS, code(BAD_STEP)),)),
+        *(Assign(x, state[k]) for k, x in enumerate(numbers)),
+        While(both(STATUS.equals(code(OK)), DONE < STEPS), tuple(inner)),
+        *(Assign(state[k], x) for k, x in enumerate(numbers)),
+    ]

@@ -1,0 +1,53 @@
+"""The unit of a kernel: every function, record and table that a module of it needs, and no other."""
+
+from __future__ import annotations
+
+from codegen.run import deferred_flows, jacobian, step_control
+from codegen.run.arithmetic import outlined
+from codegen.run.continuation import continued
+from codegen.run.language import Function, Record, Table, Unit
+from codegen.run.momentum import turning
+from codegen.run.plan import Plan
+from codegen.run.statistics import counters, statistics_record
+from codegen.run.step import composed_step, core, kernel_step, substep_tables
+from codegen.run.trajectory import is_looped, run, step
+from codegen.run.warm_start import WarmStart, differences, memory_record
+
+
+def unit_of(plan: Plan) -> Unit:
+    """Return the unit of a kernel."""
+    functions = [outlined(function, arranged) for function, arranged in plan.arrangement.outlined]
+    if plan.kernel.deferred is not None:
+        functions += deferred_flows.functions(plan)
+    else:
+        functions += _steps(plan)
+    functions += (*step_control.functions(plan), *jacobian.functions(plan))
+    scalars = ("t", "h", *(p.text for p in plan.parameters))
+    return Unit(scalars, _records(plan), _tables(plan), tuple(functions))
+
+
+def _steps(plan: Plan) -> list[Function]:
+    """Return the functions of steps and runs, callees first."""
+    found: list[Function] = []
+    if plan.counting:
+        found += counters(plan)
+    if plan.start is not None:
+        found += WarmStart(plan).functions()
+    if is_looped(plan):
+        return [*found, *turning(plan), run(plan), step(plan)]
+    found.append(kernel_step(plan))
+    if plan.start is not None:
+        found.append(continued(plan, core(plan)))
+    if plan.parts:
+        found.append(composed_step(plan))
+    return [*found, *turning(plan), step(plan), run(plan)]
+
+
+def _records(plan: Plan) -> tuple[Record, ...]:
+    found = [statistics_record(plan)] if plan.counting else []
+    return (*found, *([memory_record(plan)] if plan.remembers else []))
+
+
+def _tables(plan: Plan) -> tuple[Table, ...]:
+    found = [differences(plan.start)] if plan.start is not None else []
+    return (*found, *substep_tables(plan))

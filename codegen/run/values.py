@@ -1,0 +1,21 @@
+"""Single assignments of a kernel, and its calls, as statements of the run representation."""
+
+from __future__ import annotations
+
+from codegen.kernel.schedule import Assignment, Invocation, Simple
+from codegen.run.language import Array, Assign, Call, Statement
+from codegen.run.terms import own, value
+
+
+def simple(statement: Simple) -> list[Statement]:
+    """Return the statements of an assignment, a joint call, or a call of an outlined function."""
+    if isinstance(statement, Assignment):
+        return [Assign(own(statement.name), value(statement.value))]
+    if isinstance(statement, Invocation):
+        given = tuple(map(value, statement.arguments))
+        if statement.results == 1:
+            return [Call(statement.function, given, (own(statement.names[0]),))]
+        results = own(statement.name, statement.results)
+        return [Array(results), Call(statement.function, (*given, results))]
+    names = tuple(map(own, statement.names))
+    return [Call(statement.function, (value(statement.argument),), names)]

@@ -1,0 +1,27 @@
+"""Which parameters a function changes, itself or through what it calls."""
+
+from __future__ import annotations
+
+from codegen.run.language import Array, Assign, Call, Function, Unit, root, statements
+
+
+def written(unit: Unit, function: Function) -> frozenset[str]:
+    """Return the names of those parameters, which are arrays and records."""
+    own = {p.text for p in function.parameters if p.shape or p.record}
+    found: set[str] = set()
+    for statement in statements(function.body):
+        match statement:
+            case Assign(target):
+                found.add(root(target).text)
+            case Call(name, arguments, results):
+                found |= {root(r).text for r in results}
+                callee = unit.parts.get(name)
+                if callee is None:
+                    found |= {root(a).text for a in arguments if name == "invert"}
+                    continue
+                changed = written(unit, callee)
+                pairs = zip(callee.parameters, arguments, strict=True)
+                found |= {root(a).text for p, a in pairs if p.text in changed and a.op != "none"}
+            case Array():
+                pass
+    return frozenset(found & own)
