@@ -19,7 +19,7 @@ from orderconds.families.registry import register
 from orderconds.ring.protocol import Ring
 from orderconds.series.action import ActionSeries
 from orderconds.series.action_lie import MuntheKaasActionSeries
-from orderconds.series.action_trees import Velocity
+from orderconds.series.action_trees import Velocity, transport, velocity
 from orderconds.tableau.methods import RungeKutta
 from orderconds.tableau.products import Method
 
@@ -58,12 +58,11 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of the tree on which a cut of dexpinv shows first."""
+        """Return the condition of the tree ``o(o|L(o ... o))``, on which a cut of dexpinv shows first."""
         if self.cutoff is None or order < 3:
             return None
-        from orderconds.series.action_cutoff import witness  # which imports NumPy
-
-        return self.condition(witness(order))
+        leaf = velocity()
+        return self.condition(velocity((leaf,), (transport((leaf,) * (order - 2)),)))
 
     def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
         """Return the series of random full tableaux."""
