@@ -126,6 +126,22 @@ def _file(name: str) -> Path:
     return path if path.suffix == ".toml" else find(name)
 
 
+def _enclosed(tableau: Tableau) -> Tableau:
+    """Return a tableau with the solution that its proof encloses, in place of the decimals of its file.
+
+    A certificate is about that solution, so that what is emitted must be it and not the digits.
+    """
+    if tableau.proof is None:
+        return tableau
+    from orderconds.proof.certificate import certify
+    from orderconds.proof.krawczyk import NotProved
+
+    try:
+        return certify(tableau).tableau
+    except NotProved:
+        return tableau
+
+
 _RATIONAL = re.compile(r"-?\d+(/\d+)?")
 
 
@@ -147,7 +163,7 @@ def parse(spelling: str, families: Sequence[str]) -> Method:
         raise MethodError(
             f"the method {spelling!r}", expected="TABLEAU or FAMILY:TABLEAU", hint="as vcg:triple_jump"
         )
-    tableau = Tableau.load(_file(match["tableau"]))
+    tableau = _enclosed(Tableau.load(_file(match["tableau"])))
     family, cutoff = match["family"], match["cutoff"]
     if family is not None and family not in families:
         raise MethodError(
