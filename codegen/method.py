@@ -177,7 +177,8 @@ def parse(spelling: str, families: Sequence[str]) -> Method:
             expected=f"one for {' or '.join(cutting)} only, as rkmk(2):rk4",
         )
     # A tableau of exponentials has no A and b to read, even where it claims the order of its sums as rk.
-    readable = [f for f in families if tableau.family != "cf" or "cf" in family_class(f).formats]
+    exponentials = isinstance(tableau.method, CommutatorFree)
+    readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     claims = [replace(c, family=c.family.partition("(")[0]) for c in tableau.claims.orders]  # splitting(3)
     wanted = [c for c in claims if c.family == (family or c.family) and c.family in readable]
     if family is not None and cutoff is not None:

@@ -32,9 +32,6 @@ if TYPE_CHECKING:
 Key = Hashable
 """A family's own encoding of a tree, a forest or a word: the ``key`` of a condition."""
 
-TABLEAU_FORMAT = "rk"
-"""The file format of Butcher tableaux (A, b)."""
-
 Kind = TypeVar("Kind")
 
 
@@ -241,7 +238,9 @@ class Family(ABC):
         Raises :class:`~orderconds.errors.InputError` for a family whose coefficients are not numbered by
         stages alone.
         """
-        if self.formats[0] == TABLEAU_FORMAT:
+        from orderconds.tableau.formats import FORMATS, RungeKuttaFile
+
+        if FORMATS.get(self.formats[0]) is RungeKuttaFile:
             return tableau_form(stages, explicit, self.needs_nonzero_weights)
         raise InputError(
             f"family {self.label()} is not written out by a number of stages alone",
