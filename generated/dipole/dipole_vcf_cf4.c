@@ -6,9 +6,9 @@
  * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
  * solved by:  the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: Newton's method, 12 unknowns
- *             (2.4 sweeps of 1193 operations and 0.05 matrices of 3742 (in C: 0.17) a step; fixed
- *             point: 3.0 sweeps of 950 operations; Newton's method with the matrix to first order
- *             in h: 2.2 sweeps of 1226 operations and 1.00 matrices of 4064)
+ *             (1.7 sweeps of 1193 operations and 0.20 matrices of 3742 a step; fixed point: 3.0
+ *             sweeps of 950 operations; Newton's method with the matrix to first order in h: 2.2
+ *             sweeps of 1226 operations and 1.00 matrices of 4064)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
  * left out:   1 Adt, 23 Adtinv, 5 mul (zeros)
@@ -162,6 +162,7 @@ static inline void stumpff_23_far(double z, double *c2, double *c3)
         *c3 = stumpff_series_3(z);
         return;
     }
+    /* the answer is no number where the angle is so large that it has no correct digit */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -192,6 +193,7 @@ static inline void stumpff_12_far(double z, double *c1, double *c2)
         *c2 = stumpff_series_2(z);
         return;
     }
+    /* the answer is no number where the angle is so large that it has no correct digit */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -209,6 +211,7 @@ static inline void stumpff_123_far(double z, double *c1, double *c2, double *c3)
         *c3 = stumpff_series_3(z);
         return;
     }
+    /* the answer is no number where the angle is so large that it has no correct digit */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -255,9 +258,11 @@ static double largest(const double *x, size_t n)
 }
 
 /* Replace an n x n matrix, by rows, by its inverse (Gauss-Jordan, rows exchanged); return 0 where it has
- * none. There is room for n in row and order. Here n is always 12. */
-static int invert(size_t n, double *restrict a, double *restrict row, size_t *order)
+ * none, else 1. Here n is always 12. */
+static size_t invert(size_t n, double *restrict a)
 {
+    double row[12];
+    size_t order[12];
     for (size_t k = 0; k < n; k++) {
         size_t pivot = k;
         for (size_t i = k + 1; i < n; i++) {
@@ -309,20 +314,70 @@ static int invert(size_t n, double *restrict a, double *restrict row, size_t *or
     return 1;
 }
 
-static void count_sweeps(dipole_vcf_cf4_statistics *statistics, size_t block, size_t sweeps, int failed)
+/* Whether n numbers are all finite */
+static int all_finite(const double *x, size_t n)
 {
-    if (statistics == NULL) {
-        return;
+    for (size_t i = 0; i < n; i++) {
+        if (!isfinite(x[i])) {
+            return 0;
+        }
     }
-    statistics->sweeps[block] += sweeps;
-    if (sweeps > statistics->most) {
-        statistics->most = sweeps;
-    }
-    if (failed) {
-        statistics->failed = block + 1;
+    return 1;
+}
+
+/*
+ * What one step of a run leaves for the next: solutions of its equations, the latest first, and
+ * inverses of Newton's matrices.
+ */
+struct memory {
+    size_t known; /* how many solutions there are */
+    double first; /* by how much the last guess was off */
+    size_t degree; /* of the polynomial */
+    size_t place; /* of the latest solution */
+    double guess[12]; /* the polynomial, continued by a step */
+    double values[32][12]; /* each solution twice: the last ones are neighbours */
+    double rate_1;
+    size_t made_1; /* for how many steps the inverse has served, 0: there is none */
+    double inverse_1[144];
+};
+
+/* Backward differences by their order: the factors of the solutions, the latest first. */
+static const double differences[17][18] = {
+    {1.0},
+    {1.0, -1.0},
+    {1.0, -2.0, 1.0},
+    {1.0, -3.0, 3.0, -1.0},
+    {1.0, -4.0, 6.0, -4.0, 1.0},
+    {1.0, -5.0, 10.0, -10.0, 5.0, -1.0},
+    {1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0},
+    {1.0, -7.0, 21.0, -35.0, 35.0, -21.0, 7.0, -1.0},
+    {1.0, -8.0, 28.0, -56.0, 70.0, -56.0, 28.0, -8.0, 1.0},
+    {1.0, -9.0, 36.0, -84.0, 126.0, -126.0, 84.0, -36.0, 9.0, -1.0},
+    {1.0, -10.0, 45.0, -120.0, 210.0, -252.0, 210.0, -120.0, 45.0, -10.0, 1.0},
+    {1.0, -11.0, 55.0, -165.0, 330.0, -462.0, 462.0, -330.0, 165.0, -55.0, 11.0, -1.0},
+    {1.0, -12.0, 66.0, -220.0, 495.0, -792.0, 924.0, -792.0, 495.0, -220.0, 66.0, -12.0, 1.0},
+    {1.0, -13.0, 78.0, -286.0, 715.0, -1287.0, 1716.0, -1716.0, 1287.0, -715.0, 286.0, -78.0, 13.0, -1.0},
+    {1.0, -14.0, 91.0, -364.0, 1001.0, -2002.0, 3003.0, -3432.0, 3003.0, -2002.0, 1001.0, -364.0, 91.0, -14.0, 1.0},
+    {1.0, -15.0, 105.0, -455.0, 1365.0, -3003.0, 5005.0, -6435.0, 6435.0, -5005.0, 3003.0, -1365.0, 455.0, -105.0, 15.0, -1.0},
+    {1.0, -16.0, 120.0, -560.0, 1820.0, -4368.0, 8008.0, -11440.0, 12870.0, -11440.0, 8008.0, -4368.0, 1820.0, -560.0, 120.0, -16.0, 1.0},
+};
+
+/* Add the sweeps over one block in one step. */
+static void count_sweeps(dipole_vcf_cf4_statistics *statistics, size_t block, size_t sweeps,
+    int failed)
+{
+    if (statistics != NULL) {
+        statistics->sweeps[block] += sweeps;
+        if (sweeps > statistics->most) {
+            statistics->most = sweeps;
+        }
+        if (failed) {
+            statistics->failed = block + 1;
+        }
     }
 }
 
+/* Add one matrix. */
 static void count_matrix(dipole_vcf_cf4_statistics *statistics)
 {
     if (statistics != NULL) {
@@ -330,45 +385,12 @@ static void count_matrix(dipole_vcf_cf4_statistics *statistics)
     }
 }
 
-/* What one step of a run leaves for the next: solutions of its equations, the latest first, and inverses of Newton's matrices. */
-struct memory {
-    size_t known;
-    double first; /* by how much the guess was off */
-    size_t degree, place;
-    double guess[12];
-    double values[32][12]; /* each twice: the last stand together */
-    double rate_1;
-    int made_1;
-    double inverse_1[144];
-};
-
-/* Backward differences by their order: the factors of the solutions, the latest first. */
-static const double differences[17][18] = {
-    {1},
-    {1, -1},
-    {1, -2, 1},
-    {1, -3, 3, -1},
-    {1, -4, 6, -4, 1},
-    {1, -5, 10, -10, 5, -1},
-    {1, -6, 15, -20, 15, -6, 1},
-    {1, -7, 21, -35, 35, -21, 7, -1},
-    {1, -8, 28, -56, 70, -56, 28, -8, 1},
-    {1, -9, 36, -84, 126, -126, 84, -36, 9, -1},
-    {1, -10, 45, -120, 210, -252, 210, -120, 45, -10, 1},
-    {1, -11, 55, -165, 330, -462, 462, -330, 165, -55, 11, -1},
-    {1, -12, 66, -220, 495, -792, 924, -792, 495, -220, 66, -12, 1},
-    {1, -13, 78, -286, 715, -1287, 1716, -1716, 1287, -715, 286, -78, 13, -1},
-    {1, -14, 91, -364, 1001, -2002, 3003, -3432, 3003, -2002, 1001, -364, 91, -14, 1},
-    {1, -15, 105, -455, 1365, -3003, 5005, -6435, 6435, -5005, 3003, -1365, 455, -105, 15, -1},
-    {1, -16, 120, -560, 1820, -4368, 8008, -11440, 12870, -11440, 8008, -4368, 1820, -560, 120, -16, 1},
-};
-
 /*
- * A backward difference, times sign, of an order without its first terms, which were of later solutions. The
- * latest is added last: the rest of the sum does not wait for it.
+ * A backward difference, times sign, of an order without its first terms, which were of later
+ * solutions. The latest is added last: the rest of the sum does not wait for it.
  */
-static inline void difference(const struct memory *memory, size_t order, size_t first, double sign,
-    double sum[static 12])
+static inline void difference(const struct memory *memory, size_t order, size_t first,
+    double sign, double sum[static 12])
 {
     double sum_0 = 0.0;
     double sum_1 = 0.0;
@@ -382,21 +404,23 @@ static inline void difference(const struct memory *memory, size_t order, size_t 
     double sum_9 = 0.0;
     double sum_10 = 0.0;
     double sum_11 = 0.0;
-    const double (*const values)[12] = memory->values + memory->place;
-    for (size_t k = (order - first) / 2 + 1; k-- > 0;) {
-        const double *f = differences[order] + first + 2 * k, *x = values[2 * k], *y = values[2 * k + 1];
-        sum_0 += sign * (f[0] * x[0] + f[1] * y[0]);
-        sum_1 += sign * (f[0] * x[1] + f[1] * y[1]);
-        sum_2 += sign * (f[0] * x[2] + f[1] * y[2]);
-        sum_3 += sign * (f[0] * x[3] + f[1] * y[3]);
-        sum_4 += sign * (f[0] * x[4] + f[1] * y[4]);
-        sum_5 += sign * (f[0] * x[5] + f[1] * y[5]);
-        sum_6 += sign * (f[0] * x[6] + f[1] * y[6]);
-        sum_7 += sign * (f[0] * x[7] + f[1] * y[7]);
-        sum_8 += sign * (f[0] * x[8] + f[1] * y[8]);
-        sum_9 += sign * (f[0] * x[9] + f[1] * y[9]);
-        sum_10 += sign * (f[0] * x[10] + f[1] * y[10]);
-        sum_11 += sign * (f[0] * x[11] + f[1] * y[11]);
+    for (size_t pair = (order - first) / 2 + 1; pair-- > 0;) {
+        const size_t row = memory->place + 2 * pair;
+        const size_t column = first + 2 * pair;
+        const double newer = differences[order][column];
+        const double older = differences[order][column + 1];
+        sum_0 += sign * (newer * memory->values[row][0] + older * memory->values[row + 1][0]);
+        sum_1 += sign * (newer * memory->values[row][1] + older * memory->values[row + 1][1]);
+        sum_2 += sign * (newer * memory->values[row][2] + older * memory->values[row + 1][2]);
+        sum_3 += sign * (newer * memory->values[row][3] + older * memory->values[row + 1][3]);
+        sum_4 += sign * (newer * memory->values[row][4] + older * memory->values[row + 1][4]);
+        sum_5 += sign * (newer * memory->values[row][5] + older * memory->values[row + 1][5]);
+        sum_6 += sign * (newer * memory->values[row][6] + older * memory->values[row + 1][6]);
+        sum_7 += sign * (newer * memory->values[row][7] + older * memory->values[row + 1][7]);
+        sum_8 += sign * (newer * memory->values[row][8] + older * memory->values[row + 1][8]);
+        sum_9 += sign * (newer * memory->values[row][9] + older * memory->values[row + 1][9]);
+        sum_10 += sign * (newer * memory->values[row][10] + older * memory->values[row + 1][10]);
+        sum_11 += sign * (newer * memory->values[row][11] + older * memory->values[row + 1][11]);
     }
     sum[0] = sum_0;
     sum[1] = sum_1;
@@ -413,20 +437,25 @@ static inline void difference(const struct memory *memory, size_t order, size_t 
 }
 
 /* The size of a backward difference. */
-static double size_of(const struct memory *memory, size_t order)
+static double difference_size(const struct memory *memory, size_t order)
 {
-    double sum[12], size = 0.0;
-    difference(memory, order, 0, 1.0, sum);
+    double row[12];
+    difference(memory, order, 0, 1.0, row);
+    double size = 0.0;
     for (size_t i = 0; i < 12; i++) {
-        size += fabs(sum[i]);
+        size += fabs(row[i]);
     }
     return size;
 }
 
-/* Take up a solution and guess the next: the polynomial through the last ones, continued by a step. */
+/*
+ * Store a solution and extrapolate the next one: the polynomial through the last solutions, evaluated
+ * one step later.
+ */
 static inline void remember(struct memory *memory, const double solution[static 12])
 {
-    if (memory->known > 2) { /* the guess was no mere copy */
+    /* the guess was no mere copy */
+    if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
         moved += fabs(solution[1] - memory->values[memory->place][1]);
@@ -441,40 +470,40 @@ static inline void remember(struct memory *memory, const double solution[static 
         moved += fabs(solution[10] - memory->values[memory->place][10]);
         moved += fabs(solution[11] - memory->values[memory->place][11]);
         if (memory->first > 0.5 * moved) {
-            memory->known = memory->degree = 0;
+            memory->known = 0;
+            memory->degree = 0;
         }
     }
     memory->first = 0.0;
     const size_t place = memory->place > 0 ? memory->place - 1 : 15;
     memory->place = place;
-    memory->values[place][0] = memory->values[place + 16][0] = solution[0];
-    memory->values[place][1] = memory->values[place + 16][1] = solution[1];
-    memory->values[place][2] = memory->values[place + 16][2] = solution[2];
-    memory->values[place][3] = memory->values[place + 16][3] = solution[3];
-    memory->values[place][4] = memory->values[place + 16][4] = solution[4];
-    memory->values[place][5] = memory->values[place + 16][5] = solution[5];
-    memory->values[place][6] = memory->values[place + 16][6] = solution[6];
-    memory->values[place][7] = memory->values[place + 16][7] = solution[7];
-    memory->values[place][8] = memory->values[place + 16][8] = solution[8];
-    memory->values[place][9] = memory->values[place + 16][9] = solution[9];
-    memory->values[place][10] = memory->values[place + 16][10] = solution[10];
-    memory->values[place][11] = memory->values[place + 16][11] = solution[11];
-    memory->known += memory->known < 16;
-    /* the degree grows while the differences fall: of many solutions it is looked at in every eighth step */
-    size_t degree = memory->degree;
-    if (memory->known < 16 || place % 8 == 0) {
-        const double size = size_of(memory, degree);
-        if (degree + 1 < memory->known && size_of(memory, degree + 1) < size) {
-            degree++;
-        } else if (degree > 0 && size > size_of(memory, degree - 1)) {
-            degree--;
-        }
-        memory->degree = degree;
+    memcpy(memory->values[place], solution, 12 * sizeof *solution);
+    memcpy(memory->values[place + 16], solution, 12 * sizeof *solution);
+    if (memory->known < 16) {
+        memory->known++;
     }
-    /* so that the next difference vanishes */
-    difference(memory, degree + 1, 1, -1.0, memory->guess);
+    /* the degree grows while differences fall; with many it is chosen once in 8 steps */
+    if (memory->known < 16 || place % 8 == 0) {
+        const double size = difference_size(memory, memory->degree);
+        int grows = 0;
+        if (memory->degree + 1 < memory->known) {
+            const double higher = difference_size(memory, memory->degree + 1);
+            grows = higher < size;
+        }
+        if (grows) {
+            memory->degree++;
+        } else if (memory->degree > 0) {
+            const double lower = difference_size(memory, memory->degree - 1);
+            if (size > lower) {
+                memory->degree--;
+            }
+        }
+    }
+    /* the next difference vanishes where this is the next solution */
+    difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 
+/* Make one step. */
 static inline int advance(double state[static 12], double h, struct memory *memory,
     dipole_vcf_cf4_statistics *statistics)
 {
@@ -552,13 +581,16 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double w131 = 0.08333333333333333 * h;
     const double w132 = -0.16666666666666666 * h;
     const double w133 = -0.25 * h;
-    /* the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: Newton's method in xi1_0, xi1_1, xi1_2, xi2_0, xi2_1, xi2_2, xi3_0, xi3_1, xi3_2, xi4_0, xi4_1, xi4_2 */
-    double s_p1_0_seen, s_p1_1_seen, s_p1_2_seen, d_xi1_0, d_xi1_1, d_xi1_2, d_xi2_0, d_xi2_1,
-        d_xi2_2, d_xi3_0, d_xi3_1, d_xi3_2, d_xi4_0, d_xi4_1, d_xi4_2;
+    /* the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: Newton's method, 12 unknowns */
     double previous_1 = 0.0;
     double rate_1 = memory->known > 0 ? memory->rate_1 : 1.0;
-    int make_1 = !memory->made_1;
-    for (size_t sweep = 1;; sweep++) {
+    int make_1 = !(memory->made_1 > 0);
+    size_t sweep = 0;
+    int status = DIPOLE_VCF_CF4_NOT_CONVERGED;
+    double s_p1_0_seen, s_p1_1_seen, s_p1_2_seen, d_xi1_0, d_xi1_1, d_xi1_2, d_xi2_0, d_xi2_1,
+        d_xi2_2, d_xi3_0, d_xi3_1, d_xi3_2, d_xi4_0, d_xi4_1, d_xi4_2;
+    do {
+        sweep++;
         const double xE2_1_1 = xi1_1 * w2;
         const double xE2_1_0 = xi1_0 * w2;
         const double xE2_1_2 = xi1_2 * w2;
@@ -1054,95 +1086,87 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             memory->inverse_1[141] = -h * (xi3_1 + w161 + w178);
             memory->inverse_1[142] = -h * (w171 + w225 + w179);
             memory->inverse_1[143] = 0.01;
-            double row_1[12];
-            size_t order_1[12];
-            memory->made_1 = invert(12, memory->inverse_1, row_1, order_1);
-            if (!memory->made_1) {
-                count_sweeps(statistics, 0, sweep, 1);
-                return DIPOLE_VCF_CF4_NOT_CONVERGED;
+            memory->made_1 = invert(12, memory->inverse_1);
+            if (memory->made_1 > 0) {
+                count_matrix(statistics);
             }
-            count_matrix(statistics);
         }
-        d_xi1_0 = (memory->inverse_1[0] * residual_0 + memory->inverse_1[1] * residual_1)
+        d_xi1_0 = memory->inverse_1[0] * residual_0 + memory->inverse_1[1] * residual_1
             + (memory->inverse_1[2] * residual_2 + memory->inverse_1[3] * residual_2_0)
             + (memory->inverse_1[4] * residual_2_1 + memory->inverse_1[5] * residual_2_2)
             + (memory->inverse_1[6] * residual_3_0 + memory->inverse_1[7] * residual_3_1)
             + (memory->inverse_1[8] * residual_3_2 + memory->inverse_1[9] * residual_4_0)
             + (memory->inverse_1[10] * residual_4_1 + memory->inverse_1[11] * residual_4_2);
-        d_xi1_1 = (memory->inverse_1[12] * residual_0 + memory->inverse_1[13] * residual_1)
+        d_xi1_1 = memory->inverse_1[12] * residual_0 + memory->inverse_1[13] * residual_1
             + (memory->inverse_1[14] * residual_2 + memory->inverse_1[15] * residual_2_0)
             + (memory->inverse_1[16] * residual_2_1 + memory->inverse_1[17] * residual_2_2)
             + (memory->inverse_1[18] * residual_3_0 + memory->inverse_1[19] * residual_3_1)
             + (memory->inverse_1[20] * residual_3_2 + memory->inverse_1[21] * residual_4_0)
             + (memory->inverse_1[22] * residual_4_1 + memory->inverse_1[23] * residual_4_2);
-        d_xi1_2 = (memory->inverse_1[24] * residual_0 + memory->inverse_1[25] * residual_1)
+        d_xi1_2 = memory->inverse_1[24] * residual_0 + memory->inverse_1[25] * residual_1
             + (memory->inverse_1[26] * residual_2 + memory->inverse_1[27] * residual_2_0)
             + (memory->inverse_1[28] * residual_2_1 + memory->inverse_1[29] * residual_2_2)
             + (memory->inverse_1[30] * residual_3_0 + memory->inverse_1[31] * residual_3_1)
             + (memory->inverse_1[32] * residual_3_2 + memory->inverse_1[33] * residual_4_0)
             + (memory->inverse_1[34] * residual_4_1 + memory->inverse_1[35] * residual_4_2);
-        d_xi2_0 = (memory->inverse_1[36] * residual_0 + memory->inverse_1[37] * residual_1)
+        d_xi2_0 = memory->inverse_1[36] * residual_0 + memory->inverse_1[37] * residual_1
             + (memory->inverse_1[38] * residual_2 + memory->inverse_1[39] * residual_2_0)
             + (memory->inverse_1[40] * residual_2_1 + memory->inverse_1[41] * residual_2_2)
             + (memory->inverse_1[42] * residual_3_0 + memory->inverse_1[43] * residual_3_1)
             + (memory->inverse_1[44] * residual_3_2 + memory->inverse_1[45] * residual_4_0)
             + (memory->inverse_1[46] * residual_4_1 + memory->inverse_1[47] * residual_4_2);
-        d_xi2_1 = (memory->inverse_1[48] * residual_0 + memory->inverse_1[49] * residual_1)
+        d_xi2_1 = memory->inverse_1[48] * residual_0 + memory->inverse_1[49] * residual_1
             + (memory->inverse_1[50] * residual_2 + memory->inverse_1[51] * residual_2_0)
             + (memory->inverse_1[52] * residual_2_1 + memory->inverse_1[53] * residual_2_2)
             + (memory->inverse_1[54] * residual_3_0 + memory->inverse_1[55] * residual_3_1)
             + (memory->inverse_1[56] * residual_3_2 + memory->inverse_1[57] * residual_4_0)
             + (memory->inverse_1[58] * residual_4_1 + memory->inverse_1[59] * residual_4_2);
-        d_xi2_2 = (memory->inverse_1[60] * residual_0 + memory->inverse_1[61] * residual_1)
+        d_xi2_2 = memory->inverse_1[60] * residual_0 + memory->inverse_1[61] * residual_1
             + (memory->inverse_1[62] * residual_2 + memory->inverse_1[63] * residual_2_0)
             + (memory->inverse_1[64] * residual_2_1 + memory->inverse_1[65] * residual_2_2)
             + (memory->inverse_1[66] * residual_3_0 + memory->inverse_1[67] * residual_3_1)
             + (memory->inverse_1[68] * residual_3_2 + memory->inverse_1[69] * residual_4_0)
             + (memory->inverse_1[70] * residual_4_1 + memory->inverse_1[71] * residual_4_2);
-        d_xi3_0 = (memory->inverse_1[72] * residual_0 + memory->inverse_1[73] * residual_1)
+        d_xi3_0 = memory->inverse_1[72] * residual_0 + memory->inverse_1[73] * residual_1
             + (memory->inverse_1[74] * residual_2 + memory->inverse_1[75] * residual_2_0)
             + (memory->inverse_1[76] * residual_2_1 + memory->inverse_1[77] * residual_2_2)
             + (memory->inverse_1[78] * residual_3_0 + memory->inverse_1[79] * residual_3_1)
             + (memory->inverse_1[80] * residual_3_2 + memory->inverse_1[81] * residual_4_0)
             + (memory->inverse_1[82] * residual_4_1 + memory->inverse_1[83] * residual_4_2);
-        d_xi3_1 = (memory->inverse_1[84] * residual_0 + memory->inverse_1[85] * residual_1)
+        d_xi3_1 = memory->inverse_1[84] * residual_0 + memory->inverse_1[85] * residual_1
             + (memory->inverse_1[86] * residual_2 + memory->inverse_1[87] * residual_2_0)
             + (memory->inverse_1[88] * residual_2_1 + memory->inverse_1[89] * residual_2_2)
             + (memory->inverse_1[90] * residual_3_0 + memory->inverse_1[91] * residual_3_1)
             + (memory->inverse_1[92] * residual_3_2 + memory->inverse_1[93] * residual_4_0)
             + (memory->inverse_1[94] * residual_4_1 + memory->inverse_1[95] * residual_4_2);
-        d_xi3_2 = (memory->inverse_1[96] * residual_0 + memory->inverse_1[97] * residual_1)
+        d_xi3_2 = memory->inverse_1[96] * residual_0 + memory->inverse_1[97] * residual_1
             + (memory->inverse_1[98] * residual_2 + memory->inverse_1[99] * residual_2_0)
             + (memory->inverse_1[100] * residual_2_1 + memory->inverse_1[101] * residual_2_2)
             + (memory->inverse_1[102] * residual_3_0 + memory->inverse_1[103] * residual_3_1)
             + (memory->inverse_1[104] * residual_3_2 + memory->inverse_1[105] * residual_4_0)
             + (memory->inverse_1[106] * residual_4_1 + memory->inverse_1[107] * residual_4_2);
-        d_xi4_0 = (memory->inverse_1[108] * residual_0 + memory->inverse_1[109] * residual_1)
+        d_xi4_0 = memory->inverse_1[108] * residual_0 + memory->inverse_1[109] * residual_1
             + (memory->inverse_1[110] * residual_2 + memory->inverse_1[111] * residual_2_0)
             + (memory->inverse_1[112] * residual_2_1 + memory->inverse_1[113] * residual_2_2)
             + (memory->inverse_1[114] * residual_3_0 + memory->inverse_1[115] * residual_3_1)
             + (memory->inverse_1[116] * residual_3_2 + memory->inverse_1[117] * residual_4_0)
             + (memory->inverse_1[118] * residual_4_1 + memory->inverse_1[119] * residual_4_2);
-        d_xi4_1 = (memory->inverse_1[120] * residual_0 + memory->inverse_1[121] * residual_1)
+        d_xi4_1 = memory->inverse_1[120] * residual_0 + memory->inverse_1[121] * residual_1
             + (memory->inverse_1[122] * residual_2 + memory->inverse_1[123] * residual_2_0)
             + (memory->inverse_1[124] * residual_2_1 + memory->inverse_1[125] * residual_2_2)
             + (memory->inverse_1[126] * residual_3_0 + memory->inverse_1[127] * residual_3_1)
             + (memory->inverse_1[128] * residual_3_2 + memory->inverse_1[129] * residual_4_0)
             + (memory->inverse_1[130] * residual_4_1 + memory->inverse_1[131] * residual_4_2);
-        d_xi4_2 = (memory->inverse_1[132] * residual_0 + memory->inverse_1[133] * residual_1)
+        d_xi4_2 = memory->inverse_1[132] * residual_0 + memory->inverse_1[133] * residual_1
             + (memory->inverse_1[134] * residual_2 + memory->inverse_1[135] * residual_2_0)
             + (memory->inverse_1[136] * residual_2_1 + memory->inverse_1[137] * residual_2_2)
             + (memory->inverse_1[138] * residual_3_0 + memory->inverse_1[139] * residual_3_1)
             + (memory->inverse_1[140] * residual_3_2 + memory->inverse_1[141] * residual_4_0)
             + (memory->inverse_1[142] * residual_4_1 + memory->inverse_1[143] * residual_4_2);
-        const double change = (fabs(d_xi1_0) + fabs(d_xi1_1)) + (fabs(d_xi1_2) + fabs(d_xi2_0))
+        const double change = fabs(d_xi1_0) + fabs(d_xi1_1) + (fabs(d_xi1_2) + fabs(d_xi2_0))
             + (fabs(d_xi2_1) + fabs(d_xi2_2)) + (fabs(d_xi3_0) + fabs(d_xi3_1))
             + (fabs(d_xi3_2) + fabs(d_xi4_0)) + (fabs(d_xi4_1) + fabs(d_xi4_2));
-        if (!isfinite(change)) {
-            count_sweeps(statistics, 0, sweep, 1);
-            return DIPOLE_VCF_CF4_NOT_FINITE;
-        }
-        const double scale = (fabs(xi1_0) + fabs(xi1_1)) + (fabs(xi1_2) + fabs(xi2_0))
+        const double scale = fabs(xi1_0) + fabs(xi1_1) + (fabs(xi1_2) + fabs(xi2_0))
             + (fabs(xi2_1) + fabs(xi2_2)) + (fabs(xi3_0) + fabs(xi3_1))
             + (fabs(xi3_2) + fabs(xi4_0)) + (fabs(xi4_1) + fabs(xi4_2));
         xi1_0 += d_xi1_0;
@@ -1163,21 +1187,21 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             memory->first += change;
         }
         const int contracts = rate_1 < 0.5;
-        if (contracts ? change * (rate_1 + 0.0001220703125) <= 8.881784197001252e-16 * scale
-                      : sweep > 1 && (change <= 5.684341886080802e-14 * scale
-                          || (change * fabs(h) <= 7.105427357601002e-15 * largest(state, 9)
-                              && change * fabs(h) <= 7.105427357601002e-15 * largest(state + 9, 3)))) {
-            memory->rate_1 = rate_1;
-            count_sweeps(statistics, 0, sweep, 0);
-            break;
-        }
-        if (sweep == 100) {
-            count_sweeps(statistics, 0, sweep, 1);
-            return DIPOLE_VCF_CF4_NOT_CONVERGED;
-        }
+        const int settled = contracts
+            ? change * (rate_1 + 0.0001220703125) <= 8.881784197001252e-16 * scale : sweep > 1
+            && (5.684341886080802e-14 * scale >= change
+            || (change * fabs(h) <= 7.105427357601002e-15 * largest(state, 9)
+            && change * fabs(h) <= 7.105427357601002e-15 * largest(state + 9, 3)));
+        status = isfinite(change) ? (memory->made_1 > 0 && settled ? DIPOLE_VCF_CF4_OK
+            : DIPOLE_VCF_CF4_NOT_CONVERGED) : DIPOLE_VCF_CF4_NOT_FINITE;
         make_1 = 0;
         previous_1 = change;
+    } while (status == DIPOLE_VCF_CF4_NOT_CONVERGED && sweep < 100 && !!(memory->made_1 > 0));
+    count_sweeps(statistics, 0, sweep, status != DIPOLE_VCF_CF4_OK);
+    if (status != DIPOLE_VCF_CF4_OK) {
+        return status;
     }
+    memory->rate_1 = rate_1;
     const double solution[12] = {xi1_0, xi1_1, xi1_2, xi2_0, xi2_1, xi2_2, xi3_0, xi3_1, xi3_2,
         xi4_0, xi4_1, xi4_2};
     remember(memory, solution);
@@ -1290,14 +1314,12 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double new_mu2 = w277 + d_xi3_0 * w278 + d_xi3_1 * w279 + d_xi4_0 * w280
         + d_xi4_1 * w281;
     /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
-    if (!isfinite((new_g00 + new_g01) + (new_g02 + new_g10) + (new_g11 + new_g12)
-        + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2))
-        && !(((new_g00 - new_g00) + (new_g01 - new_g01))
-        + ((new_g02 - new_g02) + (new_g10 - new_g10))
-        + ((new_g11 - new_g11) + (new_g12 - new_g12))
-        + ((new_g20 - new_g20) + (new_g21 - new_g21))
-        + ((new_g22 - new_g22) + (new_mu0 - new_mu0))
-        + ((new_mu1 - new_mu1) + (new_mu2 - new_mu2)) == 0.0)) {
+    if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
+        + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
+        - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
+        + (new_g11 - new_g11 + (new_g12 - new_g12)) + (new_g20 - new_g20 + (new_g21 - new_g21))
+        + (new_g22 - new_g22 + (new_mu0 - new_mu0)) + (new_mu1 - new_mu1 + (new_mu2 - new_mu2))
+        == 0.0)) {
         return DIPOLE_VCF_CF4_NOT_FINITE;
     }
     memory->made_1 = memory->made_1 % 6 > 0 ? memory->made_1 + 1 : 0;
@@ -1317,61 +1339,61 @@ static inline int advance(double state[static 12], double h, struct memory *memo
 }
 
 /*
- * Make a step whose equations do not settle: without the solutions before, which may mislead where the motion
- * changes; then for a shorter step, whose solution is continued in h as far at a time as it can be followed.
- * It is the one that tends to the motion as h tends to zero. A step of no length changes nothing.
+ * Make a step whose equations do not settle: without the earlier solutions, which may mislead where
+ * the motion changes; then through shorter ones, whose solutions are continued in h.
  */
 static int continued(double state[static 12], double h, struct memory *memory,
     dipole_vcf_cf4_statistics *statistics)
 {
-    double guess[12] = {0.0};
-    double solved = 0.0, part = 1.0, factor = 2.0;
-    int failure = DIPOLE_VCF_CF4_NOT_CONVERGED;
     if (!(h < 0.0 || h > 0.0)) {
-        for (size_t i = 0; i < 12; i++) {
-            if (!isfinite(state[i])) {
-                return DIPOLE_VCF_CF4_NOT_FINITE;
-            }
-        }
-        return DIPOLE_VCF_CF4_OK;
+        return all_finite(state, 12) ? DIPOLE_VCF_CF4_OK : DIPOLE_VCF_CF4_NOT_FINITE;
     }
-    for (int tries = 0; tries < 100 && factor > 1.00390625; tries++) {
-        double trial[12];
+    double known_solution[12] = {0.0};
+    double trial[12];
+    double solved = 0.0;
+    double part = 1.0;
+    double factor = 2.0;
+    int failure = DIPOLE_VCF_CF4_NOT_CONVERGED;
+    int done = 0;
+    size_t tries = 0;
+    while (!done && tries < 100 && factor > 1.00390625) {
         memcpy(trial, state, sizeof trial);
         memset(memory, 0, sizeof *memory);
         if (solved > 0.0) {
             memory->known = 1;
-            memcpy(memory->guess, guess, sizeof guess);
+            memcpy(memory->guess, known_solution, sizeof known_solution);
             memory->rate_1 = 1.0;
         }
         const int status = advance(trial, part * h, memory, statistics);
-        if (status == DIPOLE_VCF_CF4_OK && part >= 1.0) {
-            memcpy(state, trial, sizeof trial);
-            memory->known = 1; /* the solutions before it are those of shorter steps */
-            if (statistics != NULL) {
-                statistics->failed = 0;
-            }
-            return status;
-        }
+        done = status == DIPOLE_VCF_CF4_OK && part >= 1.0;
         if (status == DIPOLE_VCF_CF4_OK) {
-            for (size_t i = 0; i < 12; i++) {
-                guess[i] = memory->values[memory->place][i];
-            }
+            memcpy(known_solution, memory->values[memory->place], sizeof known_solution);
             solved = part;
             factor *= factor;
         } else {
             failure = status;
             factor = solved > 0.0 ? sqrt(factor) : factor;
         }
-        factor = factor < 4.0 ? factor : 4.0;
-        part = solved > 0.0 ? solved * factor : 0.5 * part;
-        part = part < 1.0 ? part : 1.0;
+        if (!done) {
+            factor = factor < 4.0 ? factor : 4.0;
+            part = solved > 0.0 ? solved * factor : 0.5 * part;
+            part = part < 1.0 ? part : 1.0;
+        }
+        tries++;
     }
-    return failure;
+    if (!done) {
+        return failure;
+    }
+    memcpy(state, trial, sizeof trial);
+    memory->known = 1;
+    if (statistics != NULL) {
+        statistics->failed = 0;
+    }
+    return DIPOLE_VCF_CF4_OK;
 }
 
-/* The momentum that steps are made with, of a state. */
-static inline void inward(const double state[static 12], double momentum[static 3])
+/* Convert space momentum to body momentum. */
+static inline void to_body(const double state[static 12], double momentum[static 3])
 {
     const double g00 = state[0];
     const double g01 = state[1];
@@ -1390,8 +1412,8 @@ static inline void inward(const double state[static 12], double momentum[static 
     momentum[2] = g02 * mu0 + g12 * mu1 + g22 * mu2;
 }
 
-/* The momentum in space, of a state with the other. */
-static inline void outward(const double state[static 12], double momentum[static 3])
+/* Convert body momentum to space momentum. */
+static inline void to_space(const double state[static 12], double momentum[static 3])
 {
     const double g00 = state[0];
     const double g01 = state[1];
@@ -1410,31 +1432,29 @@ static inline void outward(const double state[static 12], double momentum[static
     momentum[2] = g20 * mu0 + g21 * mu1 + g22 * mu2;
 }
 
-/* Begin: make moving the state with that momentum, and before what this is in space. */
-static void enter(const double state[static 12], double moving[static 12],
+/* Begin: the state with body momentum, and what this momentum is in space. */
+static void enter_body(const double state[static 12], double moving[static 12],
     double before[static 3])
 {
+    to_body(state, before);
     memcpy(moving, state, 9 * sizeof *state);
-    inward(state, moving + 9);
-    outward(moving, before);
+    memcpy(moving + 9, before, 3 * sizeof *before);
+    to_space(moving, before);
 }
 
-/*
- * End: change the state to what moving is. What its momentum has gained in space is added to that of the state:
- * where rounding has made q not quite orthogonal, it turns that alone.
- */
-static int leave(const double moving[static 12], const double before[static 3],
+/* End: change the state to the moving one; its space momentum is increased by the gain since before. */
+static int leave_body(const double moving[static 12], const double before[static 3],
     double state[static 12])
 {
     double momentum[3];
-    outward(moving, momentum);
-    for (int i = 0; i < 3; i++) {
-        momentum[i] = state[9 + i] + (momentum[i] - before[i]);
-        if (!isfinite(momentum[i])) {
-            return DIPOLE_VCF_CF4_NOT_FINITE;
-        }
+    to_space(moving, momentum);
+    for (size_t i = 0; i < 3; i++) {
+        momentum[i] = state[i + 9] + (momentum[i] - before[i]);
     }
-    memcpy(state, moving, 9 * sizeof *state);
+    if (!all_finite(momentum, 3)) {
+        return DIPOLE_VCF_CF4_NOT_FINITE;
+    }
+    memcpy(state, moving, 9 * sizeof *moving);
     memcpy(state + 9, momentum, sizeof momentum);
     return DIPOLE_VCF_CF4_OK;
 }
@@ -1442,14 +1462,18 @@ static int leave(const double moving[static 12], const double before[static 3],
 int dipole_vcf_cf4_step(double state[static 12], double h,
     dipole_vcf_cf4_statistics *statistics)
 {
-    double moving[12], before[3];
-    enter(state, moving, before);
+    double moving[12];
+    double before[3];
+    enter_body(state, moving, before);
     struct memory memory = {0};
     int status = advance(moving, h, &memory, statistics);
     if (status == DIPOLE_VCF_CF4_NOT_CONVERGED || status == DIPOLE_VCF_CF4_NOT_FINITE) {
         status = continued(moving, h, &memory, statistics);
     }
-    return status == DIPOLE_VCF_CF4_OK ? leave(moving, before, state) : status;
+    if (status == DIPOLE_VCF_CF4_OK) {
+        status = leave_body(moving, before, state);
+    }
+    return status;
 }
 
 int dipole_vcf_cf4_run(double state[static 12], double h, size_t steps, double *trajectory,
@@ -1458,33 +1482,34 @@ int dipole_vcf_cf4_run(double state[static 12], double h, size_t steps, double *
     int status = DIPOLE_VCF_CF4_OK;
     size_t step = 0;
     struct memory memory = {0};
-    double *row = stride > 0 ? trajectory : NULL;
-    if (row != NULL) {
-        memcpy(row, state, 12 * sizeof *state);
+    const int recording = stride > 0 && trajectory != NULL;
+    size_t row = 0;
+    if (recording) {
+        memcpy(trajectory, state, 12 * sizeof *state);
     }
-    double moving[12], before[3];
-    enter(state, moving, before);
-    while (step < steps) {
+    double moving[12];
+    double before[3];
+    enter_body(state, moving, before);
+    while (status == DIPOLE_VCF_CF4_OK && step < steps) {
         status = advance(moving, h, &memory, statistics);
         if (status == DIPOLE_VCF_CF4_NOT_CONVERGED || status == DIPOLE_VCF_CF4_NOT_FINITE) {
             status = continued(moving, h, &memory, statistics);
         }
-        if (status != DIPOLE_VCF_CF4_OK) {
-            break;
-        }
-        step++;
-        if (row != NULL && step % stride == 0) {
-            row += 12;
-            memcpy(row, state, 12 * sizeof *state);
-            status = leave(moving, before, row);
-            if (status != DIPOLE_VCF_CF4_OK) {
-                break;
+        if (status == DIPOLE_VCF_CF4_OK) {
+            step++;
+            if (recording && step % stride == 0) {
+                row++;
+                memcpy(trajectory + 12 * row, state, 12 * sizeof *state);
+                status = leave_body(moving, before, trajectory + 12 * row);
             }
         }
     }
-    if (step > 0 && leave(moving, before, state) != DIPOLE_VCF_CF4_OK) { /* finite in the body alone */
-        status = DIPOLE_VCF_CF4_NOT_FINITE;
-        step = 0;
+    if (step > 0) {
+        const int ended = leave_body(moving, before, state);
+        if (ended != DIPOLE_VCF_CF4_OK) {
+            status = DIPOLE_VCF_CF4_NOT_FINITE;
+            step = 0;
+        }
     }
     if (completed != NULL) {
         *completed = step;

@@ -1,4 +1,4 @@
-/* Dipole on a stick, T*SO(3) (thesis section 3.6): one step by vcf:cf4: functions and status codes. dipole_vcf_cf4.c tells how to use them. */
+/* Dipole on a stick, T*SO(3) (thesis section 3.6): one step by vcf:cf4: functions and status codes. dipole_vcf_cf4.c has an example. */
 #ifndef DIPOLE_VCF_CF4_H
 #define DIPOLE_VCF_CF4_H
 
@@ -10,7 +10,7 @@ extern "C" {
 
 enum {
     DIPOLE_VCF_CF4_OK = 0, /* the step was made */
-    DIPOLE_VCF_CF4_NOT_CONVERGED = 1, /* an implicit block did not settle */
+    DIPOLE_VCF_CF4_NOT_CONVERGED = 1, /* an implicit block did not converge */
     DIPOLE_VCF_CF4_NOT_FINITE = 2, /* the new state would hold an infinity or a NaN */
     DIPOLE_VCF_CF4_BAD_STEP = 3 /* h is infinite or a NaN */
 };
@@ -20,10 +20,10 @@ typedef struct {
     size_t sweeps[1]; /* by block: the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4 */
     size_t most; /* the most that one block took in one step */
     size_t failed; /* 1 + the block that failed, 0 if none has */
-    size_t matrices; /* how often a matrix of Newton's method was made */
+    size_t matrices; /* how often a matrix of Newton's method was computed */
 } dipole_vcf_cf4_statistics;
 
-/* Make one step of size h. When the status is not DIPOLE_VCF_CF4_OK, the state is as it was. */
+/* Make one step of size h. When the status is not DIPOLE_VCF_CF4_OK, the state is unchanged. */
 int dipole_vcf_cf4_step(double state[12], double h, dipole_vcf_cf4_statistics *statistics);
 
 /*

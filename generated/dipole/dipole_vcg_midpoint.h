@@ -1,4 +1,4 @@
-/* Dipole on a stick, T*SO(3) (thesis section 3.6): one step by vcg:midpoint: functions and status codes. dipole_vcg_midpoint.c tells how to use them. */
+/* Dipole on a stick, T*SO(3) (thesis section 3.6): one step by vcg:midpoint: functions and status codes. dipole_vcg_midpoint.c has an example. */
 #ifndef DIPOLE_VCG_MIDPOINT_H
 #define DIPOLE_VCG_MIDPOINT_H
 
@@ -10,7 +10,7 @@ extern "C" {
 
 enum {
     DIPOLE_VCG_MIDPOINT_OK = 0, /* the step was made */
-    DIPOLE_VCG_MIDPOINT_NOT_CONVERGED = 1, /* an implicit block did not settle */
+    DIPOLE_VCG_MIDPOINT_NOT_CONVERGED = 1, /* an implicit block did not converge */
     DIPOLE_VCG_MIDPOINT_NOT_FINITE = 2, /* the new state would hold an infinity or a NaN */
     DIPOLE_VCG_MIDPOINT_BAD_STEP = 3 /* h is infinite or a NaN */
 };
@@ -20,10 +20,10 @@ typedef struct {
     size_t sweeps[1]; /* by block: the equations of xi1, n1 */
     size_t most; /* the most that one block took in one step */
     size_t failed; /* 1 + the block that failed, 0 if none has */
-    size_t matrices; /* how often a matrix of Newton's method was made */
+    size_t matrices; /* how often a matrix of Newton's method was computed */
 } dipole_vcg_midpoint_statistics;
 
-/* Make one step of size h. When the status is not DIPOLE_VCG_MIDPOINT_OK, the state is as it was. */
+/* Make one step of size h. When the status is not DIPOLE_VCG_MIDPOINT_OK, the state is unchanged. */
 int dipole_vcg_midpoint_step(double state[12], double h,
     dipole_vcg_midpoint_statistics *statistics);
 

@@ -1,4 +1,4 @@
-/* Dipole on a stick, T*SO(3) (thesis section 3.6): one step by vrkmk(2):gauss2: functions and status codes. dipole_vrkmk2_gauss2.c tells how to use them. */
+/* Dipole on a stick, T*SO(3) (thesis section 3.6): one step by vrkmk(2):gauss2: functions and status codes. dipole_vrkmk2_gauss2.c has an example. */
 #ifndef DIPOLE_VRKMK2_GAUSS2_H
 #define DIPOLE_VRKMK2_GAUSS2_H
 
@@ -10,7 +10,7 @@ extern "C" {
 
 enum {
     DIPOLE_VRKMK2_GAUSS2_OK = 0, /* the step was made */
-    DIPOLE_VRKMK2_GAUSS2_NOT_CONVERGED = 1, /* an implicit block did not settle */
+    DIPOLE_VRKMK2_GAUSS2_NOT_CONVERGED = 1, /* an implicit block did not converge */
     DIPOLE_VRKMK2_GAUSS2_NOT_FINITE = 2, /* the new state would hold an infinity or a NaN */
     DIPOLE_VRKMK2_GAUSS2_BAD_STEP = 3 /* h is infinite or a NaN */
 };
@@ -20,10 +20,10 @@ typedef struct {
     size_t sweeps[1]; /* by block: the equations of v1, v2, m1, m2 */
     size_t most; /* the most that one block took in one step */
     size_t failed; /* 1 + the block that failed, 0 if none has */
-    size_t matrices; /* how often a matrix of Newton's method was made */
+    size_t matrices; /* how often a matrix of Newton's method was computed */
 } dipole_vrkmk2_gauss2_statistics;
 
-/* Make one step of size h. When the status is not DIPOLE_VRKMK2_GAUSS2_OK, the state is as it was. */
+/* Make one step of size h. When the status is not DIPOLE_VRKMK2_GAUSS2_OK, the state is unchanged. */
 int dipole_vrkmk2_gauss2_step(double state[12], double h,
     dipole_vrkmk2_gauss2_statistics *statistics);
 

@@ -6,10 +6,10 @@ source:     Hammer and Hollingsworth 1955; Hairer, Lubich and Wanner, Table II.1
 order:      4, certificate: exact (every order condition up to it is zero in exact
             arithmetic)
 scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
-solved by:  the equations of v1, v2, m1, m2: Newton's method, 6 unknowns (2.0 sweeps
-            of 769 operations and 0.05 matrices of 552 (in C: 0.33) a step; fixed
-            point: 3.2 sweeps of 845 operations; Newton's method with the matrix to
-            first order in h: 2.1 sweeps of 911 operations and 1.00 matrices of 667)
+solved by:  the equations of v1, v2, m1, m2: Newton's method, 6 unknowns (1.7 sweeps
+            of 769 operations and 0.35 matrices of 552 a step; fixed point: 3.2
+            sweeps of 845 operations; Newton's method with the matrix to first order
+            in h: 2.1 sweeps of 911 operations and 1.00 matrices of 667)
 state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
 left out:   7 dexpt, 1 lin (sharing)
@@ -43,7 +43,7 @@ Use:
     print(dipole_vrkmk2_gauss2.run(state, 0.005, 100))
 """
 
-from math import comb, cos, fabs, isfinite, sin, sqrt
+from math import cos, fabs, isfinite, nan, sin, sqrt
 
 OK = 0
 NOT_CONVERGED = 1
@@ -58,101 +58,53 @@ class StepFailed(ArithmeticError):
     state: the last good state, as a tuple.
     """
 
-    def __init__(self, status, reason):
+    def __init__(self, status, reason, step, state):
         super().__init__(reason)
-        self.status, self.reason, self.step, self.state = status, reason, 0, ()
+        self.status, self.reason, self.step, self.state = status, reason, step, state
 
     def __str__(self):
         return f"step {self.step + 1}: {self.reason}"
 
 
 class Statistics:
-    """Sweeps over the equations, added up over all steps that are given this object.
-
-    sweeps: by block; most: the most that one block took in one step; failed: 1 + the
-    block that failed, 0 if none has; matrices: how often a matrix of Newton's method
-    was made.
+    """Sweeps over the equations, added up over all steps since the caller set
+    everything to zero.
     """
+
+    def __init__(self):
+        self.clear()
+
+    def clear(self):
+        """Set all fields to zero."""
+        self.sweeps = [0] * 1  # by block: the equations of v1, v2, m1, m2
+        self.most = 0  # the most that one block took in one step
+        self.failed = 0  # 1 + the block that failed, 0 if none has
+        self.matrices = 0  # how often a matrix of Newton's method was computed
 
     labels = [
         "the equations of v1, v2, m1, m2",
     ]
 
-    def __init__(self):
-        self.sweeps, self.most, self.failed = [0] * 1, 0, 0
-        self.matrices = 0
-
-    def count(self, block, sweeps):
-        """Add the sweeps of one block in one step."""
-        self.sweeps[block] += sweeps
-        self.most = max(self.most, sweeps)
-
-
-def _failed(status, label, block, sweep, statistics):
-    """Return the failure of a block, noted in the statistics."""
-    if statistics is not None:
-        statistics.count(block, sweep)
-        statistics.failed = block + 1
-    reason = "met a number that is not finite" if status == NOT_FINITE else "did not converge"
-    return StepFailed(status, f"{label} {reason} after {sweep} sweeps")
-
 
 class _Memory:
-    """What one step of a run leaves for the next.
-
-    past: the last solutions of its equations, the latest first; count: of all;
-    guess: the polynomial through the last solutions, continued by a step; inverses: of Newton's
-    matrices, by block.
+    """What one step of a run leaves for the next: solutions of its equations, the
+    latest first, and inverses of Newton's matrices.
     """
 
     def __init__(self):
-        self.past, self.guess, self.degree, self.count = [], [], 0, 0
-        self.first = 0.0
-        self.rates = [1.0] * 1
-        self.inverses = [None] * 1
+        self.clear()
 
-    def keep(self, found):
-        """Add a solution; alone where the one before it was expected too far off."""
-        if len(self.past) > 2:
-            moved = _size(x - y for x, y in zip(found, self.past[0]))
-            if self.first > 0.5 * moved:
-                self.past, self.degree = [], 0
-        self.first = 0.0
-        self.past = [found, *self.past[:15]]
-        self.count += 1
-        if len(self.past) < 16 or self.count % 16 % 8 == 0:
-            self.choose()
-        self.guess = [-x for x in self.difference(self.degree + 1, 1)]
-
-    def choose(self):
-        """Let the degree grow while differences fall; of many, they are seldom looked at."""
-        k, size = self.degree, _size(self.difference(self.degree, 0))
-        if k + 1 < len(self.past) and _size(self.difference(k + 1, 0)) < size:
-            self.degree = k + 1
-        elif k > 0 and size > _size(self.difference(k - 1, 0)):
-            self.degree = k - 1
-
-    def difference(self, order, first):
-        """Return a backward difference without its first terms, which were of later solutions.
-
-        The latest is added last.
-        """
-        rows = range(first, order + 1)
-        factors = [float((-1) ** j * comb(order, j)) for j in rows]
-        terms = [[f * x for x in row] for f, row in zip(factors, self.past)]
-        pairs = [[x + y for x, y in zip(*pair)] for pair in zip(terms[::2], terms[1::2])]
-        total, *rest = (terms[-1:] if len(terms) % 2 else []) + pairs[::-1]
-        for pair in rest:
-            total = [x + y for x, y in zip(total, pair)]
-        return total
-
-
-def _size(row):
-    """Return the sum of absolute values, added one by one."""
-    total = 0.0
-    for x in row:
-        total += abs(x)
-    return total
+    def clear(self):
+        """Set all fields to zero."""
+        self.known = 0  # how many solutions there are
+        self.first = 0.0  # by how much the last guess was off
+        self.degree = 0  # of the polynomial
+        self.place = 0  # of the latest solution
+        self.guess = [0.0] * 6  # the polynomial, continued by a step
+        self.values = [[0.0] * 6 for _ in range(32)]
+        self.rate_1 = 0.0
+        self.made_1 = 0  # for how many steps the inverse has served, 0: there is none
+        self.inverse_1 = [0.0] * 36
 
 
 def _stumpff_tiny_3(z):
@@ -251,6 +203,7 @@ def _stumpff_23_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 1.0:
         return _stumpff_series_2(z), _stumpff_series_3(z)
+    # the answer is no number where the angle is so large that it has no correct digit
     half = 0.5 * sqrt(z if z <= 4398046511104.0 else float("nan"))
     ratio = sin(half) / half
     c3 = _stumpff_series_3(z) if z <= 4.0 else (1.0 - ratio * cos(half)) / z
@@ -270,6 +223,7 @@ def _stumpff_12_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z)
+    # the answer is no number where the angle is so large that it has no correct digit
     half = 0.5 * sqrt(z if z <= 4398046511104.0 else float("nan"))
     ratio = sin(half) / half
     return ratio * cos(half), 0.5 * (ratio * ratio)
@@ -279,6 +233,7 @@ def _stumpff_123_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z), _stumpff_series_3(z)
+    # the answer is no number where the angle is so large that it has no correct digit
     half = 0.5 * sqrt(z if z <= 4398046511104.0 else float("nan"))
     ratio = sin(half) / half
     c3 = _stumpff_series_3(z) if z <= 4.0 else (1.0 - ratio * cos(half)) / z
@@ -301,14 +256,14 @@ def _stumpff_12(z):
     return _stumpff_12_far(z)
 
 
-def invert(a):
-    """Return the inverse of a square matrix, a list of rows that is used up; None where it has none."""
-    n = len(a)
+def invert(n, matrix):
+    """Replace an n x n matrix, by rows, by its inverse; return 0 where it has none, else 1."""
+    a = [matrix[n * i : n * i + n] for i in range(n)]
     order = [0] * n
     for k in range(n):
         pivot = max(range(k, n), key=lambda i: fabs(a[i][k]))
         if not fabs(a[pivot][k]) > 0.0:
-            return None
+            return 0
         order[k] = pivot
         a[k], a[pivot] = a[pivot], a[k]
         factor = 1.0 / a[k][k]
@@ -321,476 +276,724 @@ def invert(a):
     for k in reversed(range(n)):
         for row in a:
             row[k], row[order[k]] = row[order[k]], row[k]
-    return a
+    matrix[:] = [x for row in a for x in row]
+    return 1
+
+
+# Backward differences by their order: the factors of the solutions, the latest first.
+differences = (
+    (
+        1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+        0.0, 0.0,
+    ),
+    (
+        1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+        0.0, 0.0,
+    ),
+    (
+        1.0, -2.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+        0.0, 0.0,
+    ),
+    (
+        1.0, -3.0, 3.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+        0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -4.0, 6.0, -4.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+        0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -5.0, 10.0, -10.0, 5.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+        0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+        0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -7.0, 21.0, -35.0, 35.0, -21.0, 7.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+        0.0, 0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -8.0, 28.0, -56.0, 70.0, -56.0, 28.0, -8.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+        0.0, 0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -9.0, 36.0, -84.0, 126.0, -126.0, 84.0, -36.0, 9.0, -1.0, 0.0, 0.0, 0.0,
+        0.0, 0.0, 0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -10.0, 45.0, -120.0, 210.0, -252.0, 210.0, -120.0, 45.0, -10.0, 1.0, 0.0,
+        0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -11.0, 55.0, -165.0, 330.0, -462.0, 462.0, -330.0, 165.0, -55.0, 11.0,
+        -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -12.0, 66.0, -220.0, 495.0, -792.0, 924.0, -792.0, 495.0, -220.0, 66.0,
+        -12.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -13.0, 78.0, -286.0, 715.0, -1287.0, 1716.0, -1716.0, 1287.0, -715.0,
+        286.0, -78.0, 13.0, -1.0, 0.0, 0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -14.0, 91.0, -364.0, 1001.0, -2002.0, 3003.0, -3432.0, 3003.0, -2002.0,
+        1001.0, -364.0, 91.0, -14.0, 1.0, 0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -15.0, 105.0, -455.0, 1365.0, -3003.0, 5005.0, -6435.0, 6435.0, -5005.0,
+        3003.0, -1365.0, 455.0, -105.0, 15.0, -1.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -16.0, 120.0, -560.0, 1820.0, -4368.0, 8008.0, -11440.0, 12870.0, -11440.0,
+        8008.0, -4368.0, 1820.0, -560.0, 120.0, -16.0, 1.0, 0.0,
+    ),
+)
+
+
+def _count_sweeps(statistics, block, sweeps, failed):
+    """Add the sweeps over one block in one step."""
+    if statistics is not None:
+        statistics.sweeps[block] += sweeps
+        if sweeps > statistics.most:
+            statistics.most = sweeps
+        if failed:
+            statistics.failed = block + 1
+
+
+def _count_matrix(statistics):
+    """Add one matrix."""
+    if statistics is not None:
+        statistics.matrices += 1
+
+
+def _difference(memory, order, first, sign, sum):
+    """A backward difference, times sign, of an order without its first terms, which
+    were of later solutions. The latest is added last: the rest of the sum does
+    not wait for it.
+    """
+    sum_0 = 0.0
+    sum_1 = 0.0
+    sum_2 = 0.0
+    sum_3 = 0.0
+    sum_4 = 0.0
+    sum_5 = 0.0
+    for pair in reversed(range((order - first) // 2 + 1)):
+        row = memory.place + 2 * pair
+        column = first + 2 * pair
+        newer = differences[order][column]
+        older = differences[order][column + 1]
+        sum_0 += (
+            sign * (newer * memory.values[row][0] + older * memory.values[row + 1][0])
+        )
+        sum_1 += (
+            sign * (newer * memory.values[row][1] + older * memory.values[row + 1][1])
+        )
+        sum_2 += (
+            sign * (newer * memory.values[row][2] + older * memory.values[row + 1][2])
+        )
+        sum_3 += (
+            sign * (newer * memory.values[row][3] + older * memory.values[row + 1][3])
+        )
+        sum_4 += (
+            sign * (newer * memory.values[row][4] + older * memory.values[row + 1][4])
+        )
+        sum_5 += (
+            sign * (newer * memory.values[row][5] + older * memory.values[row + 1][5])
+        )
+    sum[:] = sum_0, sum_1, sum_2, sum_3, sum_4, sum_5
+
+
+def _difference_size(memory, order):
+    """The size of a backward difference."""
+    row = [0.0] * 6
+    _difference(memory, order, 0, 1.0, row)
+    size = 0.0
+    for i in range(6):
+        size += abs(row[i])
+    return size
+
+
+def _remember(memory, solution):
+    """Store a solution and extrapolate the next one: the polynomial through the last
+    solutions, evaluated one step later.
+    """
+    # the guess was no mere copy
+    if memory.known > 2:
+        moved = 0.0
+        moved += abs(solution[0] - memory.values[memory.place][0])
+        moved += abs(solution[1] - memory.values[memory.place][1])
+        moved += abs(solution[2] - memory.values[memory.place][2])
+        moved += abs(solution[3] - memory.values[memory.place][3])
+        moved += abs(solution[4] - memory.values[memory.place][4])
+        moved += abs(solution[5] - memory.values[memory.place][5])
+        if memory.first > 0.5 * moved:
+            memory.known = 0
+            memory.degree = 0
+    memory.first = 0.0
+    place = memory.place - 1 if memory.place > 0 else 15
+    memory.place = place
+    memory.values[place][:] = solution
+    memory.values[place + 16][:] = solution
+    if memory.known < 16:
+        memory.known += 1
+    # the degree grows while differences fall; with many it is chosen once in 8
+    # steps
+    if memory.known < 16 or place % 8 == 0:
+        size = _difference_size(memory, memory.degree)
+        grows = False
+        if memory.degree + 1 < memory.known:
+            higher = _difference_size(memory, memory.degree + 1)
+            grows = higher < size
+        if grows:
+            memory.degree += 1
+        elif memory.degree > 0:
+            lower = _difference_size(memory, memory.degree - 1)
+            if size > lower:
+                memory.degree -= 1
+    # the next difference vanishes where this is the next solution
+    _difference(memory, memory.degree + 1, 1, -1.0, memory.guess)
 
 
 def _advance(state, h, memory, statistics):
-    """Return the state after one step as a tuple."""
-    g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
-    if memory.past:
-        v1_0, v1_1, v1_2, v2_0, v2_1, v2_2 = memory.guess
-    else:
-        Wxi0_0 = 0.9900990099009901 * mu0
-        Wxi0_2 = 100.0 * mu2
-        v1_0 = Wxi0_0
-        v1_1 = mu1
-        v1_2 = Wxi0_2
-        v2_0 = Wxi0_0
-        v2_1 = mu1
-        v2_2 = Wxi0_2
-    w1 = 0.5 * h
-    w2 = 0.5386751345948129 * h
-    w3 = 0.25 * h
-    w29 = -0.03867513459481288 * h
-    w78 = -0.5386751345948129 * h
-    w92 = -0.25 * h
-    w99 = -0.25 * h
-    w100 = 0.03867513459481288 * h
-    # the equations of v1, v2, m1, m2: Newton's method in v1_0, v1_1, v1_2, v2_0, v2_1, v2_2
-    previous_1 = 0.0
-    rate_1 = memory.rates[0] if memory.past else 1.0
-    make_1 = memory.inverses[0] is None
-    for sweep in range(1, 101):
-        X2_2 = v1_2 * w2 + v2_2 * w3
-        X2_0 = v1_0 * w2 + v2_0 * w3
-        w4 = v2_0 * X2_2 - v2_2 * X2_0
-        X2_1 = v1_1 * w2 + v2_1 * w3
-        w5 = X2_0 * X2_0 + X2_1 * X2_1 + X2_2 * X2_2
-        c1_1, c2_1, c3_1 = _stumpff_123(w5)
-        w7 = 1.0 - 0.08333333333333333 * w5
-        w8 = 1.0 / (w7 * w7 + 0.25 * w5)
-        w9 = w8 * (0.25 - 0.08333333333333333 * w7)
-        w11 = -0.5 * w8
-        w12 = w5 * (w9 * c1_1 + w11 * c2_1) - (w11 + c1_1)
-        w13 = v2_2 * X2_1 - v2_1 * X2_2
-        w14 = v2_1 * X2_0 - v2_0 * X2_1
-        w15 = X2_2 * w13 - X2_0 * w14
-        w16 = w9 + c2_1 + w11 * c1_1 - w9 * c2_1 * w5
-        a_6_1 = v2_1 + w4 * w12 + w15 * w16
-        w17 = X2_0 * w4 - X2_1 * w13
-        a_6_2 = v2_2 + w12 * w14 + w16 * w17
-        w18 = g22 * X2_0 - g20 * X2_2
-        w19 = g20 * X2_1 - g21 * X2_0
-        w20 = g21 * X2_2 - g22 * X2_1
-        Q2_7 = g21 + w18 * c1_1 + (X2_0 * w19 - X2_2 * w20) * c2_1
-        Q2_8 = g22 + w19 * c1_1 + (X2_1 * w20 - X2_0 * w18) * c2_1
-        w21 = 3.26 - 3.0 * Q2_8
-        w22 = 0.3 * Q2_7
-        w23 = w21 - w22
-        w24 = 1.5 / (w23 * sqrt(w23))
-        w25 = w21 + w22
-        w26 = 1.5 / (w25 * sqrt(w25))
-        w27 = -1.0 - (w24 - w26)
-        w28 = 0.1 * (w24 + w26)
-        Nn2_0 = Q2_7 * w27 + Q2_8 * w28 + 0.99 * (a_6_1 * a_6_2)
-        X1_2 = v1_2 * w3 + v2_2 * w29
-        X1_0 = v1_0 * w3 + v2_0 * w29
-        w30 = v1_0 * X1_2 - v1_2 * X1_0
-        X1_1 = v1_1 * w3 + v2_1 * w29
-        w31 = X1_0 * X1_0 + X1_1 * X1_1 + X1_2 * X1_2
-        c1_2, c2_2, c3_2 = _stumpff_123(w31)
-        w33 = 1.0 - 0.08333333333333333 * w31
-        w34 = 1.0 / (w33 * w33 + 0.25 * w31)
-        w35 = w34 * (0.25 - 0.08333333333333333 * w33)
-        w37 = -0.5 * w34
-        w38 = w31 * (w35 * c1_2 + w37 * c2_2) - (w37 + c1_2)
-        w39 = v1_2 * X1_1 - v1_1 * X1_2
-        w40 = v1_1 * X1_0 - v1_0 * X1_1
-        w41 = X1_2 * w39 - X1_0 * w40
-        w42 = w35 + c2_2 + w37 * c1_2 - w35 * c2_2 * w31
-        a_2_1 = v1_1 + w30 * w38 + w41 * w42
-        w43 = X1_0 * w30 - X1_1 * w39
-        a_2_2 = v1_2 + w38 * w40 + w42 * w43
-        w44 = g22 * X1_0 - g20 * X1_2
-        w45 = g20 * X1_1 - g21 * X1_0
-        w46 = g21 * X1_2 - g22 * X1_1
-        Q1_7 = g21 + w44 * c1_2 + (X1_0 * w45 - X1_2 * w46) * c2_2
-        Q1_8 = g22 + w45 * c1_2 + (X1_1 * w46 - X1_0 * w44) * c2_2
-        w47 = 3.26 - 3.0 * Q1_8
-        w48 = 0.3 * Q1_7
-        w49 = w47 - w48
-        w50 = 1.5 / (w49 * sqrt(w49))
-        w51 = w47 + w48
-        w52 = 1.5 / (w51 * sqrt(w51))
-        w53 = -1.0 - (w50 - w52)
-        w54 = 0.1 * (w50 + w52)
-        Nn1_0 = Q1_7 * w53 + Q1_8 * w54 + 0.99 * (a_2_1 * a_2_2)
-        s_L_0 = mu0 + w1 * (Nn2_0 + Nn1_0)
-        Y_0 = (v1_0 + v2_0) * w1
-        Y_1 = (v1_1 + v2_1) * w1
-        Y_2 = (v1_2 + v2_2) * w1
-        w55 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2
-        c2_3, c3_3 = _stumpff_23(w55)
-        w57 = X2_1 * w14 - X2_2 * w4
-        a_6_0 = v2_0 + w12 * w13 + w16 * w57
-        Q2_6 = g20 + w20 * c1_1 + (X2_2 * w18 - X2_1 * w19) * c2_1
-        w58 = a_6_2 * a_6_0 + w27 * Q2_6
-        w59 = X1_1 * w40 - X1_2 * w30
-        a_2_0 = v1_0 + w38 * w39 + w42 * w59
-        Q1_6 = g20 + w46 * c1_2 + (X1_2 * w44 - X1_1 * w45) * c2_2
-        w60 = a_2_2 * a_2_0 + w53 * Q1_6
-        s_L_1 = mu1 - w1 * (w58 + w60)
-        Nn2_2 = 0.01 * (a_6_1 * a_6_0) - w28 * Q2_6
-        Nn1_2 = 0.01 * (a_2_1 * a_2_0) - w54 * Q1_6
-        s_L_2 = mu2 + w1 * (Nn2_2 + Nn1_2)
-        w61 = Y_2 * s_L_1 - Y_1 * s_L_2
-        w63 = Y_0 * s_L_2 - s_L_0 * Y_2
-        w64 = s_L_0 * Y_1 - Y_0 * s_L_1
-        L_4_0 = s_L_0 - w61 * c2_3 + (Y_2 * w63 - Y_1 * w64) * c3_3
-        w65 = X2_1 * Nn2_2 + X2_2 * w58
-        w67 = X2_0 * w58 + X2_1 * Nn2_0
-        w68 = X2_2 * Nn2_0 - X2_0 * Nn2_2
-        p_2_0 = 1.01 * a_6_0
-        p_2_2 = 0.01 * a_6_2
-        w69 = X2_2 * p_2_0 - X2_0 * p_2_2
-        w70 = X2_1 * p_2_2 - X2_2 * a_6_1
-        w71 = X2_0 * a_6_1 - X2_1 * p_2_0
-        a_8_1 = a_6_1 - w12 * w69 + w16 * (X2_2 * w70 - X2_0 * w71)
-        a_5_2 = v2_2 - w11 * w14 + w9 * w17
-        a_5_1 = v2_1 - w4 * w11 + w9 * w15
-        a_5_0 = v2_0 - w11 * w13 + w9 * w57
-        w72 = 0.5 * a_5_2 - 0.08333333333333333 * (X2_0 * a_5_1 - X2_1 * a_5_0)
-        a_8_2 = p_2_2 - w12 * w71 + w16 * (X2_0 * w69 - X2_1 * w70)
-        w73 = 0.5 * a_5_1 - 0.08333333333333333 * (X2_2 * a_5_0 - X2_0 * a_5_2)
-        a_8_0 = p_2_0 - w12 * w70 + w16 * (X2_1 * w71 - X2_2 * w69)
-        w74 = X2_0 * a_8_2 - X2_2 * a_8_0
-        w75 = -0.08333333333333333 * a_5_2
-        w76 = X2_1 * a_8_0 - X2_0 * a_8_1
-        w77 = -0.08333333333333333 * a_5_1
-        sum_d2_0 = (
-            Nn2_0 + w65 * c2_1 - (X2_1 * w67 + X2_2 * w68) * c3_1
-            - (a_8_1 * w72 - a_8_2 * w73 + (w74 * w75 - w76 * w77))
-        )
-        w79 = X1_1 * Nn1_2 + X1_2 * w60
-        w81 = X1_0 * w60 + X1_1 * Nn1_0
-        w82 = X1_2 * Nn1_0 - X1_0 * Nn1_2
-        p_0 = 1.01 * a_2_0
-        p_2 = 0.01 * a_2_2
-        w83 = X1_2 * p_0 - X1_0 * p_2
-        w84 = X1_1 * p_2 - X1_2 * a_2_1
-        w85 = X1_0 * a_2_1 - X1_1 * p_0
-        a_4_1 = a_2_1 - w38 * w83 + w42 * (X1_2 * w84 - X1_0 * w85)
-        a_2 = v1_2 - w37 * w40 + w35 * w43
-        a_1 = v1_1 - w30 * w37 + w35 * w41
-        a_0 = v1_0 - w37 * w39 + w35 * w59
-        w86 = 0.5 * a_2 - 0.08333333333333333 * (X1_0 * a_1 - X1_1 * a_0)
-        a_4_2 = p_2 - w38 * w85 + w42 * (X1_0 * w83 - X1_1 * w84)
-        w87 = 0.5 * a_1 - 0.08333333333333333 * (X1_2 * a_0 - X1_0 * a_2)
-        a_4_0 = p_0 - w38 * w84 + w42 * (X1_1 * w85 - X1_2 * w83)
-        w88 = X1_0 * a_4_2 - X1_2 * a_4_0
-        w89 = -0.08333333333333333 * a_2
-        w90 = X1_1 * a_4_0 - X1_0 * a_4_1
-        w91 = -0.08333333333333333 * a_1
-        sum_d1_0 = (
-            Nn1_0 + w79 * c2_2 - (X1_1 * w81 + X1_2 * w82) * c3_2
-            - (a_4_1 * w86 - a_4_2 * w87 + (w88 * w89 - w90 * w91))
-        )
-        w1_0 = L_4_0 + sum_d2_0 * w78 + sum_d1_0 * w92
-        residual_0 = w1_0 - a_4_0
-        L_4_1 = s_L_1 - w63 * c2_3 + (Y_0 * w64 - Y_2 * w61) * c3_3
-        w93 = 0.5 * a_5_0 - 0.08333333333333333 * (X2_1 * a_5_2 - X2_2 * a_5_1)
-        w94 = -0.08333333333333333 * a_5_0
-        w95 = X2_2 * a_8_1 - X2_1 * a_8_2
-        sum_d2_1 = (
-            w68 * c2_1 - w58 + (X2_2 * w65 + X2_0 * w67) * c3_1
-            - (a_8_2 * w93 - w72 * a_8_0 + (w76 * w94 - w75 * w95))
-        )
-        w96 = 0.5 * a_0 - 0.08333333333333333 * (X1_1 * a_2 - X1_2 * a_1)
-        w97 = -0.08333333333333333 * a_0
-        w98 = X1_2 * a_4_1 - X1_1 * a_4_2
-        sum_d1_1 = (
-            w82 * c2_2 - w60 + (X1_2 * w79 + X1_0 * w81) * c3_2
-            - (a_4_2 * w96 - w86 * a_4_0 + (w90 * w97 - w89 * w98))
-        )
-        w1_1 = L_4_1 + w78 * sum_d2_1 + w92 * sum_d1_1
-        residual_1 = w1_1 - a_4_1
-        L_4_2 = s_L_2 - w64 * c2_3 + (Y_1 * w61 - Y_0 * w63) * c3_3
-        sum_d2_2 = (
-            Nn2_2 - w67 * c2_1 + (X2_0 * w68 - X2_1 * w65) * c3_1
-            - (w73 * a_8_0 - a_8_1 * w93 + (w77 * w95 - w74 * w94))
-        )
-        sum_d1_2 = (
-            Nn1_2 - w81 * c2_2 + (X1_0 * w82 - X1_1 * w79) * c3_2
-            - (w87 * a_4_0 - a_4_1 * w96 + (w91 * w98 - w88 * w97))
-        )
-        w1_2 = L_4_2 + w78 * sum_d2_2 + w92 * sum_d1_2
-        residual_2 = w1_2 - a_4_2
-        w2_0 = L_4_0 + sum_d2_0 * w99 + sum_d1_0 * w100
-        residual_2_0 = w2_0 - a_8_0
-        w2_1 = L_4_1 + sum_d2_1 * w99 + sum_d1_1 * w100
-        residual_2_1 = w2_1 - a_8_1
-        w2_2 = L_4_2 + sum_d2_2 * w99 + sum_d1_2 * w100
-        residual_2_2 = w2_2 - a_8_2
-        s_L_0_seen = s_L_0
-        s_L_1_seen = s_L_1
-        s_L_2_seen = s_L_2
-        total = (
-            residual_0 + residual_1 + residual_2 + residual_2_0 + residual_2_1
-            + residual_2_2
-        )
-        if not isfinite(total):
-            raise _failed(NOT_FINITE, "the equations of v1, v2, m1, m2", 0, sweep, statistics)
-        if make_1:
-            w101 = 0.0001933756729740644 * v2_2
-            w102 = 0.25 * mu2
-            w103 = -0.01933756729740644 * v2_1
-            w104 = -0.25 * mu1
-            w105 = -0.25 * mu2
-            w106 = 0.019144191624432375 * v2_0
-            w107 = 0.25 * mu0
-            w108 = 0.25 * mu1
-            w109 = -0.25 * mu0
-            w110 = -0.0026933756729740645 * v1_2
-            w111 = 0.26933756729740643 * v1_1
-            w112 = -0.26664419162443237 * v1_0
-            row_1_1 = [
-                1.01, -h * (0.495 * v1_2 + w102 + w101),
-                -h * (0.495 * v1_1 + w104 + w103), 0.0,
-                -h * (w102 - 0.01933756729740644 * v1_2 + 0.22835580837556763 * v2_2),
-                -h * (0.0001933756729740644 * v1_1 + w104 + 0.22835580837556763 * v2_1),
-            ]
-            row_1_2 = [
-                -h * (w105 - 0.5 * v1_2 + w101), 1.0, -h * (w107 - 0.5 * v1_0 + w106),
-                -h * (0.019144191624432375 * v1_2 + w105 - 0.23066243270259357 * v2_2),
-                0.0,
-                -h * (0.0001933756729740644 * v1_0 + w107 - 0.23066243270259357 * v2_0),
-            ]
-            row_1_3 = [
-                -h * (0.005 * v1_1 + w108 + w103), -h * (0.005 * v1_0 + w109 + w106),
-                0.01,
-                -h * (0.019144191624432375 * v1_1 + w108 + 0.0023066243270259356 * v2_1),
-                -h * (w109 - 0.01933756729740644 * v1_0 + 0.0023066243270259356 * v2_0),
-                0.0,
-            ]
-            row_1_4 = [
-                0.0,
-                -h * (0.5141441916244324 * v1_2 + w102 + 0.26933756729740643 * v2_2),
-                -h * (0.5141441916244324 * v1_1 + w104 - 0.0026933756729740645 * v2_1),
-                1.01, -h * (w102 + w110 + 0.495 * v2_2),
-                -h * (w104 + w111 + 0.495 * v2_1),
-            ]
-            row_1_5 = [
-                -h * (w105 - 0.5193375672974064 * v1_2 - 0.26664419162443237 * v2_2),
-                0.0,
-                -h * (w107 - 0.5193375672974064 * v1_0 - 0.0026933756729740645 * v2_0),
-                -h * (w105 + w110 - 0.5 * v2_2), 1.0, -h * (w107 + w112 - 0.5 * v2_0),
-            ]
-            row_1_6 = [
-                -h * (0.005193375672974065 * v1_1 + w108 - 0.26664419162443237 * v2_1),
-                -h * (0.005193375672974065 * v1_0 + w109 + 0.26933756729740643 * v2_0),
-                0.0, -h * (w108 + w111 + 0.005 * v2_1),
-                -h * (w109 + w112 + 0.005 * v2_0), 0.01,
-            ]
-            memory.inverses[0] = invert([row_1_1, row_1_2, row_1_3, row_1_4, row_1_5, row_1_6])
-            if statistics is not None:
-                statistics.matrices += 1
-            if memory.inverses[0] is None:
-                raise _failed(NOT_CONVERGED, "the equations of v1, v2, m1, m2", 0, sweep, statistics)
-        row_1_1, row_1_2, row_1_3, row_1_4, row_1_5, row_1_6 = memory.inverses[0]
-        d_v1_0 = (
-            row_1_1[0] * residual_0 + row_1_1[1] * residual_1 + row_1_1[2] * residual_2
-            + row_1_1[3] * residual_2_0 + row_1_1[4] * residual_2_1
-            + row_1_1[5] * residual_2_2
-        )
-        d_v1_1 = (
-            row_1_2[0] * residual_0 + row_1_2[1] * residual_1 + row_1_2[2] * residual_2
-            + row_1_2[3] * residual_2_0 + row_1_2[4] * residual_2_1
-            + row_1_2[5] * residual_2_2
-        )
-        d_v1_2 = (
-            row_1_3[0] * residual_0 + row_1_3[1] * residual_1 + row_1_3[2] * residual_2
-            + row_1_3[3] * residual_2_0 + row_1_3[4] * residual_2_1
-            + row_1_3[5] * residual_2_2
-        )
-        d_v2_0 = (
-            row_1_4[0] * residual_0 + row_1_4[1] * residual_1 + row_1_4[2] * residual_2
-            + row_1_4[3] * residual_2_0 + row_1_4[4] * residual_2_1
-            + row_1_4[5] * residual_2_2
-        )
-        d_v2_1 = (
-            row_1_5[0] * residual_0 + row_1_5[1] * residual_1 + row_1_5[2] * residual_2
-            + row_1_5[3] * residual_2_0 + row_1_5[4] * residual_2_1
-            + row_1_5[5] * residual_2_2
-        )
-        d_v2_2 = (
-            row_1_6[0] * residual_0 + row_1_6[1] * residual_1 + row_1_6[2] * residual_2
-            + row_1_6[3] * residual_2_0 + row_1_6[4] * residual_2_1
-            + row_1_6[5] * residual_2_2
-        )
-        v1_0 += d_v1_0
-        v1_1 += d_v1_1
-        v1_2 += d_v1_2
-        v2_0 += d_v2_0
-        v2_1 += d_v2_1
-        v2_2 += d_v2_2
-        change = max(
-            abs(d_v1_0), abs(d_v1_1), abs(d_v1_2), abs(d_v2_0), abs(d_v2_1),
-            abs(d_v2_2),
-        )
-        scale = max(
-            0.0, abs(v1_0), abs(v1_1), abs(v1_2), abs(v2_0), abs(v2_1), abs(v2_2),
-        )
-        still = 0.0 < previous_1 <= change and (
-            change <= 5.684341886080802e-14 * scale
-            or change * abs(h) <= 7.105427357601002e-15 * min(max(map(abs, state[0:9])), max(map(abs, state[9:12])))
-        )
-        if sweep == 1:
-            memory.first = max(memory.first, change)
-        if previous_1 > 0.0:
-            rate_1 = max(change / previous_1, 0.000244140625)
-        close = change * rate_1 <= 1.1102230246251565e-16 * scale
-        if still or (close and change <= 5.684341886080802e-14 * scale):
-            memory.rates[0] = rate_1 if sweep > 1 else 2.0 * rate_1
-            break
-        make_1 = 0.0 < 0.25 * previous_1 < change
-        previous_1 = change
-    else:
-        raise _failed(NOT_CONVERGED, "the equations of v1, v2, m1, m2", 0, sweep, statistics)
-    if statistics is not None:
-        statistics.count(0, sweep)
-    Y_1_ = (v1_1 + v2_1) * w1
-    Y_0_ = (v1_0 + v2_0) * w1
-    Y_2_ = (v1_2 + v2_2) * w1
-    w113 = Y_0_ * Y_0_ + Y_1_ * Y_1_ + Y_2_ * Y_2_
-    c1_3, c2_4 = _stumpff_12(w113)
-    w115 = Y_1_ * c2_4
-    w116 = Y_1_ * w115
-    w117 = Y_2_ * c2_4 * Y_2_
-    g_0 = 1.0 - (w116 + w117)
-    w119 = Y_2_ * c1_3
-    w120 = Y_0_ * c2_4
-    w121 = Y_1_ * w120
-    g_3 = w119 + w121
-    w122 = Y_2_ * w120
-    w123 = Y_1_ * c1_3
-    g_6 = w122 - w123
-    g_1 = w121 - w119
-    w124 = Y_0_ * w120
-    g_4 = 1.0 - (w117 + w124)
-    w125 = Y_0_ * c1_3
-    w126 = Y_2_ * w115
-    g_7 = w125 + w126
-    g_2 = w122 + w123
-    g_5 = w126 - w125
-    g_8 = 1.0 - (w116 + w124)
-    w127 = 0.495 * h
-    w128 = (
-        s_L_0_seen + v1_2 * w127 * d_v1_1 + v1_1 * w127 * d_v1_2 + v2_2 * w127 * d_v2_1
-        + v2_1 * w127 * d_v2_2
-    )
-    w129 = -0.5 * h
-    w130 = (
-        s_L_1_seen + v1_2 * w129 * d_v1_0 + v1_0 * w129 * d_v1_2 + v2_2 * w129 * d_v2_0
-        + v2_0 * w129 * d_v2_2
-    )
-    w131 = 0.005 * h
-    w132 = (
-        s_L_2_seen + v1_1 * w131 * d_v1_0 + v1_0 * w131 * d_v1_1 + v2_1 * w131 * d_v2_0
-        + v2_0 * w131 * d_v2_1
-    )
-    new_g00 = g00 * g_0 + g01 * g_3 + g02 * g_6
-    new_g01 = g00 * g_1 + g01 * g_4 + g02 * g_7
-    new_g02 = g00 * g_2 + g01 * g_5 + g02 * g_8
-    new_g10 = g10 * g_0 + g11 * g_3 + g12 * g_6
-    new_g11 = g10 * g_1 + g11 * g_4 + g12 * g_7
-    new_g12 = g10 * g_2 + g11 * g_5 + g12 * g_8
-    new_g20 = g20 * g_0 + g21 * g_3 + g22 * g_6
-    new_g21 = g20 * g_1 + g21 * g_4 + g22 * g_7
-    new_g22 = g20 * g_2 + g21 * g_5 + g22 * g_8
-    found = v1_0, v1_1, v1_2, v2_0, v2_1, v2_2
-    memory.keep(found)
-    return (
-        new_g00, new_g01, new_g02, new_g10, new_g11, new_g12, new_g20, new_g21, new_g22,
-        w128, w130, w132,
-    )
-
-
-def _checked(state, h, memory, statistics):
-    """Return the state after one step, which is finite."""
+    """Make one step."""
     try:
-        new = _advance(state, h, memory, statistics)
-    except StepFailed:
-        raise
-    except (ArithmeticError, ValueError) as error:
-        raise StepFailed(NOT_FINITE, f"the new state is not finite ({error})") from None
-    if not all(map(isfinite, new)):
-        raise StepFailed(NOT_FINITE, "the new state is not finite")
-    return new
+        if not isfinite(h):
+            return BAD_STEP
+        g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
+        if memory.known > 0:
+            v1_0, v1_1, v1_2, v2_0, v2_1, v2_2 = memory.guess
+        else:
+            Wxi0_0 = 0.9900990099009901 * mu0
+            Wxi0_2 = 100.0 * mu2
+            v1_0 = Wxi0_0
+            v1_1 = mu1
+            v1_2 = Wxi0_2
+            v2_0 = Wxi0_0
+            v2_1 = mu1
+            v2_2 = Wxi0_2
+        w1 = 0.5 * h
+        w2 = 0.5386751345948129 * h
+        w3 = 0.25 * h
+        w29 = -0.03867513459481288 * h
+        w78 = -0.5386751345948129 * h
+        w92 = -0.25 * h
+        w99 = -0.25 * h
+        w100 = 0.03867513459481288 * h
+        # the equations of v1, v2, m1, m2: Newton's method, 6 unknowns
+        previous_1 = 0.0
+        rate_1 = memory.rate_1 if memory.known > 0 else 1.0
+        make_1 = not memory.made_1 > 0
+        sweep = 0
+        status = NOT_CONVERGED
+        while True:
+            sweep += 1
+            X2_2 = v1_2 * w2 + v2_2 * w3
+            X2_0 = v1_0 * w2 + v2_0 * w3
+            w4 = v2_0 * X2_2 - v2_2 * X2_0
+            X2_1 = v1_1 * w2 + v2_1 * w3
+            w5 = X2_0 * X2_0 + X2_1 * X2_1 + X2_2 * X2_2
+            c1_1, c2_1, c3_1 = _stumpff_123(w5)
+            w7 = 1.0 - 0.08333333333333333 * w5
+            w8 = 1.0 / (w7 * w7 + 0.25 * w5)
+            w9 = w8 * (0.25 - 0.08333333333333333 * w7)
+            w11 = -0.5 * w8
+            w12 = w5 * (w9 * c1_1 + w11 * c2_1) - (w11 + c1_1)
+            w13 = v2_2 * X2_1 - v2_1 * X2_2
+            w14 = v2_1 * X2_0 - v2_0 * X2_1
+            w15 = X2_2 * w13 - X2_0 * w14
+            w16 = w9 + c2_1 + w11 * c1_1 - w9 * c2_1 * w5
+            a_6_1 = v2_1 + w4 * w12 + w15 * w16
+            w17 = X2_0 * w4 - X2_1 * w13
+            a_6_2 = v2_2 + w12 * w14 + w16 * w17
+            w18 = g22 * X2_0 - g20 * X2_2
+            w19 = g20 * X2_1 - g21 * X2_0
+            w20 = g21 * X2_2 - g22 * X2_1
+            Q2_7 = g21 + w18 * c1_1 + (X2_0 * w19 - X2_2 * w20) * c2_1
+            Q2_8 = g22 + w19 * c1_1 + (X2_1 * w20 - X2_0 * w18) * c2_1
+            w21 = 3.26 - 3.0 * Q2_8
+            w22 = 0.3 * Q2_7
+            w23 = w21 - w22
+            w24 = 1.5 / (w23 * sqrt(w23))
+            w25 = w21 + w22
+            w26 = 1.5 / (w25 * sqrt(w25))
+            w27 = -1.0 - (w24 - w26)
+            w28 = 0.1 * (w24 + w26)
+            Nn2_0 = Q2_7 * w27 + Q2_8 * w28 + 0.99 * (a_6_1 * a_6_2)
+            X1_2 = v1_2 * w3 + v2_2 * w29
+            X1_0 = v1_0 * w3 + v2_0 * w29
+            w30 = v1_0 * X1_2 - v1_2 * X1_0
+            X1_1 = v1_1 * w3 + v2_1 * w29
+            w31 = X1_0 * X1_0 + X1_1 * X1_1 + X1_2 * X1_2
+            c1_2, c2_2, c3_2 = _stumpff_123(w31)
+            w33 = 1.0 - 0.08333333333333333 * w31
+            w34 = 1.0 / (w33 * w33 + 0.25 * w31)
+            w35 = w34 * (0.25 - 0.08333333333333333 * w33)
+            w37 = -0.5 * w34
+            w38 = w31 * (w35 * c1_2 + w37 * c2_2) - (w37 + c1_2)
+            w39 = v1_2 * X1_1 - v1_1 * X1_2
+            w40 = v1_1 * X1_0 - v1_0 * X1_1
+            w41 = X1_2 * w39 - X1_0 * w40
+            w42 = w35 + c2_2 + w37 * c1_2 - w35 * c2_2 * w31
+            a_2_1 = v1_1 + w30 * w38 + w41 * w42
+            w43 = X1_0 * w30 - X1_1 * w39
+            a_2_2 = v1_2 + w38 * w40 + w42 * w43
+            w44 = g22 * X1_0 - g20 * X1_2
+            w45 = g20 * X1_1 - g21 * X1_0
+            w46 = g21 * X1_2 - g22 * X1_1
+            Q1_7 = g21 + w44 * c1_2 + (X1_0 * w45 - X1_2 * w46) * c2_2
+            Q1_8 = g22 + w45 * c1_2 + (X1_1 * w46 - X1_0 * w44) * c2_2
+            w47 = 3.26 - 3.0 * Q1_8
+            w48 = 0.3 * Q1_7
+            w49 = w47 - w48
+            w50 = 1.5 / (w49 * sqrt(w49))
+            w51 = w47 + w48
+            w52 = 1.5 / (w51 * sqrt(w51))
+            w53 = -1.0 - (w50 - w52)
+            w54 = 0.1 * (w50 + w52)
+            Nn1_0 = Q1_7 * w53 + Q1_8 * w54 + 0.99 * (a_2_1 * a_2_2)
+            s_L_0 = mu0 + w1 * (Nn2_0 + Nn1_0)
+            Y_0 = (v1_0 + v2_0) * w1
+            Y_1 = (v1_1 + v2_1) * w1
+            Y_2 = (v1_2 + v2_2) * w1
+            w55 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2
+            c2_3, c3_3 = _stumpff_23(w55)
+            w57 = X2_1 * w14 - X2_2 * w4
+            a_6_0 = v2_0 + w12 * w13 + w16 * w57
+            Q2_6 = g20 + w20 * c1_1 + (X2_2 * w18 - X2_1 * w19) * c2_1
+            w58 = a_6_2 * a_6_0 + w27 * Q2_6
+            w59 = X1_1 * w40 - X1_2 * w30
+            a_2_0 = v1_0 + w38 * w39 + w42 * w59
+            Q1_6 = g20 + w46 * c1_2 + (X1_2 * w44 - X1_1 * w45) * c2_2
+            w60 = a_2_2 * a_2_0 + w53 * Q1_6
+            s_L_1 = mu1 - w1 * (w58 + w60)
+            Nn2_2 = 0.01 * (a_6_1 * a_6_0) - w28 * Q2_6
+            Nn1_2 = 0.01 * (a_2_1 * a_2_0) - w54 * Q1_6
+            s_L_2 = mu2 + w1 * (Nn2_2 + Nn1_2)
+            w61 = Y_2 * s_L_1 - Y_1 * s_L_2
+            w63 = Y_0 * s_L_2 - s_L_0 * Y_2
+            w64 = s_L_0 * Y_1 - Y_0 * s_L_1
+            L_4_0 = s_L_0 - w61 * c2_3 + (Y_2 * w63 - Y_1 * w64) * c3_3
+            w65 = X2_1 * Nn2_2 + X2_2 * w58
+            w67 = X2_0 * w58 + X2_1 * Nn2_0
+            w68 = X2_2 * Nn2_0 - X2_0 * Nn2_2
+            p_2_0 = 1.01 * a_6_0
+            p_2_2 = 0.01 * a_6_2
+            w69 = X2_2 * p_2_0 - X2_0 * p_2_2
+            w70 = X2_1 * p_2_2 - X2_2 * a_6_1
+            w71 = X2_0 * a_6_1 - X2_1 * p_2_0
+            a_8_1 = a_6_1 - w12 * w69 + w16 * (X2_2 * w70 - X2_0 * w71)
+            a_5_2 = v2_2 - w11 * w14 + w9 * w17
+            a_5_1 = v2_1 - w4 * w11 + w9 * w15
+            a_5_0 = v2_0 - w11 * w13 + w9 * w57
+            w72 = 0.5 * a_5_2 - 0.08333333333333333 * (X2_0 * a_5_1 - X2_1 * a_5_0)
+            a_8_2 = p_2_2 - w12 * w71 + w16 * (X2_0 * w69 - X2_1 * w70)
+            w73 = 0.5 * a_5_1 - 0.08333333333333333 * (X2_2 * a_5_0 - X2_0 * a_5_2)
+            a_8_0 = p_2_0 - w12 * w70 + w16 * (X2_1 * w71 - X2_2 * w69)
+            w74 = X2_0 * a_8_2 - X2_2 * a_8_0
+            w75 = -0.08333333333333333 * a_5_2
+            w76 = X2_1 * a_8_0 - X2_0 * a_8_1
+            w77 = -0.08333333333333333 * a_5_1
+            sum_d2_0 = (
+                Nn2_0 + w65 * c2_1 - (X2_1 * w67 + X2_2 * w68) * c3_1
+                - (a_8_1 * w72 - a_8_2 * w73 + (w74 * w75 - w76 * w77))
+            )
+            w79 = X1_1 * Nn1_2 + X1_2 * w60
+            w81 = X1_0 * w60 + X1_1 * Nn1_0
+            w82 = X1_2 * Nn1_0 - X1_0 * Nn1_2
+            p_0 = 1.01 * a_2_0
+            p_2 = 0.01 * a_2_2
+            w83 = X1_2 * p_0 - X1_0 * p_2
+            w84 = X1_1 * p_2 - X1_2 * a_2_1
+            w85 = X1_0 * a_2_1 - X1_1 * p_0
+            a_4_1 = a_2_1 - w38 * w83 + w42 * (X1_2 * w84 - X1_0 * w85)
+            a_2 = v1_2 - w37 * w40 + w35 * w43
+            a_1 = v1_1 - w30 * w37 + w35 * w41
+            a_0 = v1_0 - w37 * w39 + w35 * w59
+            w86 = 0.5 * a_2 - 0.08333333333333333 * (X1_0 * a_1 - X1_1 * a_0)
+            a_4_2 = p_2 - w38 * w85 + w42 * (X1_0 * w83 - X1_1 * w84)
+            w87 = 0.5 * a_1 - 0.08333333333333333 * (X1_2 * a_0 - X1_0 * a_2)
+            a_4_0 = p_0 - w38 * w84 + w42 * (X1_1 * w85 - X1_2 * w83)
+            w88 = X1_0 * a_4_2 - X1_2 * a_4_0
+            w89 = -0.08333333333333333 * a_2
+            w90 = X1_1 * a_4_0 - X1_0 * a_4_1
+            w91 = -0.08333333333333333 * a_1
+            sum_d1_0 = (
+                Nn1_0 + w79 * c2_2 - (X1_1 * w81 + X1_2 * w82) * c3_2
+                - (a_4_1 * w86 - a_4_2 * w87 + (w88 * w89 - w90 * w91))
+            )
+            w1_0 = L_4_0 + sum_d2_0 * w78 + sum_d1_0 * w92
+            residual_0 = w1_0 - a_4_0
+            L_4_1 = s_L_1 - w63 * c2_3 + (Y_0 * w64 - Y_2 * w61) * c3_3
+            w93 = 0.5 * a_5_0 - 0.08333333333333333 * (X2_1 * a_5_2 - X2_2 * a_5_1)
+            w94 = -0.08333333333333333 * a_5_0
+            w95 = X2_2 * a_8_1 - X2_1 * a_8_2
+            sum_d2_1 = (
+                w68 * c2_1 - w58 + (X2_2 * w65 + X2_0 * w67) * c3_1
+                - (a_8_2 * w93 - w72 * a_8_0 + (w76 * w94 - w75 * w95))
+            )
+            w96 = 0.5 * a_0 - 0.08333333333333333 * (X1_1 * a_2 - X1_2 * a_1)
+            w97 = -0.08333333333333333 * a_0
+            w98 = X1_2 * a_4_1 - X1_1 * a_4_2
+            sum_d1_1 = (
+                w82 * c2_2 - w60 + (X1_2 * w79 + X1_0 * w81) * c3_2
+                - (a_4_2 * w96 - w86 * a_4_0 + (w90 * w97 - w89 * w98))
+            )
+            w1_1 = L_4_1 + w78 * sum_d2_1 + w92 * sum_d1_1
+            residual_1 = w1_1 - a_4_1
+            L_4_2 = s_L_2 - w64 * c2_3 + (Y_1 * w61 - Y_0 * w63) * c3_3
+            sum_d2_2 = (
+                Nn2_2 - w67 * c2_1 + (X2_0 * w68 - X2_1 * w65) * c3_1
+                - (w73 * a_8_0 - a_8_1 * w93 + (w77 * w95 - w74 * w94))
+            )
+            sum_d1_2 = (
+                Nn1_2 - w81 * c2_2 + (X1_0 * w82 - X1_1 * w79) * c3_2
+                - (w87 * a_4_0 - a_4_1 * w96 + (w91 * w98 - w88 * w97))
+            )
+            w1_2 = L_4_2 + w78 * sum_d2_2 + w92 * sum_d1_2
+            residual_2 = w1_2 - a_4_2
+            w2_0 = L_4_0 + sum_d2_0 * w99 + sum_d1_0 * w100
+            residual_2_0 = w2_0 - a_8_0
+            w2_1 = L_4_1 + sum_d2_1 * w99 + sum_d1_1 * w100
+            residual_2_1 = w2_1 - a_8_1
+            w2_2 = L_4_2 + sum_d2_2 * w99 + sum_d1_2 * w100
+            residual_2_2 = w2_2 - a_8_2
+            s_L_0_seen = s_L_0
+            s_L_1_seen = s_L_1
+            s_L_2_seen = s_L_2
+            if make_1:
+                w101 = 0.0001933756729740644 * v2_2
+                w102 = 0.25 * mu2
+                w103 = -0.01933756729740644 * v2_1
+                w104 = -0.25 * mu1
+                w105 = -0.25 * mu2
+                w106 = 0.019144191624432375 * v2_0
+                w107 = 0.25 * mu0
+                w108 = 0.25 * mu1
+                w109 = -0.25 * mu0
+                w110 = -0.0026933756729740645 * v1_2
+                w111 = 0.26933756729740643 * v1_1
+                w112 = -0.26664419162443237 * v1_0
+                memory.inverse_1[:] = (
+                    1.01, -h * (0.495 * v1_2 + w102 + w101),
+                    -h * (0.495 * v1_1 + w104 + w103), 0.0,
+                    -h * (w102 - 0.01933756729740644 * v1_2 + 0.22835580837556763 * v2_2),
+                    -h * (0.0001933756729740644 * v1_1 + w104 + 0.22835580837556763 * v2_1),
+                    -h * (w105 - 0.5 * v1_2 + w101), 1.0,
+                    -h * (w107 - 0.5 * v1_0 + w106),
+                    -h * (0.019144191624432375 * v1_2 + w105 - 0.23066243270259357 * v2_2),
+                    0.0,
+                    -h * (0.0001933756729740644 * v1_0 + w107 - 0.23066243270259357 * v2_0),
+                    -h * (0.005 * v1_1 + w108 + w103),
+                    -h * (0.005 * v1_0 + w109 + w106), 0.01,
+                    -h * (0.019144191624432375 * v1_1 + w108 + 0.0023066243270259356 * v2_1),
+                    -h * (w109 - 0.01933756729740644 * v1_0 + 0.0023066243270259356 * v2_0),
+                    0.0, 0.0,
+                    -h * (0.5141441916244324 * v1_2 + w102 + 0.26933756729740643 * v2_2),
+                    -h * (0.5141441916244324 * v1_1 + w104 - 0.0026933756729740645 * v2_1),
+                    1.01, -h * (w102 + w110 + 0.495 * v2_2),
+                    -h * (w104 + w111 + 0.495 * v2_1),
+                    -h * (w105 - 0.5193375672974064 * v1_2 - 0.26664419162443237 * v2_2),
+                    0.0,
+                    -h * (w107 - 0.5193375672974064 * v1_0 - 0.0026933756729740645 * v2_0),
+                    -h * (w105 + w110 - 0.5 * v2_2), 1.0,
+                    -h * (w107 + w112 - 0.5 * v2_0),
+                    -h * (0.005193375672974065 * v1_1 + w108 - 0.26664419162443237 * v2_1),
+                    -h * (0.005193375672974065 * v1_0 + w109 + 0.26933756729740643 * v2_0),
+                    0.0, -h * (w108 + w111 + 0.005 * v2_1),
+                    -h * (w109 + w112 + 0.005 * v2_0), 0.01,
+                )
+                memory.made_1 = invert(6, memory.inverse_1)
+                if memory.made_1 > 0:
+                    _count_matrix(statistics)
+            d_v1_0 = (
+                memory.inverse_1[0] * residual_0 + memory.inverse_1[1] * residual_1
+                + (memory.inverse_1[2] * residual_2
+                + memory.inverse_1[3] * residual_2_0) + (memory.inverse_1[4]
+                * residual_2_1 + memory.inverse_1[5] * residual_2_2)
+            )
+            d_v1_1 = (
+                memory.inverse_1[6] * residual_0 + memory.inverse_1[7] * residual_1
+                + (memory.inverse_1[8] * residual_2
+                + memory.inverse_1[9] * residual_2_0) + (memory.inverse_1[10]
+                * residual_2_1 + memory.inverse_1[11] * residual_2_2)
+            )
+            d_v1_2 = (
+                memory.inverse_1[12] * residual_0 + memory.inverse_1[13] * residual_1
+                + (memory.inverse_1[14] * residual_2
+                + memory.inverse_1[15] * residual_2_0) + (memory.inverse_1[16]
+                * residual_2_1 + memory.inverse_1[17] * residual_2_2)
+            )
+            d_v2_0 = (
+                memory.inverse_1[18] * residual_0 + memory.inverse_1[19] * residual_1
+                + (memory.inverse_1[20] * residual_2
+                + memory.inverse_1[21] * residual_2_0) + (memory.inverse_1[22]
+                * residual_2_1 + memory.inverse_1[23] * residual_2_2)
+            )
+            d_v2_1 = (
+                memory.inverse_1[24] * residual_0 + memory.inverse_1[25] * residual_1
+                + (memory.inverse_1[26] * residual_2
+                + memory.inverse_1[27] * residual_2_0) + (memory.inverse_1[28]
+                * residual_2_1 + memory.inverse_1[29] * residual_2_2)
+            )
+            d_v2_2 = (
+                memory.inverse_1[30] * residual_0 + memory.inverse_1[31] * residual_1
+                + (memory.inverse_1[32] * residual_2
+                + memory.inverse_1[33] * residual_2_0) + (memory.inverse_1[34]
+                * residual_2_1 + memory.inverse_1[35] * residual_2_2)
+            )
+            change = (
+                abs(d_v1_0) + abs(d_v1_1) + (abs(d_v1_2) + abs(d_v2_0))
+                + (abs(d_v2_1) + abs(d_v2_2))
+            )
+            scale = (
+                abs(v1_0) + abs(v1_1) + (abs(v1_2) + abs(v2_0))
+                + (abs(v2_1) + abs(v2_2))
+            )
+            v1_0 += d_v1_0
+            v1_1 += d_v1_1
+            v1_2 += d_v1_2
+            v2_0 += d_v2_0
+            v2_1 += d_v2_1
+            v2_2 += d_v2_2
+            if previous_1 > 0.0:
+                rate_1 = change / previous_1
+            else:
+                memory.first += change
+            contracts = rate_1 < 0.5
+            settled = (
+                change * (rate_1 + 0.0001220703125) <= 8.881784197001252e-16 * scale
+                if contracts else sweep > 1 and (5.684341886080802e-14 * scale >= change
+                or (change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state[0:9]))
+                and change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state[9:12]))))
+            )
+            status = (
+                (OK if memory.made_1 > 0 and settled else NOT_CONVERGED)
+                if isfinite(change) else NOT_FINITE
+            )
+            make_1 = False
+            previous_1 = change
+            if (
+                not (status == NOT_CONVERGED and sweep < 100
+                and not (not memory.made_1 > 0))
+            ):
+                break
+        _count_sweeps(statistics, 0, sweep, status != OK)
+        if status != OK:
+            return status
+        memory.rate_1 = rate_1
+        solution = [v1_0, v1_1, v1_2, v2_0, v2_1, v2_2]
+        _remember(memory, solution)
+        Y_1_ = (v1_1 + v2_1) * w1
+        Y_0_ = (v1_0 + v2_0) * w1
+        Y_2_ = (v1_2 + v2_2) * w1
+        w113 = Y_0_ * Y_0_ + Y_1_ * Y_1_ + Y_2_ * Y_2_
+        c1_3, c2_4 = _stumpff_12(w113)
+        w115 = Y_1_ * c2_4
+        w116 = Y_1_ * w115
+        w117 = Y_2_ * c2_4 * Y_2_
+        g_0 = 1.0 - (w116 + w117)
+        w119 = Y_2_ * c1_3
+        w120 = Y_0_ * c2_4
+        w121 = Y_1_ * w120
+        g_3 = w119 + w121
+        w122 = Y_2_ * w120
+        w123 = Y_1_ * c1_3
+        g_6 = w122 - w123
+        g_1 = w121 - w119
+        w124 = Y_0_ * w120
+        g_4 = 1.0 - (w117 + w124)
+        w125 = Y_0_ * c1_3
+        w126 = Y_2_ * w115
+        g_7 = w125 + w126
+        g_2 = w122 + w123
+        g_5 = w126 - w125
+        g_8 = 1.0 - (w116 + w124)
+        w127 = 0.495 * h
+        w128 = (
+            s_L_0_seen + v1_2 * w127 * d_v1_1 + v1_1 * w127 * d_v1_2
+            + v2_2 * w127 * d_v2_1 + v2_1 * w127 * d_v2_2
+        )
+        w129 = -0.5 * h
+        w130 = (
+            s_L_1_seen + v1_2 * w129 * d_v1_0 + v1_0 * w129 * d_v1_2
+            + v2_2 * w129 * d_v2_0 + v2_0 * w129 * d_v2_2
+        )
+        w131 = 0.005 * h
+        w132 = (
+            s_L_2_seen + v1_1 * w131 * d_v1_0 + v1_0 * w131 * d_v1_1
+            + v2_1 * w131 * d_v2_0 + v2_0 * w131 * d_v2_1
+        )
+        new_g00 = g00 * g_0 + g01 * g_3 + g02 * g_6
+        new_g01 = g00 * g_1 + g01 * g_4 + g02 * g_7
+        new_g02 = g00 * g_2 + g01 * g_5 + g02 * g_8
+        new_g10 = g10 * g_0 + g11 * g_3 + g12 * g_6
+        new_g11 = g10 * g_1 + g11 * g_4 + g12 * g_7
+        new_g12 = g10 * g_2 + g11 * g_5 + g12 * g_8
+        new_g20 = g20 * g_0 + g21 * g_3 + g22 * g_6
+        new_g21 = g20 * g_1 + g21 * g_4 + g22 * g_7
+        new_g22 = g20 * g_2 + g21 * g_5 + g22 * g_8
+        if not all(map(isfinite, (new_g00, new_g01, new_g02, new_g10, new_g11, new_g12, new_g20, new_g21, new_g22, w128, w130, w132))):
+            return NOT_FINITE
+        memory.made_1 = memory.made_1 + 1 if memory.made_1 % 3 > 0 else 0
+        state[:] = (
+            new_g00, new_g01, new_g02, new_g10, new_g11, new_g12, new_g20, new_g21,
+            new_g22, w128, w130, w132,
+        )
+        return OK
+    except (ArithmeticError, ValueError):
+        return NOT_FINITE
 
 
 def _continued(state, h, memory, statistics):
-    """Return the state after a step whose equations do not settle.
-
-    They are tried without the solutions before. Then those of a shorter step are solved, and the
-    solution is continued in h, as far at a time as it can be followed: it is the one that tends
-    to the motion as h tends to zero. A step of no length changes nothing.
+    """Make a step whose equations do not settle: without the earlier solutions,
+    which may mislead where the motion changes; then through shorter ones, whose
+    solutions are continued in h.
     """
-    if h == 0.0 and all(map(isfinite, state)):
-        return state
-    solved, part, factor, found, failure = 0.0, 1.0, 2.0, None, None
-    for _ in range(100):
-        memory.__init__()
-        if found is not None:
-            memory.past, memory.guess = [found], found
-        try:
-            new = _checked(state, part * h, memory, statistics)
-        except StepFailed as error:
-            failure = error
-            factor = factor**0.5 if found is not None else factor
-        else:
-            found, solved = memory.past[0], part
-            memory.past, memory.guess, memory.degree = [found], found, 0
-            if part >= 1.0:
-                if statistics is not None:
-                    statistics.failed = 0
-                return new
+    if not (h < 0.0 or h > 0.0):
+        return OK if all(map(isfinite, state)) else NOT_FINITE
+    known_solution = [0.0] * 6
+    trial = [0.0] * 12
+    solved = 0.0
+    part = 1.0
+    factor = 2.0
+    failure = NOT_CONVERGED
+    done = False
+    tries = 0
+    while not done and tries < 100 and factor > 1.00390625:
+        trial[:] = state
+        memory.clear()
+        if solved > 0.0:
+            memory.known = 1
+            memory.guess[:] = known_solution
+            memory.rate_1 = 1.0
+        status = _advance(trial, part * h, memory, statistics)
+        done = status == OK and part >= 1.0
+        if status == OK:
+            known_solution[:] = memory.values[memory.place]
+            solved = part
             factor *= factor
-        if factor <= 1.00390625:
-            break
-        factor = min(factor, 4.0)
-        part = 0.5 * part if found is None else min(solved * factor, 1.0)
-    raise failure
+        else:
+            failure = status
+            factor = sqrt(factor) if solved > 0.0 else factor
+        if not done:
+            factor = factor if factor < 4.0 else 4.0
+            part = solved * factor if solved > 0.0 else 0.5 * part
+            part = part if part < 1.0 else 1.0
+        tries += 1
+    if not done:
+        return failure
+    state[:] = trial
+    memory.known = 1
+    if statistics is not None:
+        statistics.failed = 0
+    return OK
 
 
-def _inward(state):
-    """Return the momentum that steps are made with, of a state, as a tuple."""
-    g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
-    momentum_0 = g00 * mu0 + g10 * mu1 + g20 * mu2
-    momentum_1 = g01 * mu0 + g11 * mu1 + g21 * mu2
-    momentum_2 = g02 * mu0 + g12 * mu1 + g22 * mu2
-    return momentum_0, momentum_1, momentum_2
+def _to_body(state, momentum):
+    """Convert space momentum to body momentum."""
+    try:
+        g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
+        momentum[:] = (
+            g00 * mu0 + g10 * mu1 + g20 * mu2, g01 * mu0 + g11 * mu1 + g21 * mu2,
+            g02 * mu0 + g12 * mu1 + g22 * mu2,
+        )
+    except (ArithmeticError, ValueError):
+        momentum[:] = [nan] * len(momentum)
 
 
-def _outward(state):
-    """Return the momentum in space, of a state with the other, as a tuple."""
-    g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
-    momentum_0 = g00 * mu0 + g01 * mu1 + g02 * mu2
-    momentum_1 = g11 * mu1 + g10 * mu0 + g12 * mu2
-    momentum_2 = g20 * mu0 + g21 * mu1 + g22 * mu2
-    return momentum_0, momentum_1, momentum_2
+def _to_space(state, momentum):
+    """Convert body momentum to space momentum."""
+    try:
+        g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
+        momentum[:] = (
+            g00 * mu0 + g01 * mu1 + g02 * mu2, g11 * mu1 + g10 * mu0 + g12 * mu2,
+            g20 * mu0 + g21 * mu1 + g22 * mu2,
+        )
+    except (ArithmeticError, ValueError):
+        momentum[:] = [nan] * len(momentum)
 
 
-def _entered(state):
-    """Return the state with that momentum, and what this is in space."""
-    moving = state[:9] + _inward(state)
-    return moving, _outward(moving)
+def _enter_body(state, moving, before):
+    """Begin: the state with body momentum, and what this momentum is in space."""
+    _to_body(state, before)
+    moving[0:9] = state[0:9]
+    moving[9:12] = before
+    _to_space(moving, before)
 
 
-def _left(state, moving, before):
-    """Return the state in space of one with the other momentum.
-
-    What this has gained in space is added to that of the state: where rounding has made q
-    not quite orthogonal, it turns that alone.
+def _leave_body(moving, before, state):
+    """End: change the state to the moving one; its space momentum is increased by
+    the gain since before.
     """
-    gained = zip(state[9:], _outward(moving), before)
-    new = moving[:9] + tuple(mu + (y - x) for mu, y, x in gained)
-    if not all(map(isfinite, new)):
-        raise StepFailed(NOT_FINITE, "the new momentum is finite in the body alone")
-    return new
+    momentum = [0.0] * 3
+    _to_space(moving, momentum)
+    for i in range(3):
+        momentum[i] = state[i + 9] + (momentum[i] - before[i])
+    if not all(map(isfinite, momentum)):
+        return NOT_FINITE
+    state[0:9] = moving[0:9]
+    state[9:12] = momentum
+    return OK
+
+
+def _run(state, h, steps, trajectory, stride, statistics, completed):
+    status = OK
+    step = 0
+    memory = _Memory()
+    recording = stride > 0 and trajectory is not None
+    row = 0
+    if recording:
+        trajectory[0][:] = state
+    moving = [0.0] * 12
+    before = [0.0] * 3
+    _enter_body(state, moving, before)
+    while status == OK and step < steps:
+        status = _advance(moving, h, memory, statistics)
+        if status == NOT_CONVERGED or status == NOT_FINITE:
+            status = _continued(moving, h, memory, statistics)
+        if status == OK:
+            step += 1
+            if recording and step % stride == 0:
+                row += 1
+                trajectory[row][:] = state
+                status = _leave_body(moving, before, trajectory[row])
+    if step > 0:
+        ended = _leave_body(moving, before, state)
+        if ended != OK:
+            status = NOT_FINITE
+            step = 0
+    if completed is not None:
+        completed[0] = step
+    return status
+
+
+def _numbers(state):
+    """Return the numbers of a state."""
+    numbers = list(map(float, state))
+    if len(numbers) != 12:
+        raise ValueError(f"expected 12 numbers in state, found {len(numbers)}")
+    return numbers
+
+
+def _failure(status, step, state, h, statistics):
+    """Return the error of a step that could not be made."""
+    reason = "the new state is not finite"
+    if status == BAD_STEP:
+        reason = f"the step size h = {h} is not finite"
+    elif statistics is not None and statistics.failed > 0:
+        label = Statistics.labels[statistics.failed - 1]
+        if status == NOT_CONVERGED:
+            reason = f"{label} did not converge"
+        else:
+            reason = f"{label} met a number that is not finite"
+    return StepFailed(status, reason, step, tuple(map(float, state)))
 
 
 def step(state, h, *, statistics=None):
-    """Return the state after one step of size h as a list; state itself is left alone.
+    """Return the state after one step of size h as a list; the given state is unchanged.
 
     A step that cannot be made raises StepFailed.
     """
@@ -803,35 +1006,15 @@ def run(state, h, steps, *, stride=0, statistics=None):
     With a positive stride, return rows instead: the initial state and every stride-th one
     after it. A step that cannot be made raises StepFailed, which holds the last good state.
     """
-    state = tuple(map(float, state))
+    state = _numbers(state)
     h = float(h)
-    if len(state) != 12:
-        raise ValueError(f"expected 12 numbers in state, found {len(state)}")
     if steps < 0:
         raise ValueError(f"expected no negative number of steps, found {steps}")
-    rows = [list(state)]
-    memory = _Memory()
-    made = 0
-    moving, before = _entered(state)
-    try:
-        if steps > 0 and not isfinite(h):
-            raise StepFailed(BAD_STEP, f"the step size h = {h} is not finite")
-        for made in range(steps):
-            try:
-                moving = _checked(moving, h, memory, statistics)
-            except StepFailed:
-                if statistics is not None:
-                    statistics.failed = 0
-                new = _continued(moving, h, memory, statistics)
-                moving = new
-            if stride > 0 and (made + 1) % stride == 0:
-                rows.append(list(_left(state, moving, before)))
-        end = _left(state, moving, before) if steps > 0 else state
-    except StepFailed as failure:
-        try:
-            end = _left(state, moving, before) if made > 0 else state
-        except StepFailed:
-            made, end = 0, state
-        failure.step, failure.state = made, end
-        raise
-    return rows if stride > 0 else list(end)
+    rows = [[0.0] * 12 for _ in range(steps // stride + 1)] if stride > 0 else None
+    completed = [0]
+    counted = Statistics() if statistics is None else statistics
+    counted.failed = 0
+    status = _run(state, h, steps, rows, stride, counted, completed)
+    if status != OK:
+        raise _failure(status, completed[0], state, h, counted)
+    return rows if stride > 0 else state

@@ -12,7 +12,7 @@
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit here
  * operations: 23 add, 48 mul, 5 signed_stumpff0, 5 signed_stumpff1 a step
- * stack:      at most 640 bytes, without what the mathematical library takes
+ * stack:      at most 704 bytes, without what the mathematical library takes
  * made by:    orderconds emit duffing_sl2 --method cf4 --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -109,6 +109,7 @@ static double stumpff_1_far(double z)
     if (z <= 1.0) {
         return stumpff_series_1(z);
     }
+    /* the answer is no number where the angle is so large that it has no correct digit */
     const double s = sqrt(z <= 65536.0 ? z : NAN);
     return sin(s) / s;
 }
@@ -128,6 +129,7 @@ static double stumpff_0_far(double z)
     if (z <= 1.0) {
         return stumpff_series_0(z);
     }
+    /* the answer is no number where the angle is so large that it has no correct digit */
     const double s = sqrt(z <= 65536.0 ? z : NAN);
     return cos(s);
 }
@@ -161,27 +163,22 @@ static inline double signed_stumpff0(double z)
     return cosh(r);
 }
 
-int duffing_sl2_cf4_step(double state[static 2], double h)
-{
-    return duffing_sl2_cf4_run(state, h, 1, NULL, 0, NULL);
-}
-
 int duffing_sl2_cf4_run(double state[static 2], double h, size_t steps, double *trajectory,
     size_t stride, size_t *completed)
 {
     int status = DUFFING_SL2_CF4_OK;
     size_t step = 0;
-    double *row = stride > 0 ? trajectory : NULL;
-    if (row != NULL) {
-        memcpy(row, state, 2 * sizeof *state);
+    const int recording = stride > 0 && trajectory != NULL;
+    size_t row = 0;
+    if (recording) {
+        memcpy(trajectory, state, 2 * sizeof *state);
     }
     if (steps > 0 && !isfinite(h)) {
         status = DUFFING_SL2_CF4_BAD_STEP;
-        steps = 0;
     }
     double z0 = state[0];
     double z1 = state[1];
-    while (step < steps) {
+    while (status == DUFFING_SL2_CF4_OK && step < steps) {
         const double w1 = 0.25 * h;
         const double w2 = 0.3333333333333333 * h;
         const double w3 = -0.08333333333333333 * h;
@@ -218,18 +215,17 @@ int duffing_sl2_cf4_run(double state[static 2], double h, size_t steps, double *
         const double new_z0 = w21 * w24 + x_2_0 * w26 * w25;
         const double new_z1 = w22 * w26 * w21 + w24 * w25;
         /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
-        if (!isfinite(new_z0 + new_z1)
-            && !((new_z0 - new_z0) + (new_z1 - new_z1) == 0.0)) {
+        if (isfinite(new_z0 + new_z1) || new_z0 - new_z0 + (new_z1 - new_z1) == 0.0) {
+            z0 = new_z0;
+            z1 = new_z1;
+            step++;
+            if (recording && step % stride == 0) {
+                row++;
+                trajectory[2 * row] = z0;
+                trajectory[2 * row + 1] = z1;
+            }
+        } else {
             status = DUFFING_SL2_CF4_NOT_FINITE;
-            break;
-        }
-        z0 = new_z0;
-        z1 = new_z1;
-        step++;
-        if (row != NULL && step % stride == 0) {
-            row += 2;
-            row[0] = z0;
-            row[1] = z1;
         }
     }
     state[0] = z0;
@@ -237,5 +233,11 @@ int duffing_sl2_cf4_run(double state[static 2], double h, size_t steps, double *
     if (completed != NULL) {
         *completed = step;
     }
+    return status;
+}
+
+int duffing_sl2_cf4_step(double state[static 2], double h)
+{
+    const int status = duffing_sl2_cf4_run(state, h, 1, NULL, 0, NULL);
     return status;
 }

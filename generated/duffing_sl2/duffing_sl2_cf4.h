@@ -1,4 +1,4 @@
-/* Duffing's equation, SL(2) acting linearly (thesis section 2.2): one step by cf:cf4: functions and status codes. duffing_sl2_cf4.c tells how to use them. */
+/* Duffing's equation, SL(2) acting linearly (thesis section 2.2): one step by cf:cf4: functions and status codes. duffing_sl2_cf4.c has an example. */
 #ifndef DUFFING_SL2_CF4_H
 #define DUFFING_SL2_CF4_H
 
@@ -14,7 +14,7 @@ enum {
     DUFFING_SL2_CF4_BAD_STEP = 3 /* h is infinite or a NaN */
 };
 
-/* Make one step of size h. When the status is not DUFFING_SL2_CF4_OK, the state is as it was. */
+/* Make one step of size h. When the status is not DUFFING_SL2_CF4_OK, the state is unchanged. */
 int duffing_sl2_cf4_step(double state[2], double h);
 
 /*

@@ -39,9 +39,9 @@ class StepFailed(ArithmeticError):
     state: the last good state, as a tuple.
     """
 
-    def __init__(self, status, reason):
+    def __init__(self, status, reason, step, state):
         super().__init__(reason)
-        self.status, self.reason, self.step, self.state = status, reason, 0, ()
+        self.status, self.reason, self.step, self.state = status, reason, step, state
 
     def __str__(self):
         return f"step {self.step + 1}: {self.reason}"
@@ -113,6 +113,7 @@ def _stumpff_1_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s."""
     if z <= 1.0:
         return _stumpff_series_1(z)
+    # the answer is no number where the angle is so large that it has no correct digit
     s = sqrt(z if z <= 65536.0 else float("nan"))
     return sin(s) / s
 
@@ -130,6 +131,7 @@ def _stumpff_0_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_0 = cos(s)."""
     if z <= 1.0:
         return _stumpff_series_0(z)
+    # the answer is no number where the angle is so large that it has no correct digit
     s = sqrt(z if z <= 65536.0 else float("nan"))
     return cos(s)
 
@@ -159,64 +161,90 @@ def signed_stumpff0(z):
     return cosh(r)
 
 
-def _advance(state, h):
-    """Return the state after one step as a tuple."""
-    z0, z1 = state
-    w1 = 0.25 * h
-    w2 = 0.3333333333333333 * h
-    w3 = -0.08333333333333333 * h
-    x_0 = w1 + w2 + w3
-    k0_1 = -1.0 - z0 * z0
-    x2_0 = 0.5 * h
-    w4 = x2_0 * x2_0
-    w5 = -k0_1 * w4
-    w6 = signed_stumpff0(w5)
-    w7 = signed_stumpff1(w5)
-    w8 = z0 * w6 + x2_0 * w7 * z1
-    w9 = -1.0 - w8 * w8
-    w10 = -w4 * w9
-    p_1 = z0 * signed_stumpff0(w10) + x2_0 * signed_stumpff1(w10) * z1
-    w11 = -1.0 - p_1 * p_1
-    w12 = 0.16666666666666666 * h * (w9 + w11)
-    w13 = -0.5 * h
-    x4_0 = h + w13
-    w14 = -x4_0 * (k0_1 * w13 + h * w11)
-    w15 = (
-        w8 * signed_stumpff0(w14)
-        + x4_0 * signed_stumpff1(w14) * (z1 * w6 + k0_1 * x2_0 * w7 * z0)
-    )
-    w16 = -1.0 - w15 * w15
-    w17 = w12 + w1 * k0_1 + w3 * w16
-    w18 = -x_0 * w17
-    w19 = signed_stumpff0(w18)
-    w20 = signed_stumpff1(w18)
-    w21 = z0 * w19 + x_0 * w20 * z1
-    x_2_0 = w2 + w3 + w1
-    w22 = w12 + w3 * k0_1 + w1 * w16
-    w23 = -x_2_0 * w22
-    w24 = signed_stumpff0(w23)
-    w25 = w17 * w20 * z0 + z1 * w19
-    w26 = signed_stumpff1(w23)
-    new_z0 = w21 * w24 + x_2_0 * w26 * w25
-    new_z1 = w22 * w26 * w21 + w24 * w25
-    return new_z0, new_z1
+def _run(state, h, steps, trajectory, stride, completed):
+    status = OK
+    step = 0
+    recording = stride > 0 and trajectory is not None
+    row = 0
+    if recording:
+        trajectory[0][:] = state
+    if steps > 0 and not isfinite(h):
+        status = BAD_STEP
+    z0 = state[0]
+    z1 = state[1]
+    while status == OK and step < steps:
+        w1 = 0.25 * h
+        w2 = 0.3333333333333333 * h
+        w3 = -0.08333333333333333 * h
+        x_0 = w1 + w2 + w3
+        k0_1 = -1.0 - z0 * z0
+        x2_0 = 0.5 * h
+        w4 = x2_0 * x2_0
+        w5 = -k0_1 * w4
+        w6 = signed_stumpff0(w5)
+        w7 = signed_stumpff1(w5)
+        w8 = z0 * w6 + x2_0 * w7 * z1
+        w9 = -1.0 - w8 * w8
+        w10 = -w4 * w9
+        p_1 = z0 * signed_stumpff0(w10) + x2_0 * signed_stumpff1(w10) * z1
+        w11 = -1.0 - p_1 * p_1
+        w12 = 0.16666666666666666 * h * (w9 + w11)
+        w13 = -0.5 * h
+        x4_0 = h + w13
+        w14 = -x4_0 * (k0_1 * w13 + h * w11)
+        w15 = (
+            w8 * signed_stumpff0(w14)
+            + x4_0 * signed_stumpff1(w14) * (z1 * w6 + k0_1 * x2_0 * w7 * z0)
+        )
+        w16 = -1.0 - w15 * w15
+        w17 = w12 + w1 * k0_1 + w3 * w16
+        w18 = -x_0 * w17
+        w19 = signed_stumpff0(w18)
+        w20 = signed_stumpff1(w18)
+        w21 = z0 * w19 + x_0 * w20 * z1
+        x_2_0 = w2 + w3 + w1
+        w22 = w12 + w3 * k0_1 + w1 * w16
+        w23 = -x_2_0 * w22
+        w24 = signed_stumpff0(w23)
+        w25 = w17 * w20 * z0 + z1 * w19
+        w26 = signed_stumpff1(w23)
+        new_z0 = w21 * w24 + x_2_0 * w26 * w25
+        new_z1 = w22 * w26 * w21 + w24 * w25
+        if all(map(isfinite, (new_z0, new_z1))):
+            z0 = new_z0
+            z1 = new_z1
+            step += 1
+            if recording and step % stride == 0:
+                row += 1
+                trajectory[row][0] = z0
+                trajectory[row][1] = z1
+        else:
+            status = NOT_FINITE
+    state[0] = z0
+    state[1] = z1
+    if completed is not None:
+        completed[0] = step
+    return status
 
 
-def _checked(state, h):
-    """Return the state after one step, which is finite."""
-    try:
-        new = _advance(state, h)
-    except StepFailed:
-        raise
-    except (ArithmeticError, ValueError) as error:
-        raise StepFailed(NOT_FINITE, f"the new state is not finite ({error})") from None
-    if not all(map(isfinite, new)):
-        raise StepFailed(NOT_FINITE, "the new state is not finite")
-    return new
+def _numbers(state):
+    """Return the numbers of a state."""
+    numbers = list(map(float, state))
+    if len(numbers) != 2:
+        raise ValueError(f"expected 2 numbers in state, found {len(numbers)}")
+    return numbers
+
+
+def _failure(status, step, state, h):
+    """Return the error of a step that could not be made."""
+    reason = "the new state is not finite"
+    if status == BAD_STEP:
+        reason = f"the step size h = {h} is not finite"
+    return StepFailed(status, reason, step, tuple(map(float, state)))
 
 
 def step(state, h):
-    """Return the state after one step of size h as a list; state itself is left alone.
+    """Return the state after one step of size h as a list; the given state is unchanged.
 
     A step that cannot be made raises StepFailed.
     """
@@ -229,22 +257,13 @@ def run(state, h, steps, *, stride=0):
     With a positive stride, return rows instead: the initial state and every stride-th one
     after it. A step that cannot be made raises StepFailed, which holds the last good state.
     """
-    state = tuple(map(float, state))
+    state = _numbers(state)
     h = float(h)
-    if len(state) != 2:
-        raise ValueError(f"expected 2 numbers in state, found {len(state)}")
     if steps < 0:
         raise ValueError(f"expected no negative number of steps, found {steps}")
-    rows = [list(state)]
-    made = 0
-    try:
-        if steps > 0 and not isfinite(h):
-            raise StepFailed(BAD_STEP, f"the step size h = {h} is not finite")
-        for made in range(steps):
-            state = _checked(state, h)
-            if stride > 0 and (made + 1) % stride == 0:
-                rows.append(list(state))
-    except StepFailed as failure:
-        failure.step, failure.state = made, state
-        raise
-    return rows if stride > 0 else list(state)
+    rows = [[0.0] * 2 for _ in range(steps // stride + 1)] if stride > 0 else None
+    completed = [0]
+    status = _run(state, h, steps, rows, stride, completed)
+    if status != OK:
+        raise _failure(status, completed[0], state, h)
+    return rows if stride > 0 else state

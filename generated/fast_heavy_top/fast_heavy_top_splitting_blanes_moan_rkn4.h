@@ -1,4 +1,4 @@
-/* Fast heavy top with body inertia, T*SO(3) (Brüls and Cardona 2010): one step by: functions and status codes. fast_heavy_top_splitting_blanes_moan_rkn4.c tells how to use them. */
+/* Fast heavy top with body inertia, T*SO(3) (Brüls and Cardona 2010): one step by: functions and status codes. fast_heavy_top_splitting_blanes_moan_rkn4.c has an example. */
 #ifndef FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN4_H
 #define FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN4_H
 
@@ -14,7 +14,7 @@ enum {
     FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN4_BAD_STEP = 3 /* h is infinite or a NaN */
 };
 
-/* Make one step of size h. When the status is not FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN4_OK, the state is as it was. */
+/* Make one step of size h. When the status is not FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN4_OK, the state is unchanged. */
 int fast_heavy_top_splitting_blanes_moan_rkn4_step(double state[12], double h);
 
 /*

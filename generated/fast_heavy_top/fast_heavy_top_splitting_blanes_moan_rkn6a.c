@@ -17,7 +17,7 @@
  * operations: 473 add, 786 mul, 14 stumpff_12 a step
  *             29 add, 49 mul, 1 stumpff_12 once in a run of steps
  *             9 add, 21 mul, 1 stumpff_12 once in a run of steps
- * stack:      at most 4416 bytes, without what the mathematical library takes
+ * stack:      at most 4544 bytes, without what the mathematical library takes
  * made by:    orderconds emit fast_heavy_top --method splitting:blanes_moan_rkn6a --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -114,6 +114,7 @@ static void stumpff_12_far(double z, double *c1, double *c2)
         *c2 = stumpff_series_2(z);
         return;
     }
+    /* the answer is no number where the angle is so large that it has no correct digit */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -136,17 +137,18 @@ static inline void stumpff_12(double z, double *c1, double *c2)
     }
 }
 
-static int finite(const double state[static 12])
+/* Whether n numbers are all finite */
+static int all_finite(const double *x, size_t n)
 {
-    for (int i = 0; i < 12; i++) {
-        if (!isfinite(state[i])) {
+    for (size_t i = 0; i < n; i++) {
+        if (!isfinite(x[i])) {
             return 0;
         }
     }
     return 1;
 }
 
-/* One step, but for what is put off. */
+/* One step without the deferred flows. */
 static inline void advance(double state[static 12], double h, double lead_h)
 {
     const double g01 = state[1];
@@ -532,7 +534,7 @@ static inline void advance(double state[static 12], double h, double lead_h)
     state[11] = new_mu2;
 }
 
-/* How the first of some steps begins; in all others the step before has done that. */
+/* Leading flow, applied once before the first step. */
 static inline void begin(double state[static 12], double h)
 {
     const double g01 = state[1];
@@ -583,7 +585,7 @@ static inline void begin(double state[static 12], double h)
     state[11] = new_mu2;
 }
 
-/* What commutes with all that a step does, made once for many of them. */
+/* Flows that commute with all others, applied once for many steps. */
 static inline void finish(double state[static 12], double elapsed_h)
 {
     const double g00 = state[0];
@@ -635,7 +637,7 @@ int fast_heavy_top_splitting_blanes_moan_rkn6a_step(double state[static 12], dou
     if (!isfinite(h)) {
         return FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_BAD_STEP;
     }
-    if (!finite(state)) {
+    if (!all_finite(state, 12)) {
         return FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_NOT_FINITE;
     }
     double next[12];
@@ -644,7 +646,7 @@ int fast_heavy_top_splitting_blanes_moan_rkn6a_step(double state[static 12], dou
     begin(next, h);
     advance(next, h, lead);
     finish(next, h);
-    if (!finite(next)) {
+    if (!all_finite(next, 12)) {
         return FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_NOT_FINITE;
     }
     memcpy(state, next, sizeof next);
@@ -655,59 +657,71 @@ int fast_heavy_top_splitting_blanes_moan_rkn6a_run(double state[static 12], doub
     size_t steps, double *trajectory, size_t stride, size_t *completed)
 {
     int status = FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_OK;
-    int careful = 0; /* whether each step is looked at: what is not finite stays so until then */
-    double next[12], end[12];
+    size_t asked = steps;
     if (steps > 0 && !isfinite(h)) {
         status = FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_BAD_STEP;
-        steps = 0;
-    } else if (steps > 0 && !finite(state)) {
-        status = FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_NOT_FINITE;
-        steps = 0;
+        asked = 0;
     }
-    for (;;) {
-        size_t step = 0, late = 0; /* late: steps since the last that was ended */
-        double *row = stride > 0 ? trajectory : NULL;
-        if (row != NULL) {
-            memcpy(row, state, sizeof next);
+    if (status == FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_OK && steps > 0
+        && !all_finite(state, 12)) {
+        status = FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_NOT_FINITE;
+        asked = 0;
+    }
+    double next[12];
+    double complete[12];
+    int careful = 0;
+    size_t step = 0;
+    int again;
+    do {
+        step = 0;
+        size_t late = 0;
+        int begun = 0;
+        const int recording = stride > 0 && trajectory != NULL;
+        size_t row = 0;
+        if (recording) {
+            memcpy(trajectory, state, 12 * sizeof *state);
         }
         memcpy(next, state, sizeof next);
-        memcpy(end, state, sizeof end);
-        int whole = 1; /* whether the step before was ended, so that this one must begin */
-        for (; step < steps; step++) {
-            const int shown = row != NULL && (step + 1) % stride == 0;
+        memcpy(complete, state, sizeof complete);
+        int good = 1;
+        while (good && asked > step) {
+            const int shown = recording && (step + 1) % stride == 0;
             late++;
-            const int stop = shown || careful || step + 1 == steps || late == 256;
+            const int stop = shown || careful || step + 1 == asked || late == 256;
             const double lead = (stop ? 0.03785931984061045 : 0.0757186396812209) * h;
-            if (whole) {
+            if (!begun) {
                 begin(next, h);
             }
-            whole = stop;
+            begun = !stop;
             advance(next, h, lead);
             if (stop) {
                 finish(next, (double)late * h);
-                if (!finite(next)) {
-                    break;
-                }
-                late = 0;
-                memcpy(end, next, sizeof end);
-                if (shown) {
-                    row += 12;
-                    memcpy(row, end, sizeof end);
+                good = all_finite(next, 12);
+                if (good) {
+                    late = 0;
+                    memcpy(complete, next, sizeof complete);
+                    if (shown) {
+                        row++;
+                        memcpy(trajectory + 12 * row, complete, sizeof complete);
+                    }
                 }
             }
+            if (good) {
+                step++;
+            }
         }
-        if (step == steps) {
-            break;
+        again = !good;
+        if (again) {
+            if (careful) {
+                status = FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_NOT_FINITE;
+                asked = step;
+            }
+            careful = 1;
         }
-        if (careful) {
-            status = FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN6A_NOT_FINITE;
-            steps = step; /* once more, to end with the last step that can be made */
-        }
-        careful = 1;
-    }
-    memcpy(state, end, sizeof end);
+    } while (again);
+    memcpy(state, complete, sizeof complete);
     if (completed != NULL) {
-        *completed = steps;
+        *completed = step;
     }
     return status;
 }

@@ -39,9 +39,9 @@ class StepFailed(ArithmeticError):
     state: the last good state, as a tuple.
     """
 
-    def __init__(self, status, reason):
+    def __init__(self, status, reason, step, state):
         super().__init__(reason)
-        self.status, self.reason, self.step, self.state = status, reason, 0, ()
+        self.status, self.reason, self.step, self.state = status, reason, step, state
 
     def __str__(self):
         return f"step {self.step + 1}: {self.reason}"
@@ -111,6 +111,7 @@ def _stumpff_12_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z)
+    # the answer is no number where the angle is so large that it has no correct digit
     half = 0.5 * sqrt(z if z <= 65536.0 else float("nan"))
     ratio = sin(half) / half
     return ratio * cos(half), 0.5 * (ratio * ratio)
@@ -125,99 +126,123 @@ def _stumpff_12(z):
     return _stumpff_12_far(z)
 
 
-def _advance(state, h):
-    """Return the state after one step as a tuple."""
+def _run(state, h, steps, trajectory, stride, completed):
+    status = OK
+    step = 0
+    recording = stride > 0 and trajectory is not None
+    row = 0
+    if recording:
+        trajectory[0][:] = state
+    if steps > 0 and not isfinite(h):
+        status = BAD_STEP
     m0, m1, m2 = state
-    w1 = -0.125 * h
-    w2 = -0.25 * h
-    w3 = m0 * w2
-    w4 = 0.5 * h
-    w5 = m1 * w4
-    w6 = -0.75 * h
-    w7 = m2 * w6
-    w8 = w3 * w3 + w5 * w5 + w7 * w7
-    c1_1, c2_1 = _stumpff_12(w8)
-    w10 = m2 * w5 + m1 * w7
-    w12 = m1 * w3 + m0 * w5
-    w13 = m0 * w7 - m2 * w3
-    w14 = m0 - w10 * c1_1 - (w5 * w12 + w7 * w13) * c2_1
-    w15 = w2 * w14
-    w16 = (w7 * w10 + w3 * w12) * c2_1
-    w17 = m1 + w13 * c1_1
-    w18 = w16 - w17
-    w19 = w4 * w18
-    w20 = m2 + w12 * c1_1 + (w3 * w13 - w5 * w10) * c2_1
-    w21 = w6 * w20
-    w22 = w15 * w15 + w19 * w19 + w21 * w21
-    c1_2, c2_2 = _stumpff_12(w22)
-    w24 = m2 * w19 - m1 * w21
-    w26 = m1 * w15 - m0 * w19
-    w27 = m0 * w21 - m2 * w15
-    w28 = m0 + w24 * c1_2 + (w19 * w26 - w21 * w27) * c2_2
-    w29 = 0.16666666666666666 * h
-    w30 = (-0.5 * w14 - 0.5 * w28) * w29
-    w31 = 0.25 * h
-    w32 = -0.5 * h
-    w33 = m0 * w31 + w28 * w32
-    w34 = m1 + w27 * c1_2 + (w21 * w24 - w15 * w26) * c2_2
-    w35 = m1 * w32 + h * w34
-    w36 = m2 + w26 * c1_2 + (w15 * w27 - w19 * w24) * c2_2
-    w37 = 0.75 * h * m2 - 1.5 * h * w36
-    w38 = w33 * w33 + w35 * w35 + w37 * w37
-    c1_3, c2_3 = _stumpff_12(w38)
-    w40 = w17 - w16
-    w41 = w20 * w35 + w37 * w40
-    w43 = w14 * w35 + w33 * w40
-    w44 = w14 * w37 - w20 * w33
-    w45 = w14 - w41 * c1_3 - (w35 * w43 + w37 * w44) * c2_3
-    w46 = 0.041666666666666664 * h
-    w47 = m0 * w1 + w30 + w45 * w46
-    w48 = w29 * (w18 - w34)
-    w49 = (w37 * w41 + w33 * w43) * c2_3 - (w40 + w44 * c1_3)
-    w50 = -0.08333333333333333 * h
-    w51 = w48 - m1 * w31 + w49 * w50
-    w52 = -0.375 * h
-    w53 = w29 * (-1.5 * w20 - 1.5 * w36)
-    w54 = w20 + w43 * c1_3 + (w33 * w44 - w35 * w41) * c2_3
-    w55 = 0.125 * h
-    w56 = m2 * w52 + w53 + w54 * w55
-    w57 = w47 * w47 + w51 * w51 + w56 * w56
-    c1_4, c2_4 = _stumpff_12(w57)
-    w59 = m2 * w51 - m1 * w56
-    w61 = m1 * w47 - m0 * w51
-    w62 = m0 * w56 - m2 * w47
-    w63 = m0 + w59 * c1_4 + (w51 * w61 - w56 * w62) * c2_4
-    w64 = w30 + m0 * w46 + w1 * w45
-    w65 = w48 - m1 * w50 + w31 * w49
-    w66 = w53 + m2 * w55 + w52 * w54
-    w67 = w64 * w64 + w65 * w65 + w66 * w66
-    c1_5, c2_5 = _stumpff_12(w67)
-    w69 = m2 + w61 * c1_4 + (w47 * w62 - w51 * w59) * c2_4
-    w70 = m1 + w62 * c1_4 + (w56 * w59 - w47 * w61) * c2_4
-    w71 = w65 * w69 - w66 * w70
-    w73 = w64 * w70 - w63 * w65
-    w74 = w63 * w66 - w64 * w69
-    new_m0 = w63 + w71 * c1_5 + (w65 * w73 - w66 * w74) * c2_5
-    new_m1 = w70 + w74 * c1_5 + (w66 * w71 - w64 * w73) * c2_5
-    new_m2 = w69 + w73 * c1_5 + (w64 * w74 - w65 * w71) * c2_5
-    return new_m0, new_m1, new_m2
+    while status == OK and step < steps:
+        w1 = -0.125 * h
+        w2 = -0.25 * h
+        w3 = m0 * w2
+        w4 = 0.5 * h
+        w5 = m1 * w4
+        w6 = -0.75 * h
+        w7 = m2 * w6
+        w8 = w3 * w3 + w5 * w5 + w7 * w7
+        c1_1, c2_1 = _stumpff_12(w8)
+        w10 = m2 * w5 + m1 * w7
+        w12 = m1 * w3 + m0 * w5
+        w13 = m0 * w7 - m2 * w3
+        w14 = m0 - w10 * c1_1 - (w5 * w12 + w7 * w13) * c2_1
+        w15 = w2 * w14
+        w16 = (w7 * w10 + w3 * w12) * c2_1
+        w17 = m1 + w13 * c1_1
+        w18 = w16 - w17
+        w19 = w4 * w18
+        w20 = m2 + w12 * c1_1 + (w3 * w13 - w5 * w10) * c2_1
+        w21 = w6 * w20
+        w22 = w15 * w15 + w19 * w19 + w21 * w21
+        c1_2, c2_2 = _stumpff_12(w22)
+        w24 = m2 * w19 - m1 * w21
+        w26 = m1 * w15 - m0 * w19
+        w27 = m0 * w21 - m2 * w15
+        w28 = m0 + w24 * c1_2 + (w19 * w26 - w21 * w27) * c2_2
+        w29 = 0.16666666666666666 * h
+        w30 = (-0.5 * w14 - 0.5 * w28) * w29
+        w31 = 0.25 * h
+        w32 = -0.5 * h
+        w33 = m0 * w31 + w28 * w32
+        w34 = m1 + w27 * c1_2 + (w21 * w24 - w15 * w26) * c2_2
+        w35 = m1 * w32 + h * w34
+        w36 = m2 + w26 * c1_2 + (w15 * w27 - w19 * w24) * c2_2
+        w37 = 0.75 * h * m2 - 1.5 * h * w36
+        w38 = w33 * w33 + w35 * w35 + w37 * w37
+        c1_3, c2_3 = _stumpff_12(w38)
+        w40 = w17 - w16
+        w41 = w20 * w35 + w37 * w40
+        w43 = w14 * w35 + w33 * w40
+        w44 = w14 * w37 - w20 * w33
+        w45 = w14 - w41 * c1_3 - (w35 * w43 + w37 * w44) * c2_3
+        w46 = 0.041666666666666664 * h
+        w47 = m0 * w1 + w30 + w45 * w46
+        w48 = w29 * (w18 - w34)
+        w49 = (w37 * w41 + w33 * w43) * c2_3 - (w40 + w44 * c1_3)
+        w50 = -0.08333333333333333 * h
+        w51 = w48 - m1 * w31 + w49 * w50
+        w52 = -0.375 * h
+        w53 = w29 * (-1.5 * w20 - 1.5 * w36)
+        w54 = w20 + w43 * c1_3 + (w33 * w44 - w35 * w41) * c2_3
+        w55 = 0.125 * h
+        w56 = m2 * w52 + w53 + w54 * w55
+        w57 = w47 * w47 + w51 * w51 + w56 * w56
+        c1_4, c2_4 = _stumpff_12(w57)
+        w59 = m2 * w51 - m1 * w56
+        w61 = m1 * w47 - m0 * w51
+        w62 = m0 * w56 - m2 * w47
+        w63 = m0 + w59 * c1_4 + (w51 * w61 - w56 * w62) * c2_4
+        w64 = w30 + m0 * w46 + w1 * w45
+        w65 = w48 - m1 * w50 + w31 * w49
+        w66 = w53 + m2 * w55 + w52 * w54
+        w67 = w64 * w64 + w65 * w65 + w66 * w66
+        c1_5, c2_5 = _stumpff_12(w67)
+        w69 = m2 + w61 * c1_4 + (w47 * w62 - w51 * w59) * c2_4
+        w70 = m1 + w62 * c1_4 + (w56 * w59 - w47 * w61) * c2_4
+        w71 = w65 * w69 - w66 * w70
+        w73 = w64 * w70 - w63 * w65
+        w74 = w63 * w66 - w64 * w69
+        new_m0 = w63 + w71 * c1_5 + (w65 * w73 - w66 * w74) * c2_5
+        new_m1 = w70 + w74 * c1_5 + (w66 * w71 - w64 * w73) * c2_5
+        new_m2 = w69 + w73 * c1_5 + (w64 * w74 - w65 * w71) * c2_5
+        if all(map(isfinite, (new_m0, new_m1, new_m2))):
+            m0 = new_m0
+            m1 = new_m1
+            m2 = new_m2
+            step += 1
+            if recording and step % stride == 0:
+                row += 1
+                trajectory[row][:] = m0, m1, m2
+        else:
+            status = NOT_FINITE
+    state[:] = m0, m1, m2
+    if completed is not None:
+        completed[0] = step
+    return status
 
 
-def _checked(state, h):
-    """Return the state after one step, which is finite."""
-    try:
-        new = _advance(state, h)
-    except StepFailed:
-        raise
-    except (ArithmeticError, ValueError) as error:
-        raise StepFailed(NOT_FINITE, f"the new state is not finite ({error})") from None
-    if not all(map(isfinite, new)):
-        raise StepFailed(NOT_FINITE, "the new state is not finite")
-    return new
+def _numbers(state):
+    """Return the numbers of a state."""
+    numbers = list(map(float, state))
+    if len(numbers) != 3:
+        raise ValueError(f"expected 3 numbers in state, found {len(numbers)}")
+    return numbers
+
+
+def _failure(status, step, state, h):
+    """Return the error of a step that could not be made."""
+    reason = "the new state is not finite"
+    if status == BAD_STEP:
+        reason = f"the step size h = {h} is not finite"
+    return StepFailed(status, reason, step, tuple(map(float, state)))
 
 
 def step(state, h):
-    """Return the state after one step of size h as a list; state itself is left alone.
+    """Return the state after one step of size h as a list; the given state is unchanged.
 
     A step that cannot be made raises StepFailed.
     """
@@ -230,22 +255,13 @@ def run(state, h, steps, *, stride=0):
     With a positive stride, return rows instead: the initial state and every stride-th one
     after it. A step that cannot be made raises StepFailed, which holds the last good state.
     """
-    state = tuple(map(float, state))
+    state = _numbers(state)
     h = float(h)
-    if len(state) != 3:
-        raise ValueError(f"expected 3 numbers in state, found {len(state)}")
     if steps < 0:
         raise ValueError(f"expected no negative number of steps, found {steps}")
-    rows = [list(state)]
-    made = 0
-    try:
-        if steps > 0 and not isfinite(h):
-            raise StepFailed(BAD_STEP, f"the step size h = {h} is not finite")
-        for made in range(steps):
-            state = _checked(state, h)
-            if stride > 0 and (made + 1) % stride == 0:
-                rows.append(list(state))
-    except StepFailed as failure:
-        failure.step, failure.state = made, state
-        raise
-    return rows if stride > 0 else list(state)
+    rows = [[0.0] * 3 for _ in range(steps // stride + 1)] if stride > 0 else None
+    completed = [0]
+    status = _run(state, h, steps, rows, stride, completed)
+    if status != OK:
+        raise _failure(status, completed[0], state, h)
+    return rows if stride > 0 else state

@@ -13,7 +13,7 @@
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit here
  * operations: 84 add, 161 mul, 6 stumpff_12 a step
- * stack:      at most 960 bytes, without what the mathematical library takes
+ * stack:      at most 1024 bytes, without what the mathematical library takes
  * made by:    orderconds emit free_rigid_body --method cg:cg3 --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -110,6 +110,7 @@ static void stumpff_12_far(double z, double *c1, double *c2)
         *c2 = stumpff_series_2(z);
         return;
     }
+    /* the answer is no number where the angle is so large that it has no correct digit */
     const double half = 0.5 * sqrt(z <= 16777216.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -132,28 +133,23 @@ static inline void stumpff_12(double z, double *c1, double *c2)
     }
 }
 
-int free_rigid_body_cg3_step(double state[static 3], double h)
-{
-    return free_rigid_body_cg3_run(state, h, 1, NULL, 0, NULL);
-}
-
 int free_rigid_body_cg3_run(double state[static 3], double h, size_t steps,
     double *trajectory, size_t stride, size_t *completed)
 {
     int status = FREE_RIGID_BODY_CG3_OK;
     size_t step = 0;
-    double *row = stride > 0 ? trajectory : NULL;
-    if (row != NULL) {
-        memcpy(row, state, 3 * sizeof *state);
+    const int recording = stride > 0 && trajectory != NULL;
+    size_t row = 0;
+    if (recording) {
+        memcpy(trajectory, state, 3 * sizeof *state);
     }
     if (steps > 0 && !isfinite(h)) {
         status = FREE_RIGID_BODY_CG3_BAD_STEP;
-        steps = 0;
     }
     double m0 = state[0];
     double m1 = state[1];
     double m2 = state[2];
-    while (step < steps) {
+    while (status == FREE_RIGID_BODY_CG3_OK && step < steps) {
         const double w1 = -0.12745098039215685 * h * m0;
         const double w2 = 0.2549019607843137 * h * m1;
         const double w3 = -0.38235294117647056 * h * m2;
@@ -227,20 +223,20 @@ int free_rigid_body_cg3_run(double state[static 3], double h, size_t steps,
         const double new_m1 = w62 + w66 * c1_6 - (w58 * w63 + w56 * w65) * c2_6;
         const double new_m2 = w61 + w65 * c1_6 + (w56 * w66 - w57 * w63) * c2_6;
         /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
-        if (!isfinite((new_m0 + new_m1) + new_m2)
-            && !(((new_m0 - new_m0) + (new_m1 - new_m1)) + (new_m2 - new_m2) == 0.0)) {
+        if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
+            + (new_m2 - new_m2) == 0.0) {
+            m0 = new_m0;
+            m1 = new_m1;
+            m2 = new_m2;
+            step++;
+            if (recording && step % stride == 0) {
+                row++;
+                trajectory[3 * row] = m0;
+                trajectory[3 * row + 1] = m1;
+                trajectory[3 * row + 2] = m2;
+            }
+        } else {
             status = FREE_RIGID_BODY_CG3_NOT_FINITE;
-            break;
-        }
-        m0 = new_m0;
-        m1 = new_m1;
-        m2 = new_m2;
-        step++;
-        if (row != NULL && step % stride == 0) {
-            row += 3;
-            row[0] = m0;
-            row[1] = m1;
-            row[2] = m2;
         }
     }
     state[0] = m0;
@@ -249,5 +245,11 @@ int free_rigid_body_cg3_run(double state[static 3], double h, size_t steps,
     if (completed != NULL) {
         *completed = step;
     }
+    return status;
+}
+
+int free_rigid_body_cg3_step(double state[static 3], double h)
+{
+    const int status = free_rigid_body_cg3_run(state, h, 1, NULL, 0, NULL);
     return status;
 }

@@ -38,9 +38,9 @@ class StepFailed(ArithmeticError):
     state: the last good state, as a tuple.
     """
 
-    def __init__(self, status, reason):
+    def __init__(self, status, reason, step, state):
         super().__init__(reason)
-        self.status, self.reason, self.step, self.state = status, reason, 0, ()
+        self.status, self.reason, self.step, self.state = status, reason, step, state
 
     def __str__(self):
         return f"step {self.step + 1}: {self.reason}"
@@ -110,6 +110,7 @@ def _stumpff_12_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z)
+    # the answer is no number where the angle is so large that it has no correct digit
     half = 0.5 * sqrt(z if z <= 16777216.0 else float("nan"))
     ratio = sin(half) / half
     return ratio * cos(half), 0.5 * (ratio * ratio)
@@ -124,90 +125,122 @@ def _stumpff_12(z):
     return _stumpff_12_far(z)
 
 
-def _advance(state, h):
-    """Return the state after one step as a tuple."""
+def _run(state, h, steps, trajectory, stride, completed):
+    status = OK
+    step = 0
+    recording = stride > 0 and trajectory is not None
+    row = 0
+    if recording:
+        trajectory[0][:] = state
+    if steps > 0 and not isfinite(h):
+        status = BAD_STEP
     m0, m1, m2 = state
-    w1 = -0.12745098039215685 * h * m0
-    w2 = 0.2549019607843137 * h * m1
-    w3 = -0.38235294117647056 * h * m2
-    w4 = w1 * w1 + w2 * w2 + w3 * w3
-    c1_1, c2_1 = _stumpff_12(w4)
-    w6 = m2 * w2 + m1 * w3
-    w8 = m1 * w1 + m0 * w2
-    w9 = m0 * w3 - m2 * w1
-    w10 = m0 - w6 * c1_1 - (w2 * w8 + w3 * w9) * c2_1
-    w11 = -0.375 * h * m0
-    w12 = 0.75 * h * m1
-    w13 = -1.125 * h * m2
-    w14 = w11 * w11 + w12 * w12 + w13 * w13
-    c1_2, c2_2 = _stumpff_12(w14)
-    w16 = m2 * w12 + m1 * w13
-    w18 = m1 * w11 + m0 * w12
-    w19 = m0 * w13 - m2 * w11
-    w20 = m0 - w16 * c1_2 - (w12 * w18 + w13 * w19) * c2_2
-    w21 = 0.3333333333333333 * h * w20
-    w22 = (w13 * w16 + w11 * w18) * c2_2 - (m1 + w19 * c1_2)
-    w23 = -0.6666666666666666 * h * w22
-    w24 = m2 + w18 * c1_2 + (w11 * w19 - w12 * w16) * c2_2
-    w25 = h * w24
-    w26 = w21 * w21 + w23 * w23 + w25 * w25
-    c1_3, c2_3 = _stumpff_12(w26)
-    w28 = m2 + w8 * c1_1 + (w1 * w9 - w2 * w6) * c2_1
-    w29 = m1 + w9 * c1_1 - (w3 * w6 + w1 * w8) * c2_1
-    w30 = w23 * w28 - w25 * w29
-    w32 = w21 * w29 - w10 * w23
-    w33 = w10 * w25 - w21 * w28
-    w34 = w10 + w30 * c1_3 + (w23 * w32 - w25 * w33) * c2_3
-    w35 = -0.27546296296296297 * h * m0
-    w36 = 0.5509259259259259 * h * m1
-    w37 = -0.8263888888888888 * h * m2
-    w38 = w35 * w35 + w36 * w36 + w37 * w37
-    c1_4, c2_4 = _stumpff_12(w38)
-    w40 = m2 * w36 + m1 * w37
-    w42 = m1 * w35 + m0 * w36
-    w43 = m0 * w37 - m2 * w35
-    w44 = m0 - w40 * c1_4 - (w36 * w42 + w37 * w43) * c2_4
-    w45 = -0.0787037037037037 * h * w20
-    w46 = 0.1574074074074074 * h * w22
-    w47 = -0.2361111111111111 * h * w24
-    w48 = w45 * w45 + w46 * w46 + w47 * w47
-    c1_5, c2_5 = _stumpff_12(w48)
-    w50 = m2 + w42 * c1_4 + (w35 * w43 - w36 * w40) * c2_4
-    w51 = m1 + w43 * c1_4 - (w37 * w40 + w35 * w42) * c2_4
-    w52 = w46 * w50 - w47 * w51
-    w54 = w45 * w51 - w44 * w46
-    w55 = w44 * w47 - w45 * w50
-    w56 = -0.7058823529411765 * h * (w44 + w52 * c1_5 + (w46 * w54 - w47 * w55) * c2_5)
-    w57 = 1.411764705882353 * h * (w51 + w55 * c1_5 + (w47 * w52 - w45 * w54) * c2_5)
-    w58 = -2.1176470588235294 * h * (w50 + w54 * c1_5 + (w45 * w55 - w46 * w52) * c2_5)
-    w59 = w56 * w56 + w57 * w57 + w58 * w58
-    c1_6, c2_6 = _stumpff_12(w59)
-    w61 = w28 + w32 * c1_3 + (w21 * w33 - w23 * w30) * c2_3
-    w62 = w29 + w33 * c1_3 + (w25 * w30 - w21 * w32) * c2_3
-    w63 = w57 * w61 + w58 * w62
-    w65 = w34 * w57 + w56 * w62
-    w66 = w34 * w58 - w56 * w61
-    new_m0 = w34 - w63 * c1_6 - (w57 * w65 + w58 * w66) * c2_6
-    new_m1 = w62 + w66 * c1_6 - (w58 * w63 + w56 * w65) * c2_6
-    new_m2 = w61 + w65 * c1_6 + (w56 * w66 - w57 * w63) * c2_6
-    return new_m0, new_m1, new_m2
+    while status == OK and step < steps:
+        w1 = -0.12745098039215685 * h * m0
+        w2 = 0.2549019607843137 * h * m1
+        w3 = -0.38235294117647056 * h * m2
+        w4 = w1 * w1 + w2 * w2 + w3 * w3
+        c1_1, c2_1 = _stumpff_12(w4)
+        w6 = m2 * w2 + m1 * w3
+        w8 = m1 * w1 + m0 * w2
+        w9 = m0 * w3 - m2 * w1
+        w10 = m0 - w6 * c1_1 - (w2 * w8 + w3 * w9) * c2_1
+        w11 = -0.375 * h * m0
+        w12 = 0.75 * h * m1
+        w13 = -1.125 * h * m2
+        w14 = w11 * w11 + w12 * w12 + w13 * w13
+        c1_2, c2_2 = _stumpff_12(w14)
+        w16 = m2 * w12 + m1 * w13
+        w18 = m1 * w11 + m0 * w12
+        w19 = m0 * w13 - m2 * w11
+        w20 = m0 - w16 * c1_2 - (w12 * w18 + w13 * w19) * c2_2
+        w21 = 0.3333333333333333 * h * w20
+        w22 = (w13 * w16 + w11 * w18) * c2_2 - (m1 + w19 * c1_2)
+        w23 = -0.6666666666666666 * h * w22
+        w24 = m2 + w18 * c1_2 + (w11 * w19 - w12 * w16) * c2_2
+        w25 = h * w24
+        w26 = w21 * w21 + w23 * w23 + w25 * w25
+        c1_3, c2_3 = _stumpff_12(w26)
+        w28 = m2 + w8 * c1_1 + (w1 * w9 - w2 * w6) * c2_1
+        w29 = m1 + w9 * c1_1 - (w3 * w6 + w1 * w8) * c2_1
+        w30 = w23 * w28 - w25 * w29
+        w32 = w21 * w29 - w10 * w23
+        w33 = w10 * w25 - w21 * w28
+        w34 = w10 + w30 * c1_3 + (w23 * w32 - w25 * w33) * c2_3
+        w35 = -0.27546296296296297 * h * m0
+        w36 = 0.5509259259259259 * h * m1
+        w37 = -0.8263888888888888 * h * m2
+        w38 = w35 * w35 + w36 * w36 + w37 * w37
+        c1_4, c2_4 = _stumpff_12(w38)
+        w40 = m2 * w36 + m1 * w37
+        w42 = m1 * w35 + m0 * w36
+        w43 = m0 * w37 - m2 * w35
+        w44 = m0 - w40 * c1_4 - (w36 * w42 + w37 * w43) * c2_4
+        w45 = -0.0787037037037037 * h * w20
+        w46 = 0.1574074074074074 * h * w22
+        w47 = -0.2361111111111111 * h * w24
+        w48 = w45 * w45 + w46 * w46 + w47 * w47
+        c1_5, c2_5 = _stumpff_12(w48)
+        w50 = m2 + w42 * c1_4 + (w35 * w43 - w36 * w40) * c2_4
+        w51 = m1 + w43 * c1_4 - (w37 * w40 + w35 * w42) * c2_4
+        w52 = w46 * w50 - w47 * w51
+        w54 = w45 * w51 - w44 * w46
+        w55 = w44 * w47 - w45 * w50
+        w56 = (
+            -0.7058823529411765 * h
+            * (w44 + w52 * c1_5 + (w46 * w54 - w47 * w55) * c2_5)
+        )
+        w57 = (
+            1.411764705882353 * h * (w51 + w55 * c1_5 + (w47 * w52 - w45 * w54) * c2_5)
+        )
+        w58 = (
+            -2.1176470588235294 * h
+            * (w50 + w54 * c1_5 + (w45 * w55 - w46 * w52) * c2_5)
+        )
+        w59 = w56 * w56 + w57 * w57 + w58 * w58
+        c1_6, c2_6 = _stumpff_12(w59)
+        w61 = w28 + w32 * c1_3 + (w21 * w33 - w23 * w30) * c2_3
+        w62 = w29 + w33 * c1_3 + (w25 * w30 - w21 * w32) * c2_3
+        w63 = w57 * w61 + w58 * w62
+        w65 = w34 * w57 + w56 * w62
+        w66 = w34 * w58 - w56 * w61
+        new_m0 = w34 - w63 * c1_6 - (w57 * w65 + w58 * w66) * c2_6
+        new_m1 = w62 + w66 * c1_6 - (w58 * w63 + w56 * w65) * c2_6
+        new_m2 = w61 + w65 * c1_6 + (w56 * w66 - w57 * w63) * c2_6
+        if all(map(isfinite, (new_m0, new_m1, new_m2))):
+            m0 = new_m0
+            m1 = new_m1
+            m2 = new_m2
+            step += 1
+            if recording and step % stride == 0:
+                row += 1
+                trajectory[row][:] = m0, m1, m2
+        else:
+            status = NOT_FINITE
+    state[:] = m0, m1, m2
+    if completed is not None:
+        completed[0] = step
+    return status
 
 
-def _checked(state, h):
-    """Return the state after one step, which is finite."""
-    try:
-        new = _advance(state, h)
-    except StepFailed:
-        raise
-    except (ArithmeticError, ValueError) as error:
-        raise StepFailed(NOT_FINITE, f"the new state is not finite ({error})") from None
-    if not all(map(isfinite, new)):
-        raise StepFailed(NOT_FINITE, "the new state is not finite")
-    return new
+def _numbers(state):
+    """Return the numbers of a state."""
+    numbers = list(map(float, state))
+    if len(numbers) != 3:
+        raise ValueError(f"expected 3 numbers in state, found {len(numbers)}")
+    return numbers
+
+
+def _failure(status, step, state, h):
+    """Return the error of a step that could not be made."""
+    reason = "the new state is not finite"
+    if status == BAD_STEP:
+        reason = f"the step size h = {h} is not finite"
+    return StepFailed(status, reason, step, tuple(map(float, state)))
 
 
 def step(state, h):
-    """Return the state after one step of size h as a list; state itself is left alone.
+    """Return the state after one step of size h as a list; the given state is unchanged.
 
     A step that cannot be made raises StepFailed.
     """
@@ -220,22 +253,13 @@ def run(state, h, steps, *, stride=0):
     With a positive stride, return rows instead: the initial state and every stride-th one
     after it. A step that cannot be made raises StepFailed, which holds the last good state.
     """
-    state = tuple(map(float, state))
+    state = _numbers(state)
     h = float(h)
-    if len(state) != 3:
-        raise ValueError(f"expected 3 numbers in state, found {len(state)}")
     if steps < 0:
         raise ValueError(f"expected no negative number of steps, found {steps}")
-    rows = [list(state)]
-    made = 0
-    try:
-        if steps > 0 and not isfinite(h):
-            raise StepFailed(BAD_STEP, f"the step size h = {h} is not finite")
-        for made in range(steps):
-            state = _checked(state, h)
-            if stride > 0 and (made + 1) % stride == 0:
-                rows.append(list(state))
-    except StepFailed as failure:
-        failure.step, failure.state = made, state
-        raise
-    return rows if stride > 0 else list(state)
+    rows = [[0.0] * 3 for _ in range(steps // stride + 1)] if stride > 0 else None
+    completed = [0]
+    status = _run(state, h, steps, rows, stride, completed)
+    if status != OK:
+        raise _failure(status, completed[0], state, h)
+    return rows if stride > 0 else state

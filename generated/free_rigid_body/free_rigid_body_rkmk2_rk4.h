@@ -1,4 +1,4 @@
-/* Free rigid body on the sphere (thesis section 2.8): one step by rkmk(2):rk4: functions and status codes. free_rigid_body_rkmk2_rk4.c tells how to use them. */
+/* Free rigid body on the sphere (thesis section 2.8): one step by rkmk(2):rk4: functions and status codes. free_rigid_body_rkmk2_rk4.c has an example. */
 #ifndef FREE_RIGID_BODY_RKMK2_RK4_H
 #define FREE_RIGID_BODY_RKMK2_RK4_H
 
@@ -14,7 +14,7 @@ enum {
     FREE_RIGID_BODY_RKMK2_RK4_BAD_STEP = 3 /* h is infinite or a NaN */
 };
 
-/* Make one step of size h. When the status is not FREE_RIGID_BODY_RKMK2_RK4_OK, the state is as it was. */
+/* Make one step of size h. When the status is not FREE_RIGID_BODY_RKMK2_RK4_OK, the state is unchanged. */
 int free_rigid_body_rkmk2_rk4_step(double state[3], double h);
 
 /*

@@ -42,9 +42,9 @@ class StepFailed(ArithmeticError):
     state: the last good state, as a tuple.
     """
 
-    def __init__(self, status, reason):
+    def __init__(self, status, reason, step, state):
         super().__init__(reason)
-        self.status, self.reason, self.step, self.state = status, reason, 0, ()
+        self.status, self.reason, self.step, self.state = status, reason, step, state
 
     def __str__(self):
         return f"step {self.step + 1}: {self.reason}"
@@ -114,6 +114,7 @@ def _stumpff_12_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z)
+    # the answer is no number where the angle is so large that it has no correct digit
     half = 0.5 * sqrt(z if z <= 65536.0 else float("nan"))
     ratio = sin(half) / half
     return ratio * cos(half), 0.5 * (ratio * ratio)
@@ -128,100 +129,124 @@ def _stumpff_12(z):
     return _stumpff_12_far(z)
 
 
-def _advance(state, h):
-    """Return the state after one step as a tuple."""
+def _run(state, h, steps, trajectory, stride, completed):
+    status = OK
+    step = 0
+    recording = stride > 0 and trajectory is not None
+    row = 0
+    if recording:
+        trajectory[0][:] = state
+    if steps > 0 and not isfinite(h):
+        status = BAD_STEP
     m0, m1, m2 = state
-    k0_0 = -0.5 * m0
-    w1 = 0.5 * h
-    u2_0 = k0_0 * w1
-    w2 = m1 * w1
-    k0_2 = -1.5 * m2
-    u2_2 = w1 * k0_2
-    w3 = u2_0 * u2_0 + w2 * w2 + u2_2 * u2_2
-    c1_1, c2_1 = _stumpff_12(w3)
-    w5 = m2 * w2 + m1 * u2_2
-    w7 = m1 * u2_0 + m0 * w2
-    w8 = m0 * u2_2 - m2 * u2_0
-    k2_0 = -0.5 * (m0 - w5 * c1_1 - (w2 * w7 + u2_2 * w8) * c2_1)
-    k2_2 = -1.5 * (m2 + w7 * c1_1 + (u2_0 * w8 - w2 * w5) * c2_1)
-    k2_1 = (u2_2 * w5 + u2_0 * w7) * c2_1 - (m1 + w8 * c1_1)
-    w9 = w2 * k2_2 + u2_2 * k2_1
-    w10 = u2_0 * k2_1 + w2 * k2_0
-    w11 = u2_2 * k2_0 - u2_0 * k2_2
-    w2_0 = k2_0 + 0.5 * w9 - 0.08333333333333333 * (w2 * w10 + u2_2 * w11)
-    u3_0 = w1 * w2_0
-    w2_1 = k2_1 - 0.5 * w11 - 0.08333333333333333 * (u2_2 * w9 + u2_0 * w10)
-    u3_1 = w1 * w2_1
-    w2_2 = k2_2 - 0.5 * w10 + 0.08333333333333333 * (u2_0 * w11 - w2 * w9)
-    u3_2 = w1 * w2_2
-    w12 = u3_0 * u3_0 + u3_1 * u3_1 + u3_2 * u3_2
-    c1_2, c2_2 = _stumpff_12(w12)
-    w14 = m2 * u3_1 - m1 * u3_2
-    w16 = m1 * u3_0 - m0 * u3_1
-    w17 = m0 * u3_2 - m2 * u3_0
-    k3_0 = -0.5 * (m0 + w14 * c1_2 + (u3_1 * w16 - u3_2 * w17) * c2_2)
-    k3_2 = -1.5 * (m2 + w16 * c1_2 + (u3_0 * w17 - u3_1 * w14) * c2_2)
-    Y3_1 = m1 + w17 * c1_2 + (u3_2 * w14 - u3_0 * w16) * c2_2
-    w18 = u3_1 * k3_2 + u3_2 * Y3_1
-    w19 = u3_0 * Y3_1 + u3_1 * k3_0
-    w20 = u3_2 * k3_0 - u3_0 * k3_2
-    w3_0 = k3_0 - 0.5 * w18 - 0.08333333333333333 * (u3_1 * w19 + u3_2 * w20)
-    u4_0 = h * w3_0
-    w3_1 = -0.5 * w20 - Y3_1 + 0.08333333333333333 * (u3_2 * w18 + u3_0 * w19)
-    u4_1 = h * w3_1
-    w3_2 = k3_2 + 0.5 * w19 + 0.08333333333333333 * (u3_0 * w20 - u3_1 * w18)
-    u4_2 = h * w3_2
-    w21 = u4_0 * u4_0 + u4_1 * u4_1 + u4_2 * u4_2
-    c1_3, c2_3 = _stumpff_12(w21)
-    w23 = m2 * u4_1 - m1 * u4_2
-    w25 = m1 * u4_0 - m0 * u4_1
-    w26 = m0 * u4_2 - m2 * u4_0
-    k4_0 = -0.5 * (m0 + w23 * c1_3 + (u4_1 * w25 - u4_2 * w26) * c2_3)
-    k4_2 = -1.5 * (m2 + w25 * c1_3 + (u4_0 * w26 - u4_1 * w23) * c2_3)
-    Y4_1 = m1 + w26 * c1_3 + (u4_2 * w23 - u4_0 * w25) * c2_3
-    w27 = u4_1 * k4_2 + u4_2 * Y4_1
-    w28 = u4_0 * Y4_1 + u4_1 * k4_0
-    w29 = u4_2 * k4_0 - u4_0 * k4_2
-    w30 = 0.16666666666666666 * h
-    w31 = 0.3333333333333333 * h
-    u_0 = (
-        (k4_0 - 0.5 * w27 - 0.08333333333333333 * (u4_1 * w28 + u4_2 * w29) + k0_0) * w30
-        + (w2_0 + w3_0) * w31
-    )
-    u_1 = (
-        w30 * (-0.5 * w29 - Y4_1 + 0.08333333333333333 * (u4_2 * w27 + u4_0 * w28) - m1)
-        + w31 * (w2_1 + w3_1)
-    )
-    u_2 = (
-        w30 * (k4_2 + 0.5 * w28 + 0.08333333333333333 * (u4_0 * w29 - u4_1 * w27) + k0_2)
-        + w31 * (w2_2 + w3_2)
-    )
-    w32 = u_0 * u_0 + u_1 * u_1 + u_2 * u_2
-    c1_4, c2_4 = _stumpff_12(w32)
-    w34 = m2 * u_1 - m1 * u_2
-    w36 = m1 * u_0 - m0 * u_1
-    w37 = m0 * u_2 - m2 * u_0
-    new_m0 = m0 + w34 * c1_4 + (u_1 * w36 - u_2 * w37) * c2_4
-    new_m1 = m1 + w37 * c1_4 + (u_2 * w34 - u_0 * w36) * c2_4
-    new_m2 = m2 + w36 * c1_4 + (u_0 * w37 - u_1 * w34) * c2_4
-    return new_m0, new_m1, new_m2
+    while status == OK and step < steps:
+        k0_0 = -0.5 * m0
+        w1 = 0.5 * h
+        u2_0 = k0_0 * w1
+        w2 = m1 * w1
+        k0_2 = -1.5 * m2
+        u2_2 = w1 * k0_2
+        w3 = u2_0 * u2_0 + w2 * w2 + u2_2 * u2_2
+        c1_1, c2_1 = _stumpff_12(w3)
+        w5 = m2 * w2 + m1 * u2_2
+        w7 = m1 * u2_0 + m0 * w2
+        w8 = m0 * u2_2 - m2 * u2_0
+        k2_0 = -0.5 * (m0 - w5 * c1_1 - (w2 * w7 + u2_2 * w8) * c2_1)
+        k2_2 = -1.5 * (m2 + w7 * c1_1 + (u2_0 * w8 - w2 * w5) * c2_1)
+        k2_1 = (u2_2 * w5 + u2_0 * w7) * c2_1 - (m1 + w8 * c1_1)
+        w9 = w2 * k2_2 + u2_2 * k2_1
+        w10 = u2_0 * k2_1 + w2 * k2_0
+        w11 = u2_2 * k2_0 - u2_0 * k2_2
+        w2_0 = k2_0 + 0.5 * w9 - 0.08333333333333333 * (w2 * w10 + u2_2 * w11)
+        u3_0 = w1 * w2_0
+        w2_1 = k2_1 - 0.5 * w11 - 0.08333333333333333 * (u2_2 * w9 + u2_0 * w10)
+        u3_1 = w1 * w2_1
+        w2_2 = k2_2 - 0.5 * w10 + 0.08333333333333333 * (u2_0 * w11 - w2 * w9)
+        u3_2 = w1 * w2_2
+        w12 = u3_0 * u3_0 + u3_1 * u3_1 + u3_2 * u3_2
+        c1_2, c2_2 = _stumpff_12(w12)
+        w14 = m2 * u3_1 - m1 * u3_2
+        w16 = m1 * u3_0 - m0 * u3_1
+        w17 = m0 * u3_2 - m2 * u3_0
+        k3_0 = -0.5 * (m0 + w14 * c1_2 + (u3_1 * w16 - u3_2 * w17) * c2_2)
+        k3_2 = -1.5 * (m2 + w16 * c1_2 + (u3_0 * w17 - u3_1 * w14) * c2_2)
+        Y3_1 = m1 + w17 * c1_2 + (u3_2 * w14 - u3_0 * w16) * c2_2
+        w18 = u3_1 * k3_2 + u3_2 * Y3_1
+        w19 = u3_0 * Y3_1 + u3_1 * k3_0
+        w20 = u3_2 * k3_0 - u3_0 * k3_2
+        w3_0 = k3_0 - 0.5 * w18 - 0.08333333333333333 * (u3_1 * w19 + u3_2 * w20)
+        u4_0 = h * w3_0
+        w3_1 = -0.5 * w20 - Y3_1 + 0.08333333333333333 * (u3_2 * w18 + u3_0 * w19)
+        u4_1 = h * w3_1
+        w3_2 = k3_2 + 0.5 * w19 + 0.08333333333333333 * (u3_0 * w20 - u3_1 * w18)
+        u4_2 = h * w3_2
+        w21 = u4_0 * u4_0 + u4_1 * u4_1 + u4_2 * u4_2
+        c1_3, c2_3 = _stumpff_12(w21)
+        w23 = m2 * u4_1 - m1 * u4_2
+        w25 = m1 * u4_0 - m0 * u4_1
+        w26 = m0 * u4_2 - m2 * u4_0
+        k4_0 = -0.5 * (m0 + w23 * c1_3 + (u4_1 * w25 - u4_2 * w26) * c2_3)
+        k4_2 = -1.5 * (m2 + w25 * c1_3 + (u4_0 * w26 - u4_1 * w23) * c2_3)
+        Y4_1 = m1 + w26 * c1_3 + (u4_2 * w23 - u4_0 * w25) * c2_3
+        w27 = u4_1 * k4_2 + u4_2 * Y4_1
+        w28 = u4_0 * Y4_1 + u4_1 * k4_0
+        w29 = u4_2 * k4_0 - u4_0 * k4_2
+        w30 = 0.16666666666666666 * h
+        w31 = 0.3333333333333333 * h
+        u_0 = (
+            (k4_0 - 0.5 * w27 - 0.08333333333333333 * (u4_1 * w28 + u4_2 * w29) + k0_0) * w30
+            + (w2_0 + w3_0) * w31
+        )
+        u_1 = (
+            w30 * (-0.5 * w29 - Y4_1 + 0.08333333333333333 * (u4_2 * w27 + u4_0 * w28) - m1)
+            + w31 * (w2_1 + w3_1)
+        )
+        u_2 = (
+            w30 * (k4_2 + 0.5 * w28 + 0.08333333333333333 * (u4_0 * w29 - u4_1 * w27) + k0_2)
+            + w31 * (w2_2 + w3_2)
+        )
+        w32 = u_0 * u_0 + u_1 * u_1 + u_2 * u_2
+        c1_4, c2_4 = _stumpff_12(w32)
+        w34 = m2 * u_1 - m1 * u_2
+        w36 = m1 * u_0 - m0 * u_1
+        w37 = m0 * u_2 - m2 * u_0
+        new_m0 = m0 + w34 * c1_4 + (u_1 * w36 - u_2 * w37) * c2_4
+        new_m1 = m1 + w37 * c1_4 + (u_2 * w34 - u_0 * w36) * c2_4
+        new_m2 = m2 + w36 * c1_4 + (u_0 * w37 - u_1 * w34) * c2_4
+        if all(map(isfinite, (new_m0, new_m1, new_m2))):
+            m0 = new_m0
+            m1 = new_m1
+            m2 = new_m2
+            step += 1
+            if recording and step % stride == 0:
+                row += 1
+                trajectory[row][:] = m0, m1, m2
+        else:
+            status = NOT_FINITE
+    state[:] = m0, m1, m2
+    if completed is not None:
+        completed[0] = step
+    return status
 
 
-def _checked(state, h):
-    """Return the state after one step, which is finite."""
-    try:
-        new = _advance(state, h)
-    except StepFailed:
-        raise
-    except (ArithmeticError, ValueError) as error:
-        raise StepFailed(NOT_FINITE, f"the new state is not finite ({error})") from None
-    if not all(map(isfinite, new)):
-        raise StepFailed(NOT_FINITE, "the new state is not finite")
-    return new
+def _numbers(state):
+    """Return the numbers of a state."""
+    numbers = list(map(float, state))
+    if len(numbers) != 3:
+        raise ValueError(f"expected 3 numbers in state, found {len(numbers)}")
+    return numbers
+
+
+def _failure(status, step, state, h):
+    """Return the error of a step that could not be made."""
+    reason = "the new state is not finite"
+    if status == BAD_STEP:
+        reason = f"the step size h = {h} is not finite"
+    return StepFailed(status, reason, step, tuple(map(float, state)))
 
 
 def step(state, h):
-    """Return the state after one step of size h as a list; state itself is left alone.
+    """Return the state after one step of size h as a list; the given state is unchanged.
 
     A step that cannot be made raises StepFailed.
     """
@@ -234,22 +259,13 @@ def run(state, h, steps, *, stride=0):
     With a positive stride, return rows instead: the initial state and every stride-th one
     after it. A step that cannot be made raises StepFailed, which holds the last good state.
     """
-    state = tuple(map(float, state))
+    state = _numbers(state)
     h = float(h)
-    if len(state) != 3:
-        raise ValueError(f"expected 3 numbers in state, found {len(state)}")
     if steps < 0:
         raise ValueError(f"expected no negative number of steps, found {steps}")
-    rows = [list(state)]
-    made = 0
-    try:
-        if steps > 0 and not isfinite(h):
-            raise StepFailed(BAD_STEP, f"the step size h = {h} is not finite")
-        for made in range(steps):
-            state = _checked(state, h)
-            if stride > 0 and (made + 1) % stride == 0:
-                rows.append(list(state))
-    except StepFailed as failure:
-        failure.step, failure.state = made, state
-        raise
-    return rows if stride > 0 else list(state)
+    rows = [[0.0] * 3 for _ in range(steps // stride + 1)] if stride > 0 else None
+    completed = [0]
+    status = _run(state, h, steps, rows, stride, completed)
+    if status != OK:
+        raise _failure(status, completed[0], state, h)
+    return rows if stride > 0 else state

@@ -41,9 +41,9 @@ class StepFailed(ArithmeticError):
     state: the last good state, as a tuple.
     """
 
-    def __init__(self, status, reason):
+    def __init__(self, status, reason, step, state):
         super().__init__(reason)
-        self.status, self.reason, self.step, self.state = status, reason, 0, ()
+        self.status, self.reason, self.step, self.state = status, reason, step, state
 
     def __str__(self):
         return f"step {self.step + 1}: {self.reason}"
@@ -113,6 +113,7 @@ def _stumpff_12_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z)
+    # the answer is no number where the angle is so large that it has no correct digit
     half = 0.5 * sqrt(z if z <= 65536.0 else float("nan"))
     ratio = sin(half) / half
     return ratio * cos(half), 0.5 * (ratio * ratio)
@@ -127,93 +128,117 @@ def _stumpff_12(z):
     return _stumpff_12_far(z)
 
 
-def _advance(state, h):
-    """Return the state after one step as a tuple."""
+def _run(state, h, steps, trajectory, stride, completed):
+    status = OK
+    step = 0
+    recording = stride > 0 and trajectory is not None
+    row = 0
+    if recording:
+        trajectory[0][:] = state
+    if steps > 0 and not isfinite(h):
+        status = BAD_STEP
     m0, m1, m2 = state
-    w1 = -0.5 * h
-    w2 = -0.25 * h
-    w3 = m0 * w2
-    w4 = 0.5 * h
-    w5 = m1 * w4
-    w6 = -0.75 * h
-    w7 = m2 * w6
-    w8 = w3 * w3 + w5 * w5 + w7 * w7
-    c1_1, c2_1 = _stumpff_12(w8)
-    w10 = m2 * w5 + m1 * w7
-    w12 = m1 * w3 + m0 * w5
-    w13 = m0 * w7 - m2 * w3
-    w14 = m0 - w10 * c1_1 - (w5 * w12 + w7 * w13) * c2_1
-    w15 = h * m1
-    w16 = m2 + w12 * c1_1 + (w3 * w13 - w5 * w10) * c2_1
-    w17 = 0.1875 * h * w16
-    w18 = -1.5 * h
-    w19 = m2 * w18
-    w20 = (w7 * w10 + w3 * w12) * c2_1 - (m1 + w13 * c1_1)
-    w21 = -0.125 * h * w20
-    w22 = w2 * w14 - (w15 * w17 + w19 * w21)
-    w23 = 0.0625 * h * w14
-    w24 = m0 * w1
-    w25 = w19 * w23 - w17 * w24 + w4 * w20
-    w26 = w15 * w23 + w21 * w24 + w6 * w16
-    w27 = w22 * w22 + w25 * w25 + w26 * w26
-    c1_2, c2_2 = _stumpff_12(w27)
-    w29 = m2 * w25 - m1 * w26
-    w31 = m1 * w22 - m0 * w25
-    w32 = m0 * w26 - m2 * w22
-    w33 = m0 + w29 * c1_2 + (w25 * w31 - w26 * w32) * c2_2
-    w34 = w1 * w33
-    w35 = m1 + w32 * c1_2 + (w26 * w29 - w22 * w31) * c2_2
-    w36 = h * w35
-    w37 = m2 + w31 * c1_2 + (w22 * w32 - w25 * w29) * c2_2
-    w38 = w18 * w37
-    w39 = w34 * w34 + w36 * w36 + w38 * w38
-    c1_3, c2_3 = _stumpff_12(w39)
-    w41 = m2 * w36 + m1 * w38
-    w43 = m1 * w34 + m0 * w36
-    w44 = m0 * w38 - m2 * w34
-    w45 = m0 - w41 * c1_3 - (w36 * w43 + w38 * w44) * c2_3
-    w46 = 0.16666666666666666 * h
-    w47 = 0.3333333333333333 * h
-    w48 = m2 + w43 * c1_3 + (w34 * w44 - w36 * w41) * c2_3
-    w49 = 0.125 * h * w48
-    w50 = (w38 * w41 + w34 * w43) * c2_3 - (m1 + w44 * c1_3)
-    w51 = -0.08333333333333333 * h * w50
-    w52 = (
-        (-0.5 * m0 - 0.5 * w45) * w46 + (-0.5 * w14 - 0.5 * w33) * w47
-        - (w15 * w49 + w19 * w51)
-    )
-    w53 = 0.041666666666666664 * h * w45
-    w54 = w19 * w53 - w24 * w49 + (w46 * (w50 - m1) + w47 * (w20 - w35))
-    w55 = (
-        w24 * w51 + w15 * w53
-        + (w46 * (-1.5 * m2 - 1.5 * w48) + w47 * (-1.5 * w16 - 1.5 * w37))
-    )
-    w56 = w52 * w52 + w54 * w54 + w55 * w55
-    c1_4, c2_4 = _stumpff_12(w56)
-    w58 = m2 * w54 - m1 * w55
-    w60 = m1 * w52 - m0 * w54
-    w61 = m0 * w55 - m2 * w52
-    new_m0 = m0 + w58 * c1_4 + (w54 * w60 - w55 * w61) * c2_4
-    new_m1 = m1 + w61 * c1_4 + (w55 * w58 - w52 * w60) * c2_4
-    new_m2 = m2 + w60 * c1_4 + (w52 * w61 - w54 * w58) * c2_4
-    return new_m0, new_m1, new_m2
+    while status == OK and step < steps:
+        w1 = -0.5 * h
+        w2 = -0.25 * h
+        w3 = m0 * w2
+        w4 = 0.5 * h
+        w5 = m1 * w4
+        w6 = -0.75 * h
+        w7 = m2 * w6
+        w8 = w3 * w3 + w5 * w5 + w7 * w7
+        c1_1, c2_1 = _stumpff_12(w8)
+        w10 = m2 * w5 + m1 * w7
+        w12 = m1 * w3 + m0 * w5
+        w13 = m0 * w7 - m2 * w3
+        w14 = m0 - w10 * c1_1 - (w5 * w12 + w7 * w13) * c2_1
+        w15 = h * m1
+        w16 = m2 + w12 * c1_1 + (w3 * w13 - w5 * w10) * c2_1
+        w17 = 0.1875 * h * w16
+        w18 = -1.5 * h
+        w19 = m2 * w18
+        w20 = (w7 * w10 + w3 * w12) * c2_1 - (m1 + w13 * c1_1)
+        w21 = -0.125 * h * w20
+        w22 = w2 * w14 - (w15 * w17 + w19 * w21)
+        w23 = 0.0625 * h * w14
+        w24 = m0 * w1
+        w25 = w19 * w23 - w17 * w24 + w4 * w20
+        w26 = w15 * w23 + w21 * w24 + w6 * w16
+        w27 = w22 * w22 + w25 * w25 + w26 * w26
+        c1_2, c2_2 = _stumpff_12(w27)
+        w29 = m2 * w25 - m1 * w26
+        w31 = m1 * w22 - m0 * w25
+        w32 = m0 * w26 - m2 * w22
+        w33 = m0 + w29 * c1_2 + (w25 * w31 - w26 * w32) * c2_2
+        w34 = w1 * w33
+        w35 = m1 + w32 * c1_2 + (w26 * w29 - w22 * w31) * c2_2
+        w36 = h * w35
+        w37 = m2 + w31 * c1_2 + (w22 * w32 - w25 * w29) * c2_2
+        w38 = w18 * w37
+        w39 = w34 * w34 + w36 * w36 + w38 * w38
+        c1_3, c2_3 = _stumpff_12(w39)
+        w41 = m2 * w36 + m1 * w38
+        w43 = m1 * w34 + m0 * w36
+        w44 = m0 * w38 - m2 * w34
+        w45 = m0 - w41 * c1_3 - (w36 * w43 + w38 * w44) * c2_3
+        w46 = 0.16666666666666666 * h
+        w47 = 0.3333333333333333 * h
+        w48 = m2 + w43 * c1_3 + (w34 * w44 - w36 * w41) * c2_3
+        w49 = 0.125 * h * w48
+        w50 = (w38 * w41 + w34 * w43) * c2_3 - (m1 + w44 * c1_3)
+        w51 = -0.08333333333333333 * h * w50
+        w52 = (
+            (-0.5 * m0 - 0.5 * w45) * w46 + (-0.5 * w14 - 0.5 * w33) * w47
+            - (w15 * w49 + w19 * w51)
+        )
+        w53 = 0.041666666666666664 * h * w45
+        w54 = w19 * w53 - w24 * w49 + (w46 * (w50 - m1) + w47 * (w20 - w35))
+        w55 = (
+            w24 * w51 + w15 * w53
+            + (w46 * (-1.5 * m2 - 1.5 * w48) + w47 * (-1.5 * w16 - 1.5 * w37))
+        )
+        w56 = w52 * w52 + w54 * w54 + w55 * w55
+        c1_4, c2_4 = _stumpff_12(w56)
+        w58 = m2 * w54 - m1 * w55
+        w60 = m1 * w52 - m0 * w54
+        w61 = m0 * w55 - m2 * w52
+        new_m0 = m0 + w58 * c1_4 + (w54 * w60 - w55 * w61) * c2_4
+        new_m1 = m1 + w61 * c1_4 + (w55 * w58 - w52 * w60) * c2_4
+        new_m2 = m2 + w60 * c1_4 + (w52 * w61 - w54 * w58) * c2_4
+        if all(map(isfinite, (new_m0, new_m1, new_m2))):
+            m0 = new_m0
+            m1 = new_m1
+            m2 = new_m2
+            step += 1
+            if recording and step % stride == 0:
+                row += 1
+                trajectory[row][:] = m0, m1, m2
+        else:
+            status = NOT_FINITE
+    state[:] = m0, m1, m2
+    if completed is not None:
+        completed[0] = step
+    return status
 
 
-def _checked(state, h):
-    """Return the state after one step, which is finite."""
-    try:
-        new = _advance(state, h)
-    except StepFailed:
-        raise
-    except (ArithmeticError, ValueError) as error:
-        raise StepFailed(NOT_FINITE, f"the new state is not finite ({error})") from None
-    if not all(map(isfinite, new)):
-        raise StepFailed(NOT_FINITE, "the new state is not finite")
-    return new
+def _numbers(state):
+    """Return the numbers of a state."""
+    numbers = list(map(float, state))
+    if len(numbers) != 3:
+        raise ValueError(f"expected 3 numbers in state, found {len(numbers)}")
+    return numbers
+
+
+def _failure(status, step, state, h):
+    """Return the error of a step that could not be made."""
+    reason = "the new state is not finite"
+    if status == BAD_STEP:
+        reason = f"the step size h = {h} is not finite"
+    return StepFailed(status, reason, step, tuple(map(float, state)))
 
 
 def step(state, h):
-    """Return the state after one step of size h as a list; state itself is left alone.
+    """Return the state after one step of size h as a list; the given state is unchanged.
 
     A step that cannot be made raises StepFailed.
     """
@@ -226,22 +251,13 @@ def run(state, h, steps, *, stride=0):
     With a positive stride, return rows instead: the initial state and every stride-th one
     after it. A step that cannot be made raises StepFailed, which holds the last good state.
     """
-    state = tuple(map(float, state))
+    state = _numbers(state)
     h = float(h)
-    if len(state) != 3:
-        raise ValueError(f"expected 3 numbers in state, found {len(state)}")
     if steps < 0:
         raise ValueError(f"expected no negative number of steps, found {steps}")
-    rows = [list(state)]
-    made = 0
-    try:
-        if steps > 0 and not isfinite(h):
-            raise StepFailed(BAD_STEP, f"the step size h = {h} is not finite")
-        for made in range(steps):
-            state = _checked(state, h)
-            if stride > 0 and (made + 1) % stride == 0:
-                rows.append(list(state))
-    except StepFailed as failure:
-        failure.step, failure.state = made, state
-        raise
-    return rows if stride > 0 else list(state)
+    rows = [[0.0] * 3 for _ in range(steps // stride + 1)] if stride > 0 else None
+    completed = [0]
+    status = _run(state, h, steps, rows, stride, completed)
+    if status != OK:
+        raise _failure(status, completed[0], state, h)
+    return rows if stride > 0 else state

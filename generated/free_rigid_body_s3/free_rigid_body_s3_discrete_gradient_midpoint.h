@@ -1,4 +1,4 @@
-/* Free rigid body with attitude, S^3 (thesis section 2.6): one step by discrete_gradient:midpoint: functions and status codes. free_rigid_body_s3_discrete_gradient_midpoint.c tells how to use them. */
+/* Free rigid body with attitude, S^3 (thesis section 2.6): one step by discrete_gradient:midpoint: functions and status codes. free_rigid_body_s3_discrete_gradient_midpoint.c has an example. */
 #ifndef FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_H
 #define FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_H
 
@@ -10,7 +10,7 @@ extern "C" {
 
 enum {
     FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK = 0, /* the step was made */
-    FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_CONVERGED = 1, /* an implicit block did not settle */
+    FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_CONVERGED = 1, /* an implicit block did not converge */
     FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE = 2, /* the new state would hold an infinity or a NaN */
     FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_BAD_STEP = 3 /* h is infinite or a NaN */
 };
@@ -20,10 +20,10 @@ typedef struct {
     size_t sweeps[1]; /* by block: the equations of xi */
     size_t most; /* the most that one block took in one step */
     size_t failed; /* 1 + the block that failed, 0 if none has */
-    size_t matrices; /* how often a matrix of Newton's method was made */
+    size_t matrices; /* how often a matrix of Newton's method was computed */
 } free_rigid_body_s3_discrete_gradient_midpoint_statistics;
 
-/* Make one step of size h. When the status is not FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK, the state is as it was. */
+/* Make one step of size h. When the status is not FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK, the state is unchanged. */
 int free_rigid_body_s3_discrete_gradient_midpoint_step(double state[4], double h,
     free_rigid_body_s3_discrete_gradient_midpoint_statistics *statistics);
 

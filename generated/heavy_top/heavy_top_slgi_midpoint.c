@@ -16,7 +16,7 @@
  *             3 mul a start, in steps that follow no other
  *             105 add, 215 mul, 2 slope2, 2 slope3 a matrix of the equations of xi1, n1
  *             73 add, 111 mul, 1 stumpff_123, 1 stumpff_23 a sweep of the equations of xi1, n1
- * stack:      at most 4992 bytes, without what the mathematical library takes
+ * stack:      at most 5248 bytes, without what the mathematical library takes
  * made by:    orderconds emit heavy_top --method slgi:midpoint --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -144,6 +144,7 @@ static inline void stumpff_23_far(double z, double *c2, double *c3)
         *c3 = stumpff_series_3(z);
         return;
     }
+    /* the answer is no number where the angle is so large that it has no correct digit */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -172,6 +173,7 @@ static inline double stumpff_1_far(double z)
     if (z <= 1.0) {
         return stumpff_series_1(z);
     }
+    /* the answer is no number where the angle is so large that it has no correct digit */
     const double s = sqrt(z <= 4398046511104.0 ? z : NAN);
     return sin(s) / s;
 }
@@ -184,6 +186,7 @@ static inline void stumpff_12_far(double z, double *c1, double *c2)
         *c2 = stumpff_series_2(z);
         return;
     }
+    /* the answer is no number where the angle is so large that it has no correct digit */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -201,6 +204,7 @@ static inline void stumpff_123_far(double z, double *c1, double *c2, double *c3)
         *c3 = stumpff_series_3(z);
         return;
     }
+    /* the answer is no number where the angle is so large that it has no correct digit */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -294,9 +298,11 @@ static double largest(const double *x, size_t n)
 }
 
 /* Replace an n x n matrix, by rows, by its inverse (Gauss-Jordan, rows exchanged); return 0 where it has
- * none. There is room for n in row and order. Here n is always 6. */
-static int invert(size_t n, double *restrict a, double *restrict row, size_t *order)
+ * none, else 1. Here n is always 6. */
+static size_t invert(size_t n, double *restrict a)
 {
+    double row[6];
+    size_t order[6];
     for (size_t k = 0; k < n; k++) {
         size_t pivot = k;
         for (size_t i = k + 1; i < n; i++) {
@@ -347,20 +353,70 @@ static inline double greater(double a, double b)
     return a > b ? a : b;
 }
 
-static void count_sweeps(heavy_top_slgi_midpoint_statistics *statistics, size_t block, size_t sweeps, int failed)
+/* Whether n numbers are all finite */
+static int all_finite(const double *x, size_t n)
 {
-    if (statistics == NULL) {
-        return;
+    for (size_t i = 0; i < n; i++) {
+        if (!isfinite(x[i])) {
+            return 0;
+        }
     }
-    statistics->sweeps[block] += sweeps;
-    if (sweeps > statistics->most) {
-        statistics->most = sweeps;
-    }
-    if (failed) {
-        statistics->failed = block + 1;
+    return 1;
+}
+
+/*
+ * What one step of a run leaves for the next: solutions of its equations, the latest first, and
+ * inverses of Newton's matrices.
+ */
+struct memory {
+    size_t known; /* how many solutions there are */
+    double first; /* by how much the last guess was off */
+    size_t degree; /* of the polynomial */
+    size_t place; /* of the latest solution */
+    double guess[6]; /* the polynomial, continued by a step */
+    double values[32][6]; /* each solution twice: the last ones are neighbours */
+    double rate_1;
+    size_t made_1; /* for how many steps the inverse has served, 0: there is none */
+    double inverse_1[36];
+};
+
+/* Backward differences by their order: the factors of the solutions, the latest first. */
+static const double differences[17][18] = {
+    {1.0},
+    {1.0, -1.0},
+    {1.0, -2.0, 1.0},
+    {1.0, -3.0, 3.0, -1.0},
+    {1.0, -4.0, 6.0, -4.0, 1.0},
+    {1.0, -5.0, 10.0, -10.0, 5.0, -1.0},
+    {1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0},
+    {1.0, -7.0, 21.0, -35.0, 35.0, -21.0, 7.0, -1.0},
+    {1.0, -8.0, 28.0, -56.0, 70.0, -56.0, 28.0, -8.0, 1.0},
+    {1.0, -9.0, 36.0, -84.0, 126.0, -126.0, 84.0, -36.0, 9.0, -1.0},
+    {1.0, -10.0, 45.0, -120.0, 210.0, -252.0, 210.0, -120.0, 45.0, -10.0, 1.0},
+    {1.0, -11.0, 55.0, -165.0, 330.0, -462.0, 462.0, -330.0, 165.0, -55.0, 11.0, -1.0},
+    {1.0, -12.0, 66.0, -220.0, 495.0, -792.0, 924.0, -792.0, 495.0, -220.0, 66.0, -12.0, 1.0},
+    {1.0, -13.0, 78.0, -286.0, 715.0, -1287.0, 1716.0, -1716.0, 1287.0, -715.0, 286.0, -78.0, 13.0, -1.0},
+    {1.0, -14.0, 91.0, -364.0, 1001.0, -2002.0, 3003.0, -3432.0, 3003.0, -2002.0, 1001.0, -364.0, 91.0, -14.0, 1.0},
+    {1.0, -15.0, 105.0, -455.0, 1365.0, -3003.0, 5005.0, -6435.0, 6435.0, -5005.0, 3003.0, -1365.0, 455.0, -105.0, 15.0, -1.0},
+    {1.0, -16.0, 120.0, -560.0, 1820.0, -4368.0, 8008.0, -11440.0, 12870.0, -11440.0, 8008.0, -4368.0, 1820.0, -560.0, 120.0, -16.0, 1.0},
+};
+
+/* Add the sweeps over one block in one step. */
+static void count_sweeps(heavy_top_slgi_midpoint_statistics *statistics, size_t block,
+    size_t sweeps, int failed)
+{
+    if (statistics != NULL) {
+        statistics->sweeps[block] += sweeps;
+        if (sweeps > statistics->most) {
+            statistics->most = sweeps;
+        }
+        if (failed) {
+            statistics->failed = block + 1;
+        }
     }
 }
 
+/* Add one matrix. */
 static void count_matrix(heavy_top_slgi_midpoint_statistics *statistics)
 {
     if (statistics != NULL) {
@@ -368,45 +424,12 @@ static void count_matrix(heavy_top_slgi_midpoint_statistics *statistics)
     }
 }
 
-/* What one step of a run leaves for the next: solutions of its equations, the latest first, and inverses of Newton's matrices. */
-struct memory {
-    size_t known;
-    double first; /* by how much the guess was off */
-    size_t degree, place;
-    double guess[6];
-    double values[32][6]; /* each twice: the last stand together */
-    double rate_1;
-    int made_1;
-    double inverse_1[36];
-};
-
-/* Backward differences by their order: the factors of the solutions, the latest first. */
-static const double differences[17][18] = {
-    {1},
-    {1, -1},
-    {1, -2, 1},
-    {1, -3, 3, -1},
-    {1, -4, 6, -4, 1},
-    {1, -5, 10, -10, 5, -1},
-    {1, -6, 15, -20, 15, -6, 1},
-    {1, -7, 21, -35, 35, -21, 7, -1},
-    {1, -8, 28, -56, 70, -56, 28, -8, 1},
-    {1, -9, 36, -84, 126, -126, 84, -36, 9, -1},
-    {1, -10, 45, -120, 210, -252, 210, -120, 45, -10, 1},
-    {1, -11, 55, -165, 330, -462, 462, -330, 165, -55, 11, -1},
-    {1, -12, 66, -220, 495, -792, 924, -792, 495, -220, 66, -12, 1},
-    {1, -13, 78, -286, 715, -1287, 1716, -1716, 1287, -715, 286, -78, 13, -1},
-    {1, -14, 91, -364, 1001, -2002, 3003, -3432, 3003, -2002, 1001, -364, 91, -14, 1},
-    {1, -15, 105, -455, 1365, -3003, 5005, -6435, 6435, -5005, 3003, -1365, 455, -105, 15, -1},
-    {1, -16, 120, -560, 1820, -4368, 8008, -11440, 12870, -11440, 8008, -4368, 1820, -560, 120, -16, 1},
-};
-
 /*
- * A backward difference, times sign, of an order without its first terms, which were of later solutions. The
- * latest is added last: the rest of the sum does not wait for it.
+ * A backward difference, times sign, of an order without its first terms, which were of later
+ * solutions. The latest is added last: the rest of the sum does not wait for it.
  */
-static inline void difference(const struct memory *memory, size_t order, size_t first, double sign,
-    double sum[static 6])
+static inline void difference(const struct memory *memory, size_t order, size_t first,
+    double sign, double sum[static 6])
 {
     double sum_0 = 0.0;
     double sum_1 = 0.0;
@@ -414,15 +437,17 @@ static inline void difference(const struct memory *memory, size_t order, size_t 
     double sum_3 = 0.0;
     double sum_4 = 0.0;
     double sum_5 = 0.0;
-    const double (*const values)[6] = memory->values + memory->place;
-    for (size_t k = (order - first) / 2 + 1; k-- > 0;) {
-        const double *f = differences[order] + first + 2 * k, *x = values[2 * k], *y = values[2 * k + 1];
-        sum_0 += sign * (f[0] * x[0] + f[1] * y[0]);
-        sum_1 += sign * (f[0] * x[1] + f[1] * y[1]);
-        sum_2 += sign * (f[0] * x[2] + f[1] * y[2]);
-        sum_3 += sign * (f[0] * x[3] + f[1] * y[3]);
-        sum_4 += sign * (f[0] * x[4] + f[1] * y[4]);
-        sum_5 += sign * (f[0] * x[5] + f[1] * y[5]);
+    for (size_t pair = (order - first) / 2 + 1; pair-- > 0;) {
+        const size_t row = memory->place + 2 * pair;
+        const size_t column = first + 2 * pair;
+        const double newer = differences[order][column];
+        const double older = differences[order][column + 1];
+        sum_0 += sign * (newer * memory->values[row][0] + older * memory->values[row + 1][0]);
+        sum_1 += sign * (newer * memory->values[row][1] + older * memory->values[row + 1][1]);
+        sum_2 += sign * (newer * memory->values[row][2] + older * memory->values[row + 1][2]);
+        sum_3 += sign * (newer * memory->values[row][3] + older * memory->values[row + 1][3]);
+        sum_4 += sign * (newer * memory->values[row][4] + older * memory->values[row + 1][4]);
+        sum_5 += sign * (newer * memory->values[row][5] + older * memory->values[row + 1][5]);
     }
     sum[0] = sum_0;
     sum[1] = sum_1;
@@ -433,20 +458,25 @@ static inline void difference(const struct memory *memory, size_t order, size_t 
 }
 
 /* The size of a backward difference. */
-static double size_of(const struct memory *memory, size_t order)
+static double difference_size(const struct memory *memory, size_t order)
 {
-    double sum[6], size = 0.0;
-    difference(memory, order, 0, 1.0, sum);
+    double row[6];
+    difference(memory, order, 0, 1.0, row);
+    double size = 0.0;
     for (size_t i = 0; i < 6; i++) {
-        size += fabs(sum[i]);
+        size += fabs(row[i]);
     }
     return size;
 }
 
-/* Take up a solution and guess the next: the polynomial through the last ones, continued by a step. */
+/*
+ * Store a solution and extrapolate the next one: the polynomial through the last solutions, evaluated
+ * one step later.
+ */
 static inline void remember(struct memory *memory, const double solution[static 6])
 {
-    if (memory->known > 2) { /* the guess was no mere copy */
+    /* the guess was no mere copy */
+    if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
         moved += fabs(solution[1] - memory->values[memory->place][1]);
@@ -455,34 +485,40 @@ static inline void remember(struct memory *memory, const double solution[static 
         moved += fabs(solution[4] - memory->values[memory->place][4]);
         moved += fabs(solution[5] - memory->values[memory->place][5]);
         if (memory->first > 0.5 * moved) {
-            memory->known = memory->degree = 0;
+            memory->known = 0;
+            memory->degree = 0;
         }
     }
     memory->first = 0.0;
     const size_t place = memory->place > 0 ? memory->place - 1 : 15;
     memory->place = place;
-    memory->values[place][0] = memory->values[place + 16][0] = solution[0];
-    memory->values[place][1] = memory->values[place + 16][1] = solution[1];
-    memory->values[place][2] = memory->values[place + 16][2] = solution[2];
-    memory->values[place][3] = memory->values[place + 16][3] = solution[3];
-    memory->values[place][4] = memory->values[place + 16][4] = solution[4];
-    memory->values[place][5] = memory->values[place + 16][5] = solution[5];
-    memory->known += memory->known < 16;
-    /* the degree grows while the differences fall: of many solutions it is looked at in every eighth step */
-    size_t degree = memory->degree;
-    if (memory->known < 16 || place % 8 == 0) {
-        const double size = size_of(memory, degree);
-        if (degree + 1 < memory->known && size_of(memory, degree + 1) < size) {
-            degree++;
-        } else if (degree > 0 && size > size_of(memory, degree - 1)) {
-            degree--;
-        }
-        memory->degree = degree;
+    memcpy(memory->values[place], solution, 6 * sizeof *solution);
+    memcpy(memory->values[place + 16], solution, 6 * sizeof *solution);
+    if (memory->known < 16) {
+        memory->known++;
     }
-    /* so that the next difference vanishes */
-    difference(memory, degree + 1, 1, -1.0, memory->guess);
+    /* the degree grows while differences fall; with many it is chosen once in 8 steps */
+    if (memory->known < 16 || place % 8 == 0) {
+        const double size = difference_size(memory, memory->degree);
+        int grows = 0;
+        if (memory->degree + 1 < memory->known) {
+            const double higher = difference_size(memory, memory->degree + 1);
+            grows = higher < size;
+        }
+        if (grows) {
+            memory->degree++;
+        } else if (memory->degree > 0) {
+            const double lower = difference_size(memory, memory->degree - 1);
+            if (size > lower) {
+                memory->degree--;
+            }
+        }
+    }
+    /* the next difference vanishes where this is the next solution */
+    difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 
+/* Make one step. */
 static inline int advance(double state[static 12], double h, struct memory *memory,
     heavy_top_slgi_midpoint_statistics *statistics)
 {
@@ -519,12 +555,16 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     }
     const double w8 = -0.5 * h;
     const double w16 = 0.5 * h;
-    /* the equations of xi1, n1: Newton's method in xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2 */
-    double Y_0, Y_1, Y_2, w1, w2, z_0, z_1, z_2, w10, w21;
+    /* the equations of xi1, n1: Newton's method, 6 unknowns */
     double previous_1 = 0.0;
     double rate_1 = memory->known > 0 ? memory->rate_1 : 1.0;
-    int make_1 = !memory->made_1;
-    for (size_t sweep = 1;; sweep++) {
+    int make_1 = !(memory->made_1 > 0);
+    int astray = 0;
+    size_t sweep = 0;
+    int status = HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED;
+    double Y_0, Y_1, Y_2, w1, w2, z_0, z_1, z_2, w10, w21;
+    do {
+        sweep++;
         Y_0 = h * xi1_0;
         Y_1 = h * xi1_1;
         Y_2 = h * xi1_2;
@@ -579,12 +619,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double residual_n1_0 = next_n1_0 - n1_0;
         const double residual_n1_1 = Q1_2 - n1_1;
         const double residual_n1_2 = next_n1_2 - n1_2;
-        if (!isfinite(residual_xi1_0 + residual_xi1_1 + residual_xi1_2 + residual_n1_0
+        if (make_1 && isfinite(residual_xi1_0 + residual_xi1_1 + residual_xi1_2 + residual_n1_0
             + residual_n1_1 + residual_n1_2)) {
-            count_sweeps(statistics, 0, sweep, 1);
-            return HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE;
-        }
-        if (make_1) {
             const double w28 = 0.001 * c3_1;
             const double w29 = Y_1 * w28;
             const double w30 = h * mu1;
@@ -696,67 +732,71 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             memory->inverse_1[33] = 0.0;
             memory->inverse_1[34] = 0.0;
             memory->inverse_1[35] = 1.0;
-            double row_1[6];
-            size_t order_1[6];
-            memory->made_1 = invert(6, memory->inverse_1, row_1, order_1);
-            if (!memory->made_1) {
-                count_sweeps(statistics, 0, sweep, 1);
-                return HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED;
+            memory->made_1 = invert(6, memory->inverse_1);
+            if (memory->made_1 > 0) {
+                count_matrix(statistics);
             }
-            count_matrix(statistics);
         }
-        const double change_xi1_0 = (memory->inverse_1[0] * residual_xi1_0 + memory->inverse_1[1] * residual_xi1_1)
-            + (memory->inverse_1[2] * residual_xi1_2 + memory->inverse_1[3] * residual_n1_0)
-            + (memory->inverse_1[4] * residual_n1_1 + memory->inverse_1[5] * residual_n1_2);
-        const double change_xi1_1 = (memory->inverse_1[6] * residual_xi1_0 + memory->inverse_1[7] * residual_xi1_1)
-            + (memory->inverse_1[8] * residual_xi1_2 + memory->inverse_1[9] * residual_n1_0)
-            + (memory->inverse_1[10] * residual_n1_1 + memory->inverse_1[11] * residual_n1_2);
-        const double change_xi1_2 = (memory->inverse_1[12] * residual_xi1_0 + memory->inverse_1[13] * residual_xi1_1)
-            + (memory->inverse_1[14] * residual_xi1_2 + memory->inverse_1[15] * residual_n1_0)
-            + (memory->inverse_1[16] * residual_n1_1 + memory->inverse_1[17] * residual_n1_2);
-        const double change_n1_0 = (memory->inverse_1[18] * residual_xi1_0 + memory->inverse_1[19] * residual_xi1_1)
-            + (memory->inverse_1[20] * residual_xi1_2 + memory->inverse_1[21] * residual_n1_0)
-            + (memory->inverse_1[22] * residual_n1_1 + memory->inverse_1[23] * residual_n1_2);
-        const double change_n1_1 = (memory->inverse_1[24] * residual_xi1_0 + memory->inverse_1[25] * residual_xi1_1)
-            + (memory->inverse_1[26] * residual_xi1_2 + memory->inverse_1[27] * residual_n1_0)
-            + (memory->inverse_1[28] * residual_n1_1 + memory->inverse_1[29] * residual_n1_2);
-        const double change_n1_2 = (memory->inverse_1[30] * residual_xi1_0 + memory->inverse_1[31] * residual_xi1_1)
-            + (memory->inverse_1[32] * residual_xi1_2 + memory->inverse_1[33] * residual_n1_0)
-            + (memory->inverse_1[34] * residual_n1_1 + memory->inverse_1[35] * residual_n1_2);
+        const double change_xi1_0 = memory->inverse_1[0] * residual_xi1_0
+            + memory->inverse_1[1] * residual_xi1_1 + (memory->inverse_1[2] * residual_xi1_2
+            + memory->inverse_1[3] * residual_n1_0) + (memory->inverse_1[4] * residual_n1_1
+            + memory->inverse_1[5] * residual_n1_2);
+        const double change_xi1_1 = memory->inverse_1[6] * residual_xi1_0
+            + memory->inverse_1[7] * residual_xi1_1 + (memory->inverse_1[8] * residual_xi1_2
+            + memory->inverse_1[9] * residual_n1_0) + (memory->inverse_1[10] * residual_n1_1
+            + memory->inverse_1[11] * residual_n1_2);
+        const double change_xi1_2 = memory->inverse_1[12] * residual_xi1_0
+            + memory->inverse_1[13] * residual_xi1_1 + (memory->inverse_1[14] * residual_xi1_2
+            + memory->inverse_1[15] * residual_n1_0) + (memory->inverse_1[16] * residual_n1_1
+            + memory->inverse_1[17] * residual_n1_2);
+        const double change_n1_0 = memory->inverse_1[18] * residual_xi1_0
+            + memory->inverse_1[19] * residual_xi1_1 + (memory->inverse_1[20] * residual_xi1_2
+            + memory->inverse_1[21] * residual_n1_0) + (memory->inverse_1[22] * residual_n1_1
+            + memory->inverse_1[23] * residual_n1_2);
+        const double change_n1_1 = memory->inverse_1[24] * residual_xi1_0
+            + memory->inverse_1[25] * residual_xi1_1 + (memory->inverse_1[26] * residual_xi1_2
+            + memory->inverse_1[27] * residual_n1_0) + (memory->inverse_1[28] * residual_n1_1
+            + memory->inverse_1[29] * residual_n1_2);
+        const double change_n1_2 = memory->inverse_1[30] * residual_xi1_0
+            + memory->inverse_1[31] * residual_xi1_1 + (memory->inverse_1[32] * residual_xi1_2
+            + memory->inverse_1[33] * residual_n1_0) + (memory->inverse_1[34] * residual_n1_1
+            + memory->inverse_1[35] * residual_n1_2);
         const double change = greater(greater(fabs(change_xi1_0), greater(fabs(change_xi1_1),
             fabs(change_xi1_2))), greater(fabs(change_n1_0), greater(fabs(change_n1_1),
             fabs(change_n1_2))));
         const double scale = greater(greater(fabs(xi1_0), greater(fabs(xi1_1), fabs(xi1_2))),
             greater(fabs(n1_0), greater(fabs(n1_1), fabs(n1_2))));
-        const int still = previous_1 > 0.0 && change >= previous_1;
         if (sweep == 1) {
             memory->first = greater(memory->first, change);
         }
         if (previous_1 > 0.0) {
             rate_1 = greater(change / previous_1, 0.000244140625);
         }
-        const int close = change <= 3.552713678800501e-15 * scale
-            && change * rate_1 <= 1.1102230246251565e-16 * scale;
         xi1_0 += change_xi1_0;
         xi1_1 += change_xi1_1;
         xi1_2 += change_xi1_2;
         n1_0 += change_n1_0;
         n1_1 += change_n1_1;
         n1_2 += change_n1_2;
-        if (close || (still && (change <= 5.684341886080802e-14 * scale
+        const int still = previous_1 > 0.0 && previous_1 <= change;
+        const int close = 3.552713678800501e-15 * scale >= change
+            && change * rate_1 <= 1.1102230246251565e-16 * scale;
+        const int settled = close || (still && (5.684341886080802e-14 * scale >= change
             || (change * fabs(h) <= 7.105427357601002e-15 * largest(state, 9)
-                && change * fabs(h) <= 7.105427357601002e-15 * largest(state + 9, 3))))) {
-            count_sweeps(statistics, 0, sweep, 0);
-            memory->rate_1 = sweep > 1 ? rate_1 : 2.0 * rate_1;
-            break;
-        }
-        if (sweep == 100 || (still && make_1)) {
-            count_sweeps(statistics, 0, sweep, 1);
-            return HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED;
-        }
-        make_1 = 0.015625 * previous_1 > 0.0 && change > 0.015625 * previous_1;
+            && change * fabs(h) <= 7.105427357601002e-15 * largest(state + 9, 3))));
+        status = isfinite(residual_xi1_0 + residual_xi1_1 + residual_xi1_2 + residual_n1_0
+            + residual_n1_1 + residual_n1_2) ? (memory->made_1 > 0 && settled
+            ? HEAVY_TOP_SLGI_MIDPOINT_OK : HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED)
+            : HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE;
+        astray = (still && make_1) || !(memory->made_1 > 0);
+        make_1 = 0.015625 * previous_1 > 0.0 && 0.015625 * previous_1 < change;
         previous_1 = change;
+    } while (status == HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED && sweep < 100 && !astray);
+    count_sweeps(statistics, 0, sweep, status != HEAVY_TOP_SLGI_MIDPOINT_OK);
+    if (status != HEAVY_TOP_SLGI_MIDPOINT_OK) {
+        return status;
     }
+    memory->rate_1 = sweep > 1 ? rate_1 : 2.0 * rate_1;
     const double solution[6] = {xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2};
     remember(memory, solution);
     const double w101 = Y_1 * w2;
@@ -801,14 +841,12 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double new_g22 = g02 * g_6 + g12 * g_7 + g22 * g_8;
     const double new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w118;
     /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
-    if (!isfinite((new_g00 + new_g01) + (new_g02 + new_g10) + (new_g11 + new_g12)
-        + (new_g20 + new_g21) + (new_g22 + mu1_0) + (mu1_1 + new_mu2))
-        && !(((new_g00 - new_g00) + (new_g01 - new_g01))
-        + ((new_g02 - new_g02) + (new_g10 - new_g10))
-        + ((new_g11 - new_g11) + (new_g12 - new_g12))
-        + ((new_g20 - new_g20) + (new_g21 - new_g21))
-        + ((new_g22 - new_g22) + (mu1_0 - mu1_0))
-        + ((mu1_1 - mu1_1) + (new_mu2 - new_mu2)) == 0.0)) {
+    if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
+        + (new_g20 + new_g21) + (new_g22 + mu1_0) + (mu1_1 + new_mu2)) && !(new_g00 - new_g00
+        + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
+        + (new_g11 - new_g11 + (new_g12 - new_g12)) + (new_g20 - new_g20 + (new_g21 - new_g21))
+        + (new_g22 - new_g22 + (mu1_0 - mu1_0)) + (mu1_1 - mu1_1 + (new_mu2 - new_mu2))
+        == 0.0)) {
         return HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE;
     }
     state[0] = new_g00;
@@ -827,57 +865,58 @@ static inline int advance(double state[static 12], double h, struct memory *memo
 }
 
 /*
- * Make a step whose equations do not settle: without the solutions before, which may mislead where the motion
- * changes; then for a shorter step, whose solution is continued in h as far at a time as it can be followed.
- * It is the one that tends to the motion as h tends to zero. A step of no length changes nothing.
+ * Make a step whose equations do not settle: without the earlier solutions, which may mislead where
+ * the motion changes; then through shorter ones, whose solutions are continued in h.
  */
 static int continued(double state[static 12], double h, struct memory *memory,
     heavy_top_slgi_midpoint_statistics *statistics)
 {
-    double guess[6] = {0.0};
-    double solved = 0.0, part = 1.0, factor = 2.0;
-    int failure = HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED;
     if (!(h < 0.0 || h > 0.0)) {
-        for (size_t i = 0; i < 12; i++) {
-            if (!isfinite(state[i])) {
-                return HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE;
-            }
-        }
-        return HEAVY_TOP_SLGI_MIDPOINT_OK;
+        return all_finite(state, 12) ? HEAVY_TOP_SLGI_MIDPOINT_OK
+            : HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE;
     }
-    for (int tries = 0; tries < 100 && factor > 1.00390625; tries++) {
-        double trial[12];
+    double known_solution[6] = {0.0};
+    double trial[12];
+    double solved = 0.0;
+    double part = 1.0;
+    double factor = 2.0;
+    int failure = HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED;
+    int done = 0;
+    size_t tries = 0;
+    while (!done && tries < 100 && factor > 1.00390625) {
         memcpy(trial, state, sizeof trial);
         memset(memory, 0, sizeof *memory);
         if (solved > 0.0) {
             memory->known = 1;
-            memcpy(memory->guess, guess, sizeof guess);
+            memcpy(memory->guess, known_solution, sizeof known_solution);
             memory->rate_1 = 1.0;
         }
         const int status = advance(trial, part * h, memory, statistics);
-        if (status == HEAVY_TOP_SLGI_MIDPOINT_OK && part >= 1.0) {
-            memcpy(state, trial, sizeof trial);
-            memory->known = 1; /* the solutions before it are those of shorter steps */
-            if (statistics != NULL) {
-                statistics->failed = 0;
-            }
-            return status;
-        }
+        done = status == HEAVY_TOP_SLGI_MIDPOINT_OK && part >= 1.0;
         if (status == HEAVY_TOP_SLGI_MIDPOINT_OK) {
-            for (size_t i = 0; i < 6; i++) {
-                guess[i] = memory->values[memory->place][i];
-            }
+            memcpy(known_solution, memory->values[memory->place], sizeof known_solution);
             solved = part;
             factor *= factor;
         } else {
             failure = status;
             factor = solved > 0.0 ? sqrt(factor) : factor;
         }
-        factor = factor < 4.0 ? factor : 4.0;
-        part = solved > 0.0 ? solved * factor : 0.5 * part;
-        part = part < 1.0 ? part : 1.0;
+        if (!done) {
+            factor = factor < 4.0 ? factor : 4.0;
+            part = solved > 0.0 ? solved * factor : 0.5 * part;
+            part = part < 1.0 ? part : 1.0;
+        }
+        tries++;
     }
-    return failure;
+    if (!done) {
+        return failure;
+    }
+    memcpy(state, trial, sizeof trial);
+    memory->known = 1;
+    if (statistics != NULL) {
+        statistics->failed = 0;
+    }
+    return HEAVY_TOP_SLGI_MIDPOINT_OK;
 }
 
 int heavy_top_slgi_midpoint_step(double state[static 12], double h,
@@ -885,7 +924,8 @@ int heavy_top_slgi_midpoint_step(double state[static 12], double h,
 {
     struct memory memory = {0};
     int status = advance(state, h, &memory, statistics);
-    if (status == HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED || status == HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE) {
+    if (status == HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED
+        || status == HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE) {
         status = continued(state, h, &memory, statistics);
     }
     return status;
@@ -898,22 +938,23 @@ int heavy_top_slgi_midpoint_run(double state[static 12], double h, size_t steps,
     int status = HEAVY_TOP_SLGI_MIDPOINT_OK;
     size_t step = 0;
     struct memory memory = {0};
-    double *row = stride > 0 ? trajectory : NULL;
-    if (row != NULL) {
-        memcpy(row, state, 12 * sizeof *state);
+    const int recording = stride > 0 && trajectory != NULL;
+    size_t row = 0;
+    if (recording) {
+        memcpy(trajectory, state, 12 * sizeof *state);
     }
-    while (step < steps) {
+    while (status == HEAVY_TOP_SLGI_MIDPOINT_OK && step < steps) {
         status = advance(state, h, &memory, statistics);
-        if (status == HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED || status == HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE) {
+        if (status == HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED
+            || status == HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE) {
             status = continued(state, h, &memory, statistics);
         }
-        if (status != HEAVY_TOP_SLGI_MIDPOINT_OK) {
-            break;
-        }
-        step++;
-        if (row != NULL && step % stride == 0) {
-            row += 12;
-            memcpy(row, state, 12 * sizeof *state);
+        if (status == HEAVY_TOP_SLGI_MIDPOINT_OK) {
+            step++;
+            if (recording && step % stride == 0) {
+                row++;
+                memcpy(trajectory + 12 * row, state, 12 * sizeof *state);
+            }
         }
     }
     if (completed != NULL) {

@@ -1,4 +1,4 @@
-/* Heavy top as printed, T*SO(3) (thesis section 2.5): one step by slgi:midpoint: functions and status codes. heavy_top_slgi_midpoint.c tells how to use them. */
+/* Heavy top as printed, T*SO(3) (thesis section 2.5): one step by slgi:midpoint: functions and status codes. heavy_top_slgi_midpoint.c has an example. */
 #ifndef HEAVY_TOP_SLGI_MIDPOINT_H
 #define HEAVY_TOP_SLGI_MIDPOINT_H
 
@@ -10,7 +10,7 @@ extern "C" {
 
 enum {
     HEAVY_TOP_SLGI_MIDPOINT_OK = 0, /* the step was made */
-    HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED = 1, /* an implicit block did not settle */
+    HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED = 1, /* an implicit block did not converge */
     HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE = 2, /* the new state would hold an infinity or a NaN */
     HEAVY_TOP_SLGI_MIDPOINT_BAD_STEP = 3 /* h is infinite or a NaN */
 };
@@ -20,10 +20,10 @@ typedef struct {
     size_t sweeps[1]; /* by block: the equations of xi1, n1 */
     size_t most; /* the most that one block took in one step */
     size_t failed; /* 1 + the block that failed, 0 if none has */
-    size_t matrices; /* how often a matrix of Newton's method was made */
+    size_t matrices; /* how often a matrix of Newton's method was computed */
 } heavy_top_slgi_midpoint_statistics;
 
-/* Make one step of size h. When the status is not HEAVY_TOP_SLGI_MIDPOINT_OK, the state is as it was. */
+/* Make one step of size h. When the status is not HEAVY_TOP_SLGI_MIDPOINT_OK, the state is unchanged. */
 int heavy_top_slgi_midpoint_step(double state[12], double h,
     heavy_top_slgi_midpoint_statistics *statistics);
 

@@ -29,7 +29,7 @@ Use:
     print(heavy_top_slgi_midpoint.run(state, 0.01, 100))
 """
 
-from math import comb, cos, fabs, isfinite, sin, sqrt
+from math import cos, fabs, isfinite, sin, sqrt
 
 OK = 0
 NOT_CONVERGED = 1
@@ -44,101 +44,53 @@ class StepFailed(ArithmeticError):
     state: the last good state, as a tuple.
     """
 
-    def __init__(self, status, reason):
+    def __init__(self, status, reason, step, state):
         super().__init__(reason)
-        self.status, self.reason, self.step, self.state = status, reason, 0, ()
+        self.status, self.reason, self.step, self.state = status, reason, step, state
 
     def __str__(self):
         return f"step {self.step + 1}: {self.reason}"
 
 
 class Statistics:
-    """Sweeps over the equations, added up over all steps that are given this object.
-
-    sweeps: by block; most: the most that one block took in one step; failed: 1 + the
-    block that failed, 0 if none has; matrices: how often a matrix of Newton's method
-    was made.
+    """Sweeps over the equations, added up over all steps since the caller set
+    everything to zero.
     """
+
+    def __init__(self):
+        self.clear()
+
+    def clear(self):
+        """Set all fields to zero."""
+        self.sweeps = [0] * 1  # by block: the equations of xi1, n1
+        self.most = 0  # the most that one block took in one step
+        self.failed = 0  # 1 + the block that failed, 0 if none has
+        self.matrices = 0  # how often a matrix of Newton's method was computed
 
     labels = [
         "the equations of xi1, n1",
     ]
 
-    def __init__(self):
-        self.sweeps, self.most, self.failed = [0] * 1, 0, 0
-        self.matrices = 0
-
-    def count(self, block, sweeps):
-        """Add the sweeps of one block in one step."""
-        self.sweeps[block] += sweeps
-        self.most = max(self.most, sweeps)
-
-
-def _failed(status, label, block, sweep, statistics):
-    """Return the failure of a block, noted in the statistics."""
-    if statistics is not None:
-        statistics.count(block, sweep)
-        statistics.failed = block + 1
-    reason = "met a number that is not finite" if status == NOT_FINITE else "did not converge"
-    return StepFailed(status, f"{label} {reason} after {sweep} sweeps")
-
 
 class _Memory:
-    """What one step of a run leaves for the next.
-
-    past: the last solutions of its equations, the latest first; count: of all;
-    guess: the polynomial through the last solutions, continued by a step; inverses: of Newton's
-    matrices, by block.
+    """What one step of a run leaves for the next: solutions of its equations, the
+    latest first, and inverses of Newton's matrices.
     """
 
     def __init__(self):
-        self.past, self.guess, self.degree, self.count = [], [], 0, 0
-        self.first = 0.0
-        self.rates = [1.0] * 1
-        self.inverses = [None] * 1
+        self.clear()
 
-    def keep(self, found):
-        """Add a solution; alone where the one before it was expected too far off."""
-        if len(self.past) > 2:
-            moved = _size(x - y for x, y in zip(found, self.past[0]))
-            if self.first > 0.5 * moved:
-                self.past, self.degree = [], 0
-        self.first = 0.0
-        self.past = [found, *self.past[:15]]
-        self.count += 1
-        if len(self.past) < 16 or self.count % 16 % 8 == 0:
-            self.choose()
-        self.guess = [-x for x in self.difference(self.degree + 1, 1)]
-
-    def choose(self):
-        """Let the degree grow while differences fall; of many, they are seldom looked at."""
-        k, size = self.degree, _size(self.difference(self.degree, 0))
-        if k + 1 < len(self.past) and _size(self.difference(k + 1, 0)) < size:
-            self.degree = k + 1
-        elif k > 0 and size > _size(self.difference(k - 1, 0)):
-            self.degree = k - 1
-
-    def difference(self, order, first):
-        """Return a backward difference without its first terms, which were of later solutions.
-
-        The latest is added last.
-        """
-        rows = range(first, order + 1)
-        factors = [float((-1) ** j * comb(order, j)) for j in rows]
-        terms = [[f * x for x in row] for f, row in zip(factors, self.past)]
-        pairs = [[x + y for x, y in zip(*pair)] for pair in zip(terms[::2], terms[1::2])]
-        total, *rest = (terms[-1:] if len(terms) % 2 else []) + pairs[::-1]
-        for pair in rest:
-            total = [x + y for x, y in zip(total, pair)]
-        return total
-
-
-def _size(row):
-    """Return the sum of absolute values, added one by one."""
-    total = 0.0
-    for x in row:
-        total += abs(x)
-    return total
+    def clear(self):
+        """Set all fields to zero."""
+        self.known = 0  # how many solutions there are
+        self.first = 0.0  # by how much the last guess was off
+        self.degree = 0  # of the polynomial
+        self.place = 0  # of the latest solution
+        self.guess = [0.0] * 6  # the polynomial, continued by a step
+        self.values = [[0.0] * 6 for _ in range(32)]
+        self.rate_1 = 0.0
+        self.made_1 = 0  # for how many steps the inverse has served, 0: there is none
+        self.inverse_1 = [0.0] * 36
 
 
 def _stumpff_tiny_3(z):
@@ -237,6 +189,7 @@ def _stumpff_23_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 1.0:
         return _stumpff_series_2(z), _stumpff_series_3(z)
+    # the answer is no number where the angle is so large that it has no correct digit
     half = 0.5 * sqrt(z if z <= 4398046511104.0 else float("nan"))
     ratio = sin(half) / half
     c3 = _stumpff_series_3(z) if z <= 4.0 else (1.0 - ratio * cos(half)) / z
@@ -256,6 +209,7 @@ def _stumpff_1_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s."""
     if z <= 1.0:
         return _stumpff_series_1(z)
+    # the answer is no number where the angle is so large that it has no correct digit
     s = sqrt(z if z <= 4398046511104.0 else float("nan"))
     return sin(s) / s
 
@@ -264,6 +218,7 @@ def _stumpff_12_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z)
+    # the answer is no number where the angle is so large that it has no correct digit
     half = 0.5 * sqrt(z if z <= 4398046511104.0 else float("nan"))
     ratio = sin(half) / half
     return ratio * cos(half), 0.5 * (ratio * ratio)
@@ -273,6 +228,7 @@ def _stumpff_123_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z), _stumpff_series_3(z)
+    # the answer is no number where the angle is so large that it has no correct digit
     half = 0.5 * sqrt(z if z <= 4398046511104.0 else float("nan"))
     ratio = sin(half) / half
     c3 = _stumpff_series_3(z) if z <= 4.0 else (1.0 - ratio * cos(half)) / z
@@ -336,14 +292,14 @@ def slope2(z):
     return total
 
 
-def invert(a):
-    """Return the inverse of a square matrix, a list of rows that is used up; None where it has none."""
-    n = len(a)
+def invert(n, matrix):
+    """Replace an n x n matrix, by rows, by its inverse; return 0 where it has none, else 1."""
+    a = [matrix[n * i : n * i + n] for i in range(n)]
     order = [0] * n
     for k in range(n):
         pivot = max(range(k, n), key=lambda i: fabs(a[i][k]))
         if not fabs(a[pivot][k]) > 0.0:
-            return None
+            return 0
         order[k] = pivot
         a[k], a[pivot] = a[pivot], a[k]
         factor = 1.0 / a[k][k]
@@ -356,368 +312,618 @@ def invert(a):
     for k in reversed(range(n)):
         for row in a:
             row[k], row[order[k]] = row[order[k]], row[k]
-    return a
+    matrix[:] = [x for row in a for x in row]
+    return 1
+
+
+# Backward differences by their order: the factors of the solutions, the latest first.
+differences = (
+    (
+        1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+        0.0, 0.0,
+    ),
+    (
+        1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+        0.0, 0.0,
+    ),
+    (
+        1.0, -2.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+        0.0, 0.0,
+    ),
+    (
+        1.0, -3.0, 3.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+        0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -4.0, 6.0, -4.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+        0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -5.0, 10.0, -10.0, 5.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+        0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+        0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -7.0, 21.0, -35.0, 35.0, -21.0, 7.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+        0.0, 0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -8.0, 28.0, -56.0, 70.0, -56.0, 28.0, -8.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+        0.0, 0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -9.0, 36.0, -84.0, 126.0, -126.0, 84.0, -36.0, 9.0, -1.0, 0.0, 0.0, 0.0,
+        0.0, 0.0, 0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -10.0, 45.0, -120.0, 210.0, -252.0, 210.0, -120.0, 45.0, -10.0, 1.0, 0.0,
+        0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -11.0, 55.0, -165.0, 330.0, -462.0, 462.0, -330.0, 165.0, -55.0, 11.0,
+        -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -12.0, 66.0, -220.0, 495.0, -792.0, 924.0, -792.0, 495.0, -220.0, 66.0,
+        -12.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -13.0, 78.0, -286.0, 715.0, -1287.0, 1716.0, -1716.0, 1287.0, -715.0,
+        286.0, -78.0, 13.0, -1.0, 0.0, 0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -14.0, 91.0, -364.0, 1001.0, -2002.0, 3003.0, -3432.0, 3003.0, -2002.0,
+        1001.0, -364.0, 91.0, -14.0, 1.0, 0.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -15.0, 105.0, -455.0, 1365.0, -3003.0, 5005.0, -6435.0, 6435.0, -5005.0,
+        3003.0, -1365.0, 455.0, -105.0, 15.0, -1.0, 0.0, 0.0,
+    ),
+    (
+        1.0, -16.0, 120.0, -560.0, 1820.0, -4368.0, 8008.0, -11440.0, 12870.0, -11440.0,
+        8008.0, -4368.0, 1820.0, -560.0, 120.0, -16.0, 1.0, 0.0,
+    ),
+)
+
+
+def _count_sweeps(statistics, block, sweeps, failed):
+    """Add the sweeps over one block in one step."""
+    if statistics is not None:
+        statistics.sweeps[block] += sweeps
+        if sweeps > statistics.most:
+            statistics.most = sweeps
+        if failed:
+            statistics.failed = block + 1
+
+
+def _count_matrix(statistics):
+    """Add one matrix."""
+    if statistics is not None:
+        statistics.matrices += 1
+
+
+def _difference(memory, order, first, sign, sum):
+    """A backward difference, times sign, of an order without its first terms, which
+    were of later solutions. The latest is added last: the rest of the sum does
+    not wait for it.
+    """
+    sum_0 = 0.0
+    sum_1 = 0.0
+    sum_2 = 0.0
+    sum_3 = 0.0
+    sum_4 = 0.0
+    sum_5 = 0.0
+    for pair in reversed(range((order - first) // 2 + 1)):
+        row = memory.place + 2 * pair
+        column = first + 2 * pair
+        newer = differences[order][column]
+        older = differences[order][column + 1]
+        sum_0 += (
+            sign * (newer * memory.values[row][0] + older * memory.values[row + 1][0])
+        )
+        sum_1 += (
+            sign * (newer * memory.values[row][1] + older * memory.values[row + 1][1])
+        )
+        sum_2 += (
+            sign * (newer * memory.values[row][2] + older * memory.values[row + 1][2])
+        )
+        sum_3 += (
+            sign * (newer * memory.values[row][3] + older * memory.values[row + 1][3])
+        )
+        sum_4 += (
+            sign * (newer * memory.values[row][4] + older * memory.values[row + 1][4])
+        )
+        sum_5 += (
+            sign * (newer * memory.values[row][5] + older * memory.values[row + 1][5])
+        )
+    sum[:] = sum_0, sum_1, sum_2, sum_3, sum_4, sum_5
+
+
+def _difference_size(memory, order):
+    """The size of a backward difference."""
+    row = [0.0] * 6
+    _difference(memory, order, 0, 1.0, row)
+    size = 0.0
+    for i in range(6):
+        size += abs(row[i])
+    return size
+
+
+def _remember(memory, solution):
+    """Store a solution and extrapolate the next one: the polynomial through the last
+    solutions, evaluated one step later.
+    """
+    # the guess was no mere copy
+    if memory.known > 2:
+        moved = 0.0
+        moved += abs(solution[0] - memory.values[memory.place][0])
+        moved += abs(solution[1] - memory.values[memory.place][1])
+        moved += abs(solution[2] - memory.values[memory.place][2])
+        moved += abs(solution[3] - memory.values[memory.place][3])
+        moved += abs(solution[4] - memory.values[memory.place][4])
+        moved += abs(solution[5] - memory.values[memory.place][5])
+        if memory.first > 0.5 * moved:
+            memory.known = 0
+            memory.degree = 0
+    memory.first = 0.0
+    place = memory.place - 1 if memory.place > 0 else 15
+    memory.place = place
+    memory.values[place][:] = solution
+    memory.values[place + 16][:] = solution
+    if memory.known < 16:
+        memory.known += 1
+    # the degree grows while differences fall; with many it is chosen once in 8
+    # steps
+    if memory.known < 16 or place % 8 == 0:
+        size = _difference_size(memory, memory.degree)
+        grows = False
+        if memory.degree + 1 < memory.known:
+            higher = _difference_size(memory, memory.degree + 1)
+            grows = higher < size
+        if grows:
+            memory.degree += 1
+        elif memory.degree > 0:
+            lower = _difference_size(memory, memory.degree - 1)
+            if size > lower:
+                memory.degree -= 1
+    # the next difference vanishes where this is the next solution
+    _difference(memory, memory.degree + 1, 1, -1.0, memory.guess)
 
 
 def _advance(state, h, memory, statistics):
-    """Return the state after one step as a tuple."""
-    g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
-    if memory.past:
-        xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2 = memory.guess
-    else:
-        xi1_0 = 0.001 * mu0
-        xi1_1 = 0.0002 * mu1
-        xi1_2 = 0.00016666666666666666 * mu2
-        n1_0 = -g12
-        n1_1 = g02
-        n1_2 = 0.0
-    w8 = -0.5 * h
-    w16 = 0.5 * h
-    # the equations of xi1, n1: Newton's method in xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2
-    previous_1 = 0.0
-    rate_1 = memory.rates[0] if memory.past else 1.0
-    make_1 = memory.inverses[0] is None
-    for sweep in range(1, 101):
-        Y_0 = h * xi1_0
-        Y_1 = h * xi1_1
-        Y_2 = h * xi1_2
-        w1 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2
-        c2_1, c3_1 = _stumpff_23(w1)
-        w2 = c2_1
-        w3 = mu1 * Y_2 - mu2 * Y_1
-        w5 = mu2 * Y_0 - mu0 * Y_2
-        w6 = mu0 * Y_1 - mu1 * Y_0
-        w7 = Y_2 * w5 - Y_1 * w6
-        z_0 = xi1_0 * w8
-        z_1 = xi1_1 * w8
-        z_2 = xi1_2 * w8
-        w9 = z_0 * z_0 + z_1 * z_1 + z_2 * z_2
-        c1_1, c2_2, c3_2 = _stumpff_123(w9)
-        w10 = c2_2
-        w11 = n1_2 * z_1 - n1_1 * z_2
-        w13 = n1_1 * z_0 - n1_0 * z_1
-        w14 = n1_0 * z_2 - n1_2 * z_0
-        w15 = z_1 * w13 - z_2 * w14
-        M1_0 = mu0 - w2 * w3 + w7 * c3_1 + w16 * (n1_0 - w10 * w11 + w15 * c3_2)
-        w17 = Y_0 * w6 - Y_2 * w3
-        w18 = z_2 * w11 - z_0 * w13
-        M1_1 = mu1 - w2 * w5 + w17 * c3_1 + w16 * (n1_1 - w10 * w14 + w18 * c3_2)
-        w19 = Y_1 * w3 - Y_0 * w5
-        w20 = z_0 * w14 - z_1 * w11
-        M1_2 = mu2 - w2 * w6 + w19 * c3_1 + w16 * (n1_2 - w10 * w13 + w20 * c3_2)
-        X1_2 = xi1_2 * w16
-        w21 = c1_1
-        w22 = X1_2 * w21
-        X1_1 = xi1_1 * w16
-        X1_0 = xi1_0 * w16
-        w23 = w10 * X1_0
-        w24 = X1_1 * w23
-        w25 = w10 * X1_2
-        w26 = X1_2 * w25
-        w27 = w10 * X1_1
-        Q1_5 = (
-            g02 * (w22 + w24) + g12 * (1.0 - (X1_0 * w23 + w26))
-            + g22 * (X1_2 * w27 - w21 * X1_0)
-        )
-        Q1_2 = (
-            g12 * (w24 - w22) + g02 * (1.0 - (w26 + X1_1 * w27))
-            + g22 * (X1_2 * w23 + w21 * X1_1)
-        )
-        next_xi1_0 = 0.001 * M1_0
-        next_xi1_1 = 0.0002 * M1_1
-        next_xi1_2 = 0.00016666666666666666 * M1_2
-        next_n1_0 = -Q1_5
-        next_n1_2 = 0.0
-        residual_xi1_0 = next_xi1_0 - xi1_0
-        residual_xi1_1 = next_xi1_1 - xi1_1
-        residual_xi1_2 = next_xi1_2 - xi1_2
-        residual_n1_0 = next_n1_0 - n1_0
-        residual_n1_1 = Q1_2 - n1_1
-        residual_n1_2 = next_n1_2 - n1_2
-        total = (
-            residual_xi1_0 + residual_xi1_1 + residual_xi1_2 + residual_n1_0
-            + residual_n1_1 + residual_n1_2
-        )
-        if not isfinite(total):
-            raise _failed(NOT_FINITE, "the equations of xi1, n1", 0, sweep, statistics)
-        if make_1:
-            w28 = 0.001 * c3_1
-            w29 = Y_1 * w28
-            w30 = h * mu1
-            w31 = Y_2 * w28
-            w32 = h * mu2
-            w33 = slope3(w1)
-            w34 = slope2(w1)
-            w35 = 0.001 * w7 * w33 - 0.001 * w3 * w34
-            w36 = 2.0 * Y_0 * h
-            w37 = 0.0005 * h
-            w38 = w37 * c3_2
-            w39 = z_1 * w38
-            w40 = n1_1 * w8
-            w41 = z_2 * w38
-            w42 = n1_2 * w8
-            w43 = slope3(w9)
-            w44 = slope2(w9)
-            w45 = w15 * w37 * w43 - w11 * w37 * w44
-            w46 = 2.0 * z_0 * w8
-            w47 = w29 * w30 + w31 * w32 + w35 * w36 + w39 * w40 + w41 * w42 + w45 * w46
-            w48 = h * mu0
-            w49 = -0.001 * w2
-            w50 = 2.0 * Y_1 * h
-            w51 = w13 * w38 * w8 - w6 * w28 * h - w29 * w48 - w32 * w49 + w35 * w50
-            w52 = n1_0 * w8
-            w53 = w10 * w37
-            w54 = 2.0 * z_1 * w8
-            w55 = 2.0 * Y_2 * h
-            w56 = w5 * w28 * h - w14 * w38 * w8 - w31 * w48 + w30 * w49 + w35 * w55
-            w57 = 2.0 * z_2 * w8
-            w58 = 0.0002 * c3_1
-            w59 = 0.0001 * h
-            w60 = w59 * c3_2
-            w61 = Y_0 * w58
-            w62 = -0.0002 * w2
-            w63 = 0.0002 * w17 * w33 - 0.0002 * w5 * w34
-            w64 = w6 * w58 * h - w13 * w60 * w8 - w30 * w61 + w32 * w62 + w36 * w63
-            w65 = z_0 * w60
-            w66 = w10 * w59
-            w67 = w18 * w59 * w43 - w14 * w59 * w44
-            w68 = Y_2 * w58
-            w69 = z_2 * w60
-            w70 = w48 * w61 + w32 * w68 + w50 * w63 + w52 * w65 + w42 * w69 + w54 * w67
-            w71 = w11 * w60 * w8 - w3 * w58 * h - w48 * w62 - w30 * w68 + w55 * w63
-            w72 = 8.333333333333333e-05 * h
-            w73 = w72 * c3_2
-            w74 = 0.00016666666666666666 * c3_1
-            w75 = -0.00016666666666666666 * w2
-            w76 = Y_0 * w74
-            w77 = 0.00016666666666666666 * w19 * w33 - 0.00016666666666666666 * w6 * w34
-            w78 = w14 * w73 * w8 - w5 * w74 * h - w30 * w75 - w32 * w76 + w36 * w77
-            w79 = w10 * w72
-            w80 = z_0 * w73
-            w81 = w20 * w72 * w43 - w13 * w72 * w44
-            w82 = Y_1 * w74
-            w83 = w3 * w74 * h - w11 * w73 * w8 + w48 * w75 - w32 * w82 + w50 * w77
-            w84 = z_1 * w73
-            w85 = w48 * w76 + w30 * w82 + w55 * w77 + w52 * w80 + w40 * w84 + w57 * w81
-            w86 = g22 * w21
-            w87 = w10 * w16
-            w88 = g02 * X1_1
-            w89 = g12 * X1_0 - w88
-            w90 = 0.5 * (c3_2 - w10)
-            w91 = X1_2 * w90
-            w92 = X1_2 * X1_2
-            w93 = g22 * X1_2
-            w94 = (
-                g22 * X1_0 * w90 - g02 * w91
-                + w44 * (g12 * w92 - X1_1 * w93 + X1_0 * w89)
-            )
-            w95 = w16 * w23
-            w96 = 2.0 * w25
-            w97 = w16 * w21
-            w98 = w93 + g12 * X1_1
-            w99 = (
-                g22 * X1_1 * w90 - g12 * w91
-                + w44 * (X1_0 * w98 - (g02 * w92 + X1_1 * w88))
-            )
-            w100 = -(w16 * (w86 - g02 * w27) + g12 * w95 - w87 * w88 + w54 * w99)
-            row_1_1 = [
-                1.0 - w47, -(w51 - w39 * w52 - w42 * w53 + w45 * w54),
-                -(w56 - w41 * w52 + w40 * w53 + w45 * w57),
-                z_2 * w41 - (w37 - z_1 * w39), -(z_0 * w39 + z_2 * w53),
-                z_1 * w53 - z_0 * w41,
-            ]
-            row_1_2 = [
-                -(w64 - w40 * w65 + w42 * w66 + w46 * w67), 1.0 - w70,
-                -(w71 - w52 * w66 - w40 * w69 + w57 * w67), z_2 * w66 - z_1 * w65,
-                z_2 * w69 - (w59 - z_0 * w65), -(z_0 * w66 + z_1 * w69),
-            ]
-            row_1_3 = [
-                -(w78 - w40 * w79 - w42 * w80 + w46 * w81),
-                -(w83 + w52 * w79 - w42 * w84 + w54 * w81), 1.0 - w85,
-                -(z_1 * w79 + z_2 * w80), z_0 * w79 - z_2 * w84,
-                z_1 * w84 - (w72 - z_0 * w80),
-            ]
-            row_1_4 = [
-                -(w16 * (g12 * w23 + w86) + w87 * w89 + w46 * w94),
-                g02 * w95 + w87 * w93 - w54 * w94,
-                -(w16 * (g12 * w96 - g22 * w27) - g02 * w97 + w57 * w94), 1.0, 0.0, 0.0,
-            ]
-            row_1_5 = [
-                -(w87 * w98 + w46 * w99), w100,
-                -(w16 * (g22 * w23 - g02 * w96) - g12 * w97 + w57 * w99), 0.0, 1.0, 0.0,
-            ]
-            row_1_6 = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
-            memory.inverses[0] = invert([row_1_1, row_1_2, row_1_3, row_1_4, row_1_5, row_1_6])
-            if statistics is not None:
-                statistics.matrices += 1
-            if memory.inverses[0] is None:
-                raise _failed(NOT_CONVERGED, "the equations of xi1, n1", 0, sweep, statistics)
-        row_1_1, row_1_2, row_1_3, row_1_4, row_1_5, row_1_6 = memory.inverses[0]
-        change_xi1_0 = (
-            row_1_1[0] * residual_xi1_0 + row_1_1[1] * residual_xi1_1
-            + row_1_1[2] * residual_xi1_2 + row_1_1[3] * residual_n1_0
-            + row_1_1[4] * residual_n1_1 + row_1_1[5] * residual_n1_2
-        )
-        change_xi1_1 = (
-            row_1_2[0] * residual_xi1_0 + row_1_2[1] * residual_xi1_1
-            + row_1_2[2] * residual_xi1_2 + row_1_2[3] * residual_n1_0
-            + row_1_2[4] * residual_n1_1 + row_1_2[5] * residual_n1_2
-        )
-        change_xi1_2 = (
-            row_1_3[0] * residual_xi1_0 + row_1_3[1] * residual_xi1_1
-            + row_1_3[2] * residual_xi1_2 + row_1_3[3] * residual_n1_0
-            + row_1_3[4] * residual_n1_1 + row_1_3[5] * residual_n1_2
-        )
-        change_n1_0 = (
-            row_1_4[0] * residual_xi1_0 + row_1_4[1] * residual_xi1_1
-            + row_1_4[2] * residual_xi1_2 + row_1_4[3] * residual_n1_0
-            + row_1_4[4] * residual_n1_1 + row_1_4[5] * residual_n1_2
-        )
-        change_n1_1 = (
-            row_1_5[0] * residual_xi1_0 + row_1_5[1] * residual_xi1_1
-            + row_1_5[2] * residual_xi1_2 + row_1_5[3] * residual_n1_0
-            + row_1_5[4] * residual_n1_1 + row_1_5[5] * residual_n1_2
-        )
-        change_n1_2 = (
-            row_1_6[0] * residual_xi1_0 + row_1_6[1] * residual_xi1_1
-            + row_1_6[2] * residual_xi1_2 + row_1_6[3] * residual_n1_0
-            + row_1_6[4] * residual_n1_1 + row_1_6[5] * residual_n1_2
-        )
-        xi1_0 += change_xi1_0
-        xi1_1 += change_xi1_1
-        xi1_2 += change_xi1_2
-        n1_0 += change_n1_0
-        n1_1 += change_n1_1
-        n1_2 += change_n1_2
-        change = max(
-            abs(change_xi1_0), abs(change_xi1_1), abs(change_xi1_2), abs(change_n1_0),
-            abs(change_n1_1), abs(change_n1_2),
-        )
-        scale = max(
-            0.0, abs(xi1_0), abs(xi1_1), abs(xi1_2), abs(n1_0), abs(n1_1), abs(n1_2),
-        )
-        still = 0.0 < previous_1 <= change and (
-            change <= 5.684341886080802e-14 * scale
-            or change * abs(h) <= 7.105427357601002e-15 * min(max(map(abs, state[0:9])), max(map(abs, state[9:12])))
-        )
-        if sweep == 1:
-            memory.first = max(memory.first, change)
-        if previous_1 > 0.0:
-            rate_1 = max(change / previous_1, 0.000244140625)
-        close = change * rate_1 <= 1.1102230246251565e-16 * scale
-        if still or (close and change <= 3.552713678800501e-15 * scale):
-            memory.rates[0] = rate_1 if sweep > 1 else 2.0 * rate_1
-            break
-        if make_1 and 0.0 < previous_1 <= change:  # it goes astray
-            raise _failed(NOT_CONVERGED, "the equations of xi1, n1", 0, sweep, statistics)
-        make_1 = 0.0 < 0.015625 * previous_1 < change
-        previous_1 = change
-    else:
-        raise _failed(NOT_CONVERGED, "the equations of xi1, n1", 0, sweep, statistics)
-    if statistics is not None:
-        statistics.count(0, sweep)
-    w101 = Y_1 * w2
-    w102 = Y_1 * w101
-    w103 = Y_2 * w2 * Y_2
-    g_0 = 1.0 - (w102 + w103)
-    w104 = Y_0 * w2
-    w105 = Y_1 * w104
-    c1_2 = _stumpff_1(w1)
-    w107 = Y_2 * c1_2
-    g_1 = w105 - w107
-    w108 = Y_1 * c1_2
-    w109 = Y_2 * w104
-    g_2 = w108 + w109
-    g_3 = w105 + w107
-    w110 = Y_0 * w104
-    g_4 = 1.0 - (w103 + w110)
-    w111 = Y_2 * w101
-    w112 = Y_0 * c1_2
-    g_5 = w111 - w112
-    g_6 = w109 - w108
-    g_7 = w111 + w112
-    g_8 = 1.0 - (w102 + w110)
-    w113 = z_1 * w10
-    w114 = z_2 * w10 * z_2
-    w115 = z_2 * w21
-    w116 = z_0 * w10
-    w117 = z_1 * w116
-    mu1_0 = (
-        mu0 * g_0 + mu1 * g_1 + mu2 * g_2
-        + h * (n1_0 * (1.0 - (z_1 * w113 + w114)) + n1_1 * (w115 + w117))
-    )
-    mu1_1 = (
-        mu0 * g_3 + mu1 * g_4 + mu2 * g_5
-        + h * (n1_0 * (w117 - w115) + n1_1 * (1.0 - (w114 + z_0 * w116)))
-    )
-    w118 = h * (n1_0 * (z_1 * w21 + z_2 * w116) + n1_1 * (z_2 * w113 - z_0 * w21))
-    new_g00 = g00 * g_0 + g10 * g_1 + g20 * g_2
-    new_g01 = g01 * g_0 + g11 * g_1 + g21 * g_2
-    new_g02 = g02 * g_0 + g12 * g_1 + g22 * g_2
-    new_g10 = g00 * g_3 + g10 * g_4 + g20 * g_5
-    new_g11 = g01 * g_3 + g11 * g_4 + g21 * g_5
-    new_g12 = g02 * g_3 + g12 * g_4 + g22 * g_5
-    new_g20 = g00 * g_6 + g10 * g_7 + g20 * g_8
-    new_g21 = g01 * g_6 + g11 * g_7 + g21 * g_8
-    new_g22 = g02 * g_6 + g12 * g_7 + g22 * g_8
-    new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w118
-    found = xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2
-    memory.keep(found)
-    return (
-        new_g00, new_g01, new_g02, new_g10, new_g11, new_g12, new_g20, new_g21, new_g22,
-        mu1_0, mu1_1, new_mu2,
-    )
-
-
-def _checked(state, h, memory, statistics):
-    """Return the state after one step, which is finite."""
+    """Make one step."""
     try:
-        new = _advance(state, h, memory, statistics)
-    except StepFailed:
-        raise
-    except (ArithmeticError, ValueError) as error:
-        raise StepFailed(NOT_FINITE, f"the new state is not finite ({error})") from None
-    if not all(map(isfinite, new)):
-        raise StepFailed(NOT_FINITE, "the new state is not finite")
-    return new
+        if not isfinite(h):
+            return BAD_STEP
+        g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
+        if memory.known > 0:
+            xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2 = memory.guess
+        else:
+            xi1_0 = 0.001 * mu0
+            xi1_1 = 0.0002 * mu1
+            xi1_2 = 0.00016666666666666666 * mu2
+            n1_0 = -g12
+            n1_1 = g02
+            n1_2 = 0.0
+        w8 = -0.5 * h
+        w16 = 0.5 * h
+        # the equations of xi1, n1: Newton's method, 6 unknowns
+        previous_1 = 0.0
+        rate_1 = memory.rate_1 if memory.known > 0 else 1.0
+        make_1 = not memory.made_1 > 0
+        astray = False
+        sweep = 0
+        status = NOT_CONVERGED
+        while True:
+            sweep += 1
+            Y_0 = h * xi1_0
+            Y_1 = h * xi1_1
+            Y_2 = h * xi1_2
+            w1 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2
+            c2_1, c3_1 = _stumpff_23(w1)
+            w2 = c2_1
+            w3 = mu1 * Y_2 - mu2 * Y_1
+            w5 = mu2 * Y_0 - mu0 * Y_2
+            w6 = mu0 * Y_1 - mu1 * Y_0
+            w7 = Y_2 * w5 - Y_1 * w6
+            z_0 = xi1_0 * w8
+            z_1 = xi1_1 * w8
+            z_2 = xi1_2 * w8
+            w9 = z_0 * z_0 + z_1 * z_1 + z_2 * z_2
+            c1_1, c2_2, c3_2 = _stumpff_123(w9)
+            w10 = c2_2
+            w11 = n1_2 * z_1 - n1_1 * z_2
+            w13 = n1_1 * z_0 - n1_0 * z_1
+            w14 = n1_0 * z_2 - n1_2 * z_0
+            w15 = z_1 * w13 - z_2 * w14
+            M1_0 = mu0 - w2 * w3 + w7 * c3_1 + w16 * (n1_0 - w10 * w11 + w15 * c3_2)
+            w17 = Y_0 * w6 - Y_2 * w3
+            w18 = z_2 * w11 - z_0 * w13
+            M1_1 = mu1 - w2 * w5 + w17 * c3_1 + w16 * (n1_1 - w10 * w14 + w18 * c3_2)
+            w19 = Y_1 * w3 - Y_0 * w5
+            w20 = z_0 * w14 - z_1 * w11
+            M1_2 = mu2 - w2 * w6 + w19 * c3_1 + w16 * (n1_2 - w10 * w13 + w20 * c3_2)
+            X1_2 = xi1_2 * w16
+            w21 = c1_1
+            w22 = X1_2 * w21
+            X1_1 = xi1_1 * w16
+            X1_0 = xi1_0 * w16
+            w23 = w10 * X1_0
+            w24 = X1_1 * w23
+            w25 = w10 * X1_2
+            w26 = X1_2 * w25
+            w27 = w10 * X1_1
+            Q1_5 = (
+                g02 * (w22 + w24) + g12 * (1.0 - (X1_0 * w23 + w26))
+                + g22 * (X1_2 * w27 - w21 * X1_0)
+            )
+            Q1_2 = (
+                g12 * (w24 - w22) + g02 * (1.0 - (w26 + X1_1 * w27))
+                + g22 * (X1_2 * w23 + w21 * X1_1)
+            )
+            next_xi1_0 = 0.001 * M1_0
+            next_xi1_1 = 0.0002 * M1_1
+            next_xi1_2 = 0.00016666666666666666 * M1_2
+            next_n1_0 = -Q1_5
+            next_n1_2 = 0.0
+            residual_xi1_0 = next_xi1_0 - xi1_0
+            residual_xi1_1 = next_xi1_1 - xi1_1
+            residual_xi1_2 = next_xi1_2 - xi1_2
+            residual_n1_0 = next_n1_0 - n1_0
+            residual_n1_1 = Q1_2 - n1_1
+            residual_n1_2 = next_n1_2 - n1_2
+            if (
+                make_1
+                and isfinite(residual_xi1_0 + residual_xi1_1 + residual_xi1_2 + residual_n1_0 + residual_n1_1 + residual_n1_2)
+            ):
+                w28 = 0.001 * c3_1
+                w29 = Y_1 * w28
+                w30 = h * mu1
+                w31 = Y_2 * w28
+                w32 = h * mu2
+                w33 = slope3(w1)
+                w34 = slope2(w1)
+                w35 = 0.001 * w7 * w33 - 0.001 * w3 * w34
+                w36 = 2.0 * Y_0 * h
+                w37 = 0.0005 * h
+                w38 = w37 * c3_2
+                w39 = z_1 * w38
+                w40 = n1_1 * w8
+                w41 = z_2 * w38
+                w42 = n1_2 * w8
+                w43 = slope3(w9)
+                w44 = slope2(w9)
+                w45 = w15 * w37 * w43 - w11 * w37 * w44
+                w46 = 2.0 * z_0 * w8
+                w47 = (
+                    w29 * w30 + w31 * w32 + w35 * w36 + w39 * w40 + w41 * w42
+                    + w45 * w46
+                )
+                w48 = h * mu0
+                w49 = -0.001 * w2
+                w50 = 2.0 * Y_1 * h
+                w51 = w13 * w38 * w8 - w6 * w28 * h - w29 * w48 - w32 * w49 + w35 * w50
+                w52 = n1_0 * w8
+                w53 = w10 * w37
+                w54 = 2.0 * z_1 * w8
+                w55 = 2.0 * Y_2 * h
+                w56 = w5 * w28 * h - w14 * w38 * w8 - w31 * w48 + w30 * w49 + w35 * w55
+                w57 = 2.0 * z_2 * w8
+                w58 = 0.0002 * c3_1
+                w59 = 0.0001 * h
+                w60 = w59 * c3_2
+                w61 = Y_0 * w58
+                w62 = -0.0002 * w2
+                w63 = 0.0002 * w17 * w33 - 0.0002 * w5 * w34
+                w64 = w6 * w58 * h - w13 * w60 * w8 - w30 * w61 + w32 * w62 + w36 * w63
+                w65 = z_0 * w60
+                w66 = w10 * w59
+                w67 = w18 * w59 * w43 - w14 * w59 * w44
+                w68 = Y_2 * w58
+                w69 = z_2 * w60
+                w70 = (
+                    w48 * w61 + w32 * w68 + w50 * w63 + w52 * w65 + w42 * w69
+                    + w54 * w67
+                )
+                w71 = w11 * w60 * w8 - w3 * w58 * h - w48 * w62 - w30 * w68 + w55 * w63
+                w72 = 8.333333333333333e-05 * h
+                w73 = w72 * c3_2
+                w74 = 0.00016666666666666666 * c3_1
+                w75 = -0.00016666666666666666 * w2
+                w76 = Y_0 * w74
+                w77 = (
+                    0.00016666666666666666 * w19 * w33
+                    - 0.00016666666666666666 * w6 * w34
+                )
+                w78 = w14 * w73 * w8 - w5 * w74 * h - w30 * w75 - w32 * w76 + w36 * w77
+                w79 = w10 * w72
+                w80 = z_0 * w73
+                w81 = w20 * w72 * w43 - w13 * w72 * w44
+                w82 = Y_1 * w74
+                w83 = w3 * w74 * h - w11 * w73 * w8 + w48 * w75 - w32 * w82 + w50 * w77
+                w84 = z_1 * w73
+                w85 = (
+                    w48 * w76 + w30 * w82 + w55 * w77 + w52 * w80 + w40 * w84
+                    + w57 * w81
+                )
+                w86 = g22 * w21
+                w87 = w10 * w16
+                w88 = g02 * X1_1
+                w89 = g12 * X1_0 - w88
+                w90 = 0.5 * (c3_2 - w10)
+                w91 = X1_2 * w90
+                w92 = X1_2 * X1_2
+                w93 = g22 * X1_2
+                w94 = (
+                    g22 * X1_0 * w90 - g02 * w91
+                    + w44 * (g12 * w92 - X1_1 * w93 + X1_0 * w89)
+                )
+                w95 = w16 * w23
+                w96 = 2.0 * w25
+                w97 = w16 * w21
+                w98 = w93 + g12 * X1_1
+                w99 = (
+                    g22 * X1_1 * w90 - g12 * w91
+                    + w44 * (X1_0 * w98 - (g02 * w92 + X1_1 * w88))
+                )
+                w100 = -(w16 * (w86 - g02 * w27) + g12 * w95 - w87 * w88 + w54 * w99)
+                memory.inverse_1[:] = (
+                    1.0 - w47, -(w51 - w39 * w52 - w42 * w53 + w45 * w54),
+                    -(w56 - w41 * w52 + w40 * w53 + w45 * w57),
+                    z_2 * w41 - (w37 - z_1 * w39), -(z_0 * w39 + z_2 * w53),
+                    z_1 * w53 - z_0 * w41, -(w64 - w40 * w65 + w42 * w66 + w46 * w67),
+                    1.0 - w70, -(w71 - w52 * w66 - w40 * w69 + w57 * w67),
+                    z_2 * w66 - z_1 * w65, z_2 * w69 - (w59 - z_0 * w65),
+                    -(z_0 * w66 + z_1 * w69),
+                    -(w78 - w40 * w79 - w42 * w80 + w46 * w81),
+                    -(w83 + w52 * w79 - w42 * w84 + w54 * w81), 1.0 - w85,
+                    -(z_1 * w79 + z_2 * w80), z_0 * w79 - z_2 * w84,
+                    z_1 * w84 - (w72 - z_0 * w80),
+                    -(w16 * (g12 * w23 + w86) + w87 * w89 + w46 * w94),
+                    g02 * w95 + w87 * w93 - w54 * w94,
+                    -(w16 * (g12 * w96 - g22 * w27) - g02 * w97 + w57 * w94), 1.0, 0.0,
+                    0.0, -(w87 * w98 + w46 * w99), w100,
+                    -(w16 * (g22 * w23 - g02 * w96) - g12 * w97 + w57 * w99), 0.0, 1.0,
+                    0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0,
+                )
+                memory.made_1 = invert(6, memory.inverse_1)
+                if memory.made_1 > 0:
+                    _count_matrix(statistics)
+            change_xi1_0 = (
+                memory.inverse_1[0] * residual_xi1_0
+                + memory.inverse_1[1] * residual_xi1_1 + (memory.inverse_1[2]
+                * residual_xi1_2 + memory.inverse_1[3] * residual_n1_0)
+                + (memory.inverse_1[4] * residual_n1_1
+                + memory.inverse_1[5] * residual_n1_2)
+            )
+            change_xi1_1 = (
+                memory.inverse_1[6] * residual_xi1_0
+                + memory.inverse_1[7] * residual_xi1_1 + (memory.inverse_1[8]
+                * residual_xi1_2 + memory.inverse_1[9] * residual_n1_0)
+                + (memory.inverse_1[10] * residual_n1_1
+                + memory.inverse_1[11] * residual_n1_2)
+            )
+            change_xi1_2 = (
+                memory.inverse_1[12] * residual_xi1_0
+                + memory.inverse_1[13] * residual_xi1_1 + (memory.inverse_1[14]
+                * residual_xi1_2 + memory.inverse_1[15] * residual_n1_0)
+                + (memory.inverse_1[16] * residual_n1_1
+                + memory.inverse_1[17] * residual_n1_2)
+            )
+            change_n1_0 = (
+                memory.inverse_1[18] * residual_xi1_0
+                + memory.inverse_1[19] * residual_xi1_1 + (memory.inverse_1[20]
+                * residual_xi1_2 + memory.inverse_1[21] * residual_n1_0)
+                + (memory.inverse_1[22] * residual_n1_1
+                + memory.inverse_1[23] * residual_n1_2)
+            )
+            change_n1_1 = (
+                memory.inverse_1[24] * residual_xi1_0
+                + memory.inverse_1[25] * residual_xi1_1 + (memory.inverse_1[26]
+                * residual_xi1_2 + memory.inverse_1[27] * residual_n1_0)
+                + (memory.inverse_1[28] * residual_n1_1
+                + memory.inverse_1[29] * residual_n1_2)
+            )
+            change_n1_2 = (
+                memory.inverse_1[30] * residual_xi1_0
+                + memory.inverse_1[31] * residual_xi1_1 + (memory.inverse_1[32]
+                * residual_xi1_2 + memory.inverse_1[33] * residual_n1_0)
+                + (memory.inverse_1[34] * residual_n1_1
+                + memory.inverse_1[35] * residual_n1_2)
+            )
+            change = (
+                max(abs(change_xi1_0), abs(change_xi1_1), abs(change_xi1_2),
+                abs(change_n1_0), abs(change_n1_1), abs(change_n1_2))
+            )
+            scale = (
+                max(abs(xi1_0), abs(xi1_1), abs(xi1_2), abs(n1_0), abs(n1_1), abs(n1_2))
+            )
+            if sweep == 1:
+                memory.first = max(memory.first, change)
+            if previous_1 > 0.0:
+                rate_1 = max(change / previous_1, 0.000244140625)
+            xi1_0 += change_xi1_0
+            xi1_1 += change_xi1_1
+            xi1_2 += change_xi1_2
+            n1_0 += change_n1_0
+            n1_1 += change_n1_1
+            n1_2 += change_n1_2
+            still = previous_1 > 0.0 and previous_1 <= change
+            close = (
+                3.552713678800501e-15 * scale >= change
+                and change * rate_1 <= 1.1102230246251565e-16 * scale
+            )
+            settled = (
+                close or (still and (5.684341886080802e-14 * scale >= change
+                or (change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state[0:9]))
+                and change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state[9:12])))))
+            )
+            status = (
+                (OK if memory.made_1 > 0 and settled else NOT_CONVERGED)
+                if isfinite(residual_xi1_0 + residual_xi1_1 + residual_xi1_2 + residual_n1_0 + residual_n1_1 + residual_n1_2)
+                else NOT_FINITE
+            )
+            astray = (still and make_1) or (not memory.made_1 > 0)
+            make_1 = 0.015625 * previous_1 > 0.0 and 0.015625 * previous_1 < change
+            previous_1 = change
+            if not (status == NOT_CONVERGED and sweep < 100 and not astray):
+                break
+        _count_sweeps(statistics, 0, sweep, status != OK)
+        if status != OK:
+            return status
+        memory.rate_1 = rate_1 if sweep > 1 else 2.0 * rate_1
+        solution = [xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2]
+        _remember(memory, solution)
+        w101 = Y_1 * w2
+        w102 = Y_1 * w101
+        w103 = Y_2 * w2 * Y_2
+        g_0 = 1.0 - (w102 + w103)
+        w104 = Y_0 * w2
+        w105 = Y_1 * w104
+        c1_2 = _stumpff_1(w1)
+        w107 = Y_2 * c1_2
+        g_1 = w105 - w107
+        w108 = Y_1 * c1_2
+        w109 = Y_2 * w104
+        g_2 = w108 + w109
+        g_3 = w105 + w107
+        w110 = Y_0 * w104
+        g_4 = 1.0 - (w103 + w110)
+        w111 = Y_2 * w101
+        w112 = Y_0 * c1_2
+        g_5 = w111 - w112
+        g_6 = w109 - w108
+        g_7 = w111 + w112
+        g_8 = 1.0 - (w102 + w110)
+        w113 = z_1 * w10
+        w114 = z_2 * w10 * z_2
+        w115 = z_2 * w21
+        w116 = z_0 * w10
+        w117 = z_1 * w116
+        mu1_0 = (
+            mu0 * g_0 + mu1 * g_1 + mu2 * g_2
+            + h * (n1_0 * (1.0 - (z_1 * w113 + w114)) + n1_1 * (w115 + w117))
+        )
+        mu1_1 = (
+            mu0 * g_3 + mu1 * g_4 + mu2 * g_5
+            + h * (n1_0 * (w117 - w115) + n1_1 * (1.0 - (w114 + z_0 * w116)))
+        )
+        w118 = h * (n1_0 * (z_1 * w21 + z_2 * w116) + n1_1 * (z_2 * w113 - z_0 * w21))
+        new_g00 = g00 * g_0 + g10 * g_1 + g20 * g_2
+        new_g01 = g01 * g_0 + g11 * g_1 + g21 * g_2
+        new_g02 = g02 * g_0 + g12 * g_1 + g22 * g_2
+        new_g10 = g00 * g_3 + g10 * g_4 + g20 * g_5
+        new_g11 = g01 * g_3 + g11 * g_4 + g21 * g_5
+        new_g12 = g02 * g_3 + g12 * g_4 + g22 * g_5
+        new_g20 = g00 * g_6 + g10 * g_7 + g20 * g_8
+        new_g21 = g01 * g_6 + g11 * g_7 + g21 * g_8
+        new_g22 = g02 * g_6 + g12 * g_7 + g22 * g_8
+        new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w118
+        if not all(map(isfinite, (new_g00, new_g01, new_g02, new_g10, new_g11, new_g12, new_g20, new_g21, new_g22, mu1_0, mu1_1, new_mu2))):
+            return NOT_FINITE
+        state[:] = (
+            new_g00, new_g01, new_g02, new_g10, new_g11, new_g12, new_g20, new_g21,
+            new_g22, mu1_0, mu1_1, new_mu2,
+        )
+        return OK
+    except (ArithmeticError, ValueError):
+        return NOT_FINITE
 
 
 def _continued(state, h, memory, statistics):
-    """Return the state after a step whose equations do not settle.
-
-    They are tried without the solutions before. Then those of a shorter step are solved, and the
-    solution is continued in h, as far at a time as it can be followed: it is the one that tends
-    to the motion as h tends to zero. A step of no length changes nothing.
+    """Make a step whose equations do not settle: without the earlier solutions,
+    which may mislead where the motion changes; then through shorter ones, whose
+    solutions are continued in h.
     """
-    if h == 0.0 and all(map(isfinite, state)):
-        return state
-    solved, part, factor, found, failure = 0.0, 1.0, 2.0, None, None
-    for _ in range(100):
-        memory.__init__()
-        if found is not None:
-            memory.past, memory.guess = [found], found
-        try:
-            new = _checked(state, part * h, memory, statistics)
-        except StepFailed as error:
-            failure = error
-            factor = factor**0.5 if found is not None else factor
-        else:
-            found, solved = memory.past[0], part
-            memory.past, memory.guess, memory.degree = [found], found, 0
-            if part >= 1.0:
-                if statistics is not None:
-                    statistics.failed = 0
-                return new
+    if not (h < 0.0 or h > 0.0):
+        return OK if all(map(isfinite, state)) else NOT_FINITE
+    known_solution = [0.0] * 6
+    trial = [0.0] * 12
+    solved = 0.0
+    part = 1.0
+    factor = 2.0
+    failure = NOT_CONVERGED
+    done = False
+    tries = 0
+    while not done and tries < 100 and factor > 1.00390625:
+        trial[:] = state
+        memory.clear()
+        if solved > 0.0:
+            memory.known = 1
+            memory.guess[:] = known_solution
+            memory.rate_1 = 1.0
+        status = _advance(trial, part * h, memory, statistics)
+        done = status == OK and part >= 1.0
+        if status == OK:
+            known_solution[:] = memory.values[memory.place]
+            solved = part
             factor *= factor
-        if factor <= 1.00390625:
-            break
-        factor = min(factor, 4.0)
-        part = 0.5 * part if found is None else min(solved * factor, 1.0)
-    raise failure
+        else:
+            failure = status
+            factor = sqrt(factor) if solved > 0.0 else factor
+        if not done:
+            factor = factor if factor < 4.0 else 4.0
+            part = solved * factor if solved > 0.0 else 0.5 * part
+            part = part if part < 1.0 else 1.0
+        tries += 1
+    if not done:
+        return failure
+    state[:] = trial
+    memory.known = 1
+    if statistics is not None:
+        statistics.failed = 0
+    return OK
+
+
+def _run(state, h, steps, trajectory, stride, statistics, completed):
+    status = OK
+    step = 0
+    memory = _Memory()
+    recording = stride > 0 and trajectory is not None
+    row = 0
+    if recording:
+        trajectory[0][:] = state
+    while status == OK and step < steps:
+        status = _advance(state, h, memory, statistics)
+        if status == NOT_CONVERGED or status == NOT_FINITE:
+            status = _continued(state, h, memory, statistics)
+        if status == OK:
+            step += 1
+            if recording and step % stride == 0:
+                row += 1
+                trajectory[row][:] = state
+    if completed is not None:
+        completed[0] = step
+    return status
+
+
+def _numbers(state):
+    """Return the numbers of a state."""
+    numbers = list(map(float, state))
+    if len(numbers) != 12:
+        raise ValueError(f"expected 12 numbers in state, found {len(numbers)}")
+    return numbers
+
+
+def _failure(status, step, state, h, statistics):
+    """Return the error of a step that could not be made."""
+    reason = "the new state is not finite"
+    if status == BAD_STEP:
+        reason = f"the step size h = {h} is not finite"
+    elif statistics is not None and statistics.failed > 0:
+        label = Statistics.labels[statistics.failed - 1]
+        if status == NOT_CONVERGED:
+            reason = f"{label} did not converge"
+        else:
+            reason = f"{label} met a number that is not finite"
+    return StepFailed(status, reason, step, tuple(map(float, state)))
 
 
 def step(state, h, *, statistics=None):
-    """Return the state after one step of size h as a list; state itself is left alone.
+    """Return the state after one step of size h as a list; the given state is unchanged.
 
     A step that cannot be made raises StepFailed.
     """
@@ -730,29 +936,15 @@ def run(state, h, steps, *, stride=0, statistics=None):
     With a positive stride, return rows instead: the initial state and every stride-th one
     after it. A step that cannot be made raises StepFailed, which holds the last good state.
     """
-    state = tuple(map(float, state))
+    state = _numbers(state)
     h = float(h)
-    if len(state) != 12:
-        raise ValueError(f"expected 12 numbers in state, found {len(state)}")
     if steps < 0:
         raise ValueError(f"expected no negative number of steps, found {steps}")
-    rows = [list(state)]
-    memory = _Memory()
-    made = 0
-    try:
-        if steps > 0 and not isfinite(h):
-            raise StepFailed(BAD_STEP, f"the step size h = {h} is not finite")
-        for made in range(steps):
-            try:
-                state = _checked(state, h, memory, statistics)
-            except StepFailed:
-                if statistics is not None:
-                    statistics.failed = 0
-                new = _continued(state, h, memory, statistics)
-                state = new
-            if stride > 0 and (made + 1) % stride == 0:
-                rows.append(list(state))
-    except StepFailed as failure:
-        failure.step, failure.state = made, state
-        raise
-    return rows if stride > 0 else list(state)
+    rows = [[0.0] * 12 for _ in range(steps // stride + 1)] if stride > 0 else None
+    completed = [0]
+    counted = Statistics() if statistics is None else statistics
+    counted.failed = 0
+    status = _run(state, h, steps, rows, stride, counted, completed)
+    if status != OK:
+        raise _failure(status, completed[0], state, h, counted)
+    return rows if stride > 0 else state
