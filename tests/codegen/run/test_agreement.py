@@ -1,4 +1,4 @@
-"""C, Python and the executor carry out the same statements: the same sweeps and matrices, states to rounding."""
+"""C, Python and the executor carry out the same statements: they count the same sweeps and matrices."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ def test_the_header_states_the_sweeps_of_emitted_code(case):
 
 
 def test_fifty_digits_are_solved_to_fifty_digits():
-    """The executor's rule scales with the format: a step in 50 digits agrees with doubles and is far sharper."""
+    """The stopping rule scales with the format: steps in 50 digits agree with doubles, far sharper."""
     made = compiled("heavy_top", "vcg:midpoint", NEWTON)
     domain = PreciseDomain(0, 50)
     digits = Precision("digits", 166, "mpf", "", 1e300)
