@@ -60,7 +60,7 @@ def simplified(word: Word) -> Word:
             powers[function, scale, order] -= 1
             powers[function, -scale, order] = powers.get((function, -scale, order), 0) + 1
             rate = Fraction(0)
-    found = [Factor("exp", rate)] if rate else []
+    factors = [Factor("exp", rate)] if rate else []
     for (function, scale, order), n in sorted(powers.items()):
-        found += [Factor(function, scale, order, 1 if n > 0 else -1)] * abs(n)
-    return tuple(found)
+        factors += [Factor(function, scale, order, 1 if n > 0 else -1)] * abs(n)
+    return tuple(factors)

@@ -21,9 +21,6 @@ from codegen.ir.operations import (
     Bracket,
     DualDexp,
     Exp,
-    Field,
-    FlowOf,
-    HamiltonianDerivatives,
     Identity,
     InverseDexp,
     Linear,
@@ -31,6 +28,7 @@ from codegen.ir.operations import (
     Operation,
     Zero,
 )
+from codegen.ir.scene_operations import Field, FlowOf, HamiltonianDerivatives
 from codegen.ir.values import Coefficient, Kind, Var
 
 

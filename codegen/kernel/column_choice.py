@@ -12,8 +12,8 @@ from dataclasses import replace
 from codegen.groups.capabilities import CotangentBundle
 from codegen.ir.expr import walk
 from codegen.ir.kernel import Kernel
-from codegen.ir.operations import FLOWS
 from codegen.ir.program import Assign, Program
+from codegen.ir.scene_operations import FLOWS
 from codegen.kernel.critical_path import chain
 from codegen.kernel.deferred_flows import part, with_deferred
 from codegen.kernel.translate import AS_WRITTEN, COMBINED, ORDERED, SHORTENED, to_kernel
@@ -38,14 +38,14 @@ def fastest(program: Program, scene: Problem) -> Kernel:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
     parted = None if scene.inputs else part(program, scene)  # inputs are sampled step by step
     core = program if parted is None else parted.core
-    found: list[tuple[Kernel, Problem, int]] = []
+    candidates: list[tuple[Kernel, Problem, int]] = []
     for group in scene.group.variants():
-        view = replace(scene, group=group)
+        problem = replace(scene, group=group)
         for chains in (ORDERED, SHORTENED):
-            found.append((to_kernel(core, view, chains=chains), view, chains))
-    best = _shortest([kernel for kernel, _, _ in found])
-    kernel, view, chains = next(candidate for candidate in found if candidate[0] is best)
-    return kernel if parted is None else with_deferred(kernel, parted, view, chains)
+            candidates.append((to_kernel(core, problem, chains=chains), problem, chains))
+    best = _shortest([kernel for kernel, _, _ in candidates])
+    kernel, problem, chains = next(candidate for candidate in candidates if candidate[0] is best)
+    return kernel if parted is None else with_deferred(kernel, parted, problem, chains)
 
 
 def _shortest(kernels: Sequence[Kernel]) -> Kernel:

@@ -106,7 +106,7 @@ class _Chains:
             plain = self._combined(self._known(plain))
             self.new[node.id] = plain
             if node.id in ends and node.op in ("add", "sub", "mul"):
-                short = self._spelled(self._sum(node, self.level[node.id]), node.space)
+                short = self._expression(self._sum(node, self.level[node.id]), node.space)
                 if self.ready[short.id] < self.ready[plain.id]:
                     self.new[node.id] = short
         return tuple(self.new[r.id] for r in self.roots)
@@ -165,7 +165,7 @@ class _Chains:
     def _product(self, steps: Expr, rest: Expr) -> Expr:
         return self._known(self._known(steps) * rest)
 
-    def _spelled(self, total: Sum, space: Space) -> Expr:
+    def _expression(self, total: Sum, space: Space) -> Expr:
         """Return the sum of products, what is ready first added first."""
         terms: list[tuple[int, Expr]] = []
         for atom, (sign, steps, rest) in total.items():

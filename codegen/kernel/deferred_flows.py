@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 
 from codegen.ir.kernel import ELAPSED, LEAD, Deferred, Kernel
 from codegen.ir.number import Number
-from codegen.ir.operations import Advance, FlowFor, FlowOf, Operation
+from codegen.ir.operations import Advance, Operation
 from codegen.ir.program import Assign, Program
+from codegen.ir.scene_operations import FlowFor, FlowOf
 from codegen.ir.values import Kind, Var
 from codegen.ir.verify import verify
 from codegen.kernel.translate import AS_WRITTEN, to_kernel
@@ -77,22 +78,24 @@ def _is_h(letter: Letter) -> bool:
 Timed = tuple[Letter, Var | None]
 """A flow with the variable for how long it lasts, where it is none of the program's own durations."""
 
-Joint = tuple[int, int, Number, Number]
+JoinedFlows = tuple[int, int, Number, Number]
 """Places of a flow at the beginning and of one at the end; how long the latter lasts alone, and with it."""
 
 
-def _joined(kept: Sequence[Letter], commute: Callable[[str, str], bool], program: Program) -> list[Joint]:
+def _joined(
+    kept: Sequence[Letter], commute: Callable[[str, str], bool], program: Program
+) -> list[JoinedFlows]:
     """Return which flows at the end take those of the same part at the next beginning with them."""
     last = _last_time(program)
     begin, end = _run(kept, commute), _run(kept[::-1], commute)
-    found: list[Joint] = []
+    pairs: list[JoinedFlows] = []
     for i, head in enumerate(kept[:begin]):
         for k, tail in enumerate(kept[::-1][:end]):
             j = len(kept) - 1 - k
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
             if head.part == tail.part and i < j and timely:
-                found.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
-    return [joint for joint in found if joint[2:] == found[0][2:]]
+                pairs.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
+    return [pair for pair in pairs if pair[2:] == pairs[0][2:]]
 
 
 def _run(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> int:

@@ -62,14 +62,14 @@ class Outline:
             chosen = self._chosen(roots, trees)
             if not chosen:
                 return None
-            found, shapes = self._called(roots, chosen)
+            rewritten_roots, shapes = self._called(roots, chosen)
             calls: dict[str, int] = {}
-            for node in walk(found):
+            for node in walk(rewritten_roots):
                 if node.op == "call" and node.payload.endswith(".0"):
                     calls[node.payload[:-2]] = calls.get(node.payload[:-2], 0) + 1
             if all(calls.get(name, 0) > 1 for name in shapes):
-                self._verify(roots, found)
-                return found
+                self._verify(roots, rewritten_roots)
+                return rewritten_roots
             kept = [key for name, key in shapes.items() if calls.get(name, 0) > 1]
             trees = [tree for key in kept for tree in chosen[key]]
 
@@ -88,8 +88,8 @@ class Outline:
                 x if x.op == "const" and all(x is y for y in others) else None
                 for x, *others in zip(*inputs, strict=True)
             ]
-            made, places = function(name, self.trees, trees[0], self.scene, key[1], fixed)
-            self.outlined.append(made)
+            outlined, places = function(name, self.trees, trees[0], self.scene, key[1], fixed)
+            self.outlined.append(outlined)
             for tree, flat in zip(trees, inputs, strict=True):
                 results = self.trees.results(tree)
                 for k, out in enumerate(key[1]):
@@ -97,7 +97,7 @@ class Outline:
         return rewritten(roots, calls, self.domain.space), shapes
 
     def _levels(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> None:
-        results = [x for m in self.trees.made for value in (*m.results, *m.args) for x in value]
+        results = [x for m in self.trees.executions for value in (*m.results, *m.args) for x in value]
         self._level: dict[int, int] = {}
         for node in walk([*roots, *results]):
             own = owners.get(node.payload, -1) if node.op == "sym" else -1
@@ -111,10 +111,10 @@ class Outline:
             for t in sorted(read):
                 if self._even(trees[t], read[t]):
                     groups.setdefault((self.trees.key(trees[t]), tuple(sorted(read[t]))), []).append(t)
-            kept = {key: found for key, found in groups.items() if len(found) > 1}
-            left = [t for found in kept.values() for t in found]
+            kept = {key: alike for key, alike in groups.items() if len(alike) > 1}
+            left = [t for alike in kept.values() for t in alike]
             if len(left) == len(trees):
-                return {key: [trees[t] for t in found] for key, found in kept.items()}
+                return {key: [trees[t] for t in alike] for key, alike in kept.items()}
             trees = [trees[t] for t in sorted(left)]
 
     def _read(self, roots: Sequence[Expr], trees: Sequence[Tree]) -> dict[int, set[int]]:

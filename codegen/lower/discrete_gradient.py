@@ -16,8 +16,8 @@ from __future__ import annotations
 
 from codegen.errors import MethodError
 from codegen.ir.number import Number
-from codegen.ir.operations import Bivector, Differential, Energy, Secant
 from codegen.ir.program import Program
+from codegen.ir.scene_operations import Bivector, Differential, Energy, Secant
 from codegen.ir.values import ONE, Coefficient, Kind, Var
 from codegen.lower.base import Objection
 from codegen.lower.field import FieldLowering
@@ -93,9 +93,9 @@ def _check_bivector(scene: Problem, method: Method) -> None:
     for point in orbit.points:
         y = tuple(point[s] for s in orbit.symbols)
         gamma = differential(scene, orbit.domain, y)
-        found = bivector(scene, orbit.domain, y, gamma)
+        image = bivector(scene, orbit.domain, y, gamma)
         f = scene.apply(orbit.domain, "field", None, (y,))[0]
-        if not all(orbit.sized(a - b, (a, b)) for a, b in zip(found, f, strict=True)):
+        if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             raise MethodError(
                 f"{method.label} on {scene.name}, whose energy is the same in all directions of the group",
                 expected="an energy whose differential along the group vanishes only where f does",

@@ -37,18 +37,23 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     if method.adaptive:
         return None
     tableau = method.tableau
-    found: tuple[RungeKutta, tuple[Number, ...]] | None
+    repetition: tuple[RungeKutta, tuple[Number, ...]] | None
     if isinstance(tableau.method, Composition):
         half = tableau.ring.rational(1, 2)
-        found = RungeKutta(((half,),), (tableau.ring.one,)), tuple(map(method.number, tableau.method.gamma))
+        repetition = (
+            RungeKutta(((half,),), (tableau.ring.one,)),
+            tuple(map(method.number, tableau.method.gamma)),
+        )
     elif isinstance(tableau.method, RungeKutta):
-        found = _repeated(method, tableau.method)
+        repetition = _repeated(method, tableau.method)
     else:
         return None
-    if found is None or len(found[1]) < 2:
+    if repetition is None or len(repetition[1]) < 2:
         return None
-    once = replace(tableau, family="rk", method=found[0], embedded=None, proof=None, file=None, path=None)
-    return replace(method, tableau=once), tuple(_timed(found[1]))
+    tableau_of_one = replace(
+        tableau, family="rk", method=repetition[0], embedded=None, proof=None, file=None, path=None
+    )
+    return replace(method, tableau=tableau_of_one), tuple(_timed(repetition[1]))
 
 
 def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:

@@ -73,13 +73,13 @@ def _program(scene: Problem, method: Method) -> Program:
         e = partial_products(tableau.b, "e")
         E = [partial_products(row, f"E{i + 1}_") for i, row in enumerate(tableau.A)]
         nu = [build.adjoint(f"nu{j + 1}", E[j][s], n[j]) for j in range(s)]
-        found = []
+        evaluations = []
         for i in range(s):
             Q = build.mul(f"Q{i + 1}", E[i][s], q)
             M = momentum(i, e, E, nu)
-            found.append(build.hamilton(f"f{i + 1}", f"r{i + 1}", Q, M, *stages.at(tableau.c[i])))
+            evaluations.append(build.hamilton(f"f{i + 1}", f"r{i + 1}", Q, M, *stages.at(tableau.c[i])))
         shared.update(e=e, nu=nu)
-        return [x for x, _ in found] + [r for _, r in found]
+        return [x for x, _ in evaluations] + [r for _, r in evaluations]
 
     def starts() -> list[Var]:
         x, r = build.hamilton("xi0", "n0", q, mu, *stages.at(None))

@@ -76,10 +76,10 @@ class _Step(ExpandedStep):
 
     def _powers(self, x: Var, first: Var) -> list[Var]:
         """Append ad_x^k first, or its dual, for k = 0..r."""
-        found = [first]
+        powers = [first]
         for k in range(self.r):
-            found.append(self.build.bracket(f"{first.name}_{k + 1}", x, found[-1]))
-        return found
+            powers.append(self.build.bracket(f"{first.name}_{k + 1}", x, powers[-1]))
+        return powers
 
     def _slope(self, name: str, brackets: list[Var], momenta: list[Var]) -> Var:
         """Append R*_(r) M, the sum over i < r of ad*_z (ad*_x)^i M, z = -sum_k ad_x^{k-1-i} v/(k+1)!."""

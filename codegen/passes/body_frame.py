@@ -17,12 +17,9 @@ from dataclasses import dataclass, field, replace
 from codegen.ir.operations import (
     Adjoint,
     Advance,
-    BodyForce,
-    BodyVelocity,
     Bracket,
     DualDexp,
     Exp,
-    HamiltonianDerivatives,
     Identity,
     InverseDexp,
     InverseDexpSlope,
@@ -31,6 +28,7 @@ from codegen.ir.operations import (
     Zero,
 )
 from codegen.ir.program import BODY, Assign, Builder, Program, Solve, Statement
+from codegen.ir.scene_operations import BodyForce, BodyVelocity, HamiltonianDerivatives
 from codegen.ir.values import Kind, Var
 from codegen.passes.rewrite import defined
 from codegen.scene.problem import Problem
