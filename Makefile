@@ -4,7 +4,7 @@
 #   make test      the tests that take seconds, and the examples of docstrings
 #   make test-all  the same with the proofs that take minutes, and coverage
 #   make gate      check every tableau of the library
-#   make lint      ruff, mypy --strict, import-linter
+#   make lint      ruff, mypy --strict, import-linter, limits of size and complexity (.ci/structure.py)
 #   make bench     time this project beside its peers (benchmarks/)
 
 SHELL := /bin/bash
@@ -73,6 +73,7 @@ lint: $(INSTALLED)
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	$(BIN)/python .ci/structure.py
 
 clean:
 	rm -rf $(VENV) $(REPORT) build dist .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis .coverage

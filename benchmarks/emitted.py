@@ -27,9 +27,9 @@ from pathlib import Path
 from codegen.artifact import Artifact
 from codegen.build import compile_files, find_compiler
 from codegen.emitter import compile_method, emit
-from codegen.lab.bench import bench
+from codegen.lab.efficiency.bench import bench
+from codegen.lab.efficiency.ranking import seconds_to
 from codegen.lab.peers import installed
-from codegen.lab.ranking import seconds_to
 
 HERE = Path(__file__).parent
 FLAGS = ("-std=c11", "-O2", "-ffp-contract=off")
@@ -338,7 +338,7 @@ RACE = """
 ## Time to an accuracy, beside peers
 
 CPU microseconds until the error at the end of the scene's span is as small as the head of the column says,
-interpolated between runs over ladders of steps or tolerances; fresh measurements of the same run as the table
+interpolated between runs over step sizes or tolerances; fresh measurements of the same run as the table
 above. Peers integrate the ambient equations; what they compile before the first step is not counted, nor is
 ours; the fastest of a column is bold. Counts are those of one step at the finest run (of iterations: sweeps
 over all equations of the step).

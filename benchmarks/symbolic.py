@@ -84,8 +84,8 @@ def nodepy_formulas() -> Prepared:
 
 def polynomials() -> Prepared:
     """RK conditions to order 7 as polynomials in the coefficients of 9 explicit stages."""
-    from orderconds.derive import derive
-    from orderconds.written_out import polynomials
+    from orderconds.derivation import derive
+    from orderconds.stage_expansion import polynomials
 
     polynomials(derive("rk", 1), 1)  # its imports
     derivation = derive("rk", 7)
@@ -142,7 +142,7 @@ def sympy_polynomials(order: int = 7, size: int = 9) -> Prepared:
 
 def commutator_free(explicit: bool) -> Prepared:
     """CF conditions to order 4 as polynomials, 5 stages with 5 exponentials each, as has the update."""
-    from orderconds.derive import derive
+    from orderconds.derivation import derive
     from orderconds.families import cf
     from orderconds.ring.polynomials import Polynomials
     from orderconds.tableau import CommutatorFree, Stage
@@ -196,7 +196,7 @@ def independent(family: str, order: int) -> Callable[[], Prepared]:
         import numpy as np
 
         from orderconds import families
-        from orderconds.derive import derive
+        from orderconds.derivation import derive
 
         families.get(family)
         np.zeros(1)
@@ -207,7 +207,7 @@ def independent(family: str, order: int) -> Callable[[], Prepared]:
 
 def _texts(family: str, order: int) -> Prepared:
     from orderconds import families
-    from orderconds.derive import derive
+    from orderconds.derivation import derive
 
     families.get(family)
     return lambda: len([str(condition) for condition in derive(family, order).conditions])

@@ -30,11 +30,13 @@ from codegen.method import Method, parse
 from codegen.passes import Optimiser, PassReport, optimise
 from codegen.printers import target as printer_of
 from codegen.printers.interface import Interface
+from codegen.printers.recipe import Recipe
 from codegen.run.precision import DOUBLE
 from codegen.run.precision import precision as known_precision
-from codegen.printers.recipe import Recipe
 from codegen.run.solver_choice import AUTO, Choice, known_solver, solved
+from codegen.scene.momentum_frame import with_frame
 from codegen.scene.problem import TIME, Problem
+from codegen.scene.run_time import with_inputs, with_runtime
 from orderconds import __version__
 from orderconds.errors import InputError
 
@@ -101,7 +103,7 @@ def compile_method(
 
     ``parameters`` stay run-time arguments, or are folded at the value given (``alpha=1/2``); all others are
     folded at the scene's values; ``inputs`` are signals to be taken at run time, ``frame`` that of
-    momenta (:meth:`codegen.scene.problem.Problem.with_frame`); ``solver`` is for implicit blocks
+    momenta (:func:`codegen.scene.momentum_frame.with_frame`); ``solver`` is for implicit blocks
     (:mod:`codegen.run.solver_choice`). SceneError, MethodError, UnknownName or TableauError for what cannot
     be read or does not fit. ``adaptive`` asks for the estimate of an embedded row, ``jacobian`` for the
     derivative of a step.
@@ -109,10 +111,10 @@ def compile_method(
     if isinstance(scene, str):
         scene = scenes.load(scene)
     if parameters:
-        scene = scene.with_runtime(tuple(parameters))
+        scene = with_runtime(scene, tuple(parameters))
     if inputs:
-        scene = scene.with_inputs(tuple(inputs))
-    scene = scene.with_frame(frame)
+        scene = with_inputs(scene, tuple(inputs))
+    scene = with_frame(scene, frame)
     if isinstance(method, str):
         method = parse(method, families_for(scene))
     if adaptive:

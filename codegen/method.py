@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from codegen.errors import MethodError
 from codegen.ir.number import Number
+from orderconds.families import Family, family_class, names
 from orderconds.ring import QQ
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau import CommutatorFree, RungeKutta, Tableau, find
@@ -20,17 +21,9 @@ if TYPE_CHECKING:
 SPELLING = re.compile(r"(?:(?P<family>[a-z_]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<tableau>.+)")
 
 
-WITH_CUTOFF = ("rkmk", "vrkmk", "vrkmk_pade")
-"""Families that cut dexp^{-1}, or dexp, off after a number of brackets."""
-
-
-FEWEST_UP_TO = 6
-"""The highest order for which ``rkmk`` without a cut-off is written with the fewest brackets."""
-
-
 @dataclass(frozen=True)
 class Method:
-    """A family (``cutoff`` for those of :data:`WITH_CUTOFF`) and the tableau whose coefficients it reads.
+    """A family (with ``cutoff`` where it takes one) and the tableau whose coefficients it reads.
 
     ``adaptive`` asks for the state that the embedded row gives, beside the new one.
     """
@@ -39,6 +32,11 @@ class Method:
     tableau: Tableau
     cutoff: int | None = None
     adaptive: bool = False
+
+    @property
+    def kind(self) -> type[Family]:
+        """The class of the family, which knows what is true of all its members."""
+        return family_class(self.family)
 
     @property
     def label(self) -> str:
@@ -84,29 +82,26 @@ class Method:
         return decided and all(self.ring.is_zero(x) is True for x in above)
 
     def commutator_free(self) -> CommutatorFree:
-        """Return stages and update as products of exponentials, a Butcher tableau as Crouch-Grossman.
-
-        A Crouch-Grossman method is given by a Butcher tableau only.
-        """
+        """Return stages and update as products of exponentials, a Butcher tableau as Crouch-Grossman."""
         method = self.tableau.read_as(("cf",))
-        if isinstance(method, CommutatorFree) and self.family != "cg":
+        if isinstance(method, CommutatorFree):
             return method
         return self.runge_kutta().as_crouch_grossman(self.ring)
 
     def embedded(self) -> Method | None:
         """Return the method of the embedded row where that is asked for; :class:`MethodError` without one.
 
-        It has the same stages, so it serves families whose stages do not depend on the weights; ``rkmk``
-        needs a cut-off, for its fewest brackets are chosen for the weights.
+        It has the same stages, which only families with fixed stages allow. A family that is compiled with
+        the fewest brackets needs a cut-off, for those brackets are chosen for the weights.
         """
         if not self.adaptive:
             return None
         lower = self.tableau.lower()
-        if self.family not in WITH_ESTIMATE:
+        if not self.kind.fixed_stages:
             raise MethodError(
-                f"an estimate of the error for {self.label}", expected=f"one of {', '.join(WITH_ESTIMATE)}"
+                f"an estimate of the error for {self.label}", expected=f"one of {', '.join(with_estimate())}"
             )
-        if self.family == "rkmk" and self.cutoff is None:
+        if self.kind.minimal_brackets and self.cutoff is None:
             raise MethodError(
                 f"an estimate of the error for {self.label}, whose brackets are chosen for its weights",
                 expected="a number of brackets",
@@ -131,13 +126,28 @@ def _file(name: str) -> Path:
     return path if path.suffix == ".toml" else find(name)
 
 
-WITH_ESTIMATE = ("rk", "rkmk", "cg", "cf", "ambient")
-"""Families whose stages do not depend on the weights, so that an embedded row makes an estimate."""
+def _enclosed(tableau: Tableau) -> Tableau:
+    """Return a tableau with the solution that its proof encloses, in place of the decimals of its file.
 
-EXPONENTIALS = ("cf", "vcf")
-"""Families that read tableaux of format cf."""
+    A certificate is about that solution, so that what is emitted must be it and not the digits.
+    """
+    if tableau.proof is None:
+        return tableau
+    from orderconds.proof.certificate import certify
+    from orderconds.proof.krawczyk import NotProved
+
+    try:
+        return certify(tableau).tableau
+    except NotProved:
+        return tableau
+
 
 _RATIONAL = re.compile(r"-?\d+(/\d+)?")
+
+
+def with_estimate() -> tuple[str, ...]:
+    """Return the families whose stages do not depend on the weights: an embedded row estimates the error."""
+    return tuple(name for name in names() if family_class(name).fixed_stages)
 
 
 def parse(spelling: str, families: Sequence[str]) -> Method:
@@ -153,25 +163,26 @@ def parse(spelling: str, families: Sequence[str]) -> Method:
         raise MethodError(
             f"the method {spelling!r}", expected="TABLEAU or FAMILY:TABLEAU", hint="as vcg:triple_jump"
         )
-    tableau = Tableau.load(_file(match["tableau"]))
+    tableau = _enclosed(Tableau.load(_file(match["tableau"])))
     family, cutoff = match["family"], match["cutoff"]
     if family is not None and family not in families:
         raise MethodError(
             f"family {family} on this scene", where=spelling, expected=f"one of {', '.join(families)}"
         )
-    if cutoff is not None and family not in WITH_CUTOFF:
+    if cutoff is not None and family is not None and not family_class(family).takes_cutoff:
+        cutting = [f for f in families if family_class(f).takes_cutoff]
         raise MethodError(
             f"a cut-off for family {family}",
             where=spelling,
-            expected=f"one for {' or '.join(WITH_CUTOFF)} only, as rkmk(2):rk4",
+            expected=f"one for {' or '.join(cutting)} only, as rkmk(2):rk4",
         )
     # A tableau of exponentials has no A and b to read, even where it claims the order of its sums as rk.
-    readable = [f for f in families if tableau.family != "cf" or f in EXPONENTIALS]
+    readable = [f for f in families if tableau.family != "cf" or "cf" in family_class(f).formats]
     claims = [replace(c, family=c.family.partition("(")[0]) for c in tableau.claims.orders]  # splitting(3)
     wanted = [c for c in claims if c.family == (family or c.family) and c.family in readable]
     if family is not None and cutoff is not None:
         return Method(family, tableau, int(cutoff))
-    if family is not None and family not in WITH_CUTOFF:
+    if family is not None and not family_class(family).takes_cutoff:
         return Method(family, tableau)
     if not wanted:
         raise MethodError(
@@ -184,6 +195,6 @@ def parse(spelling: str, families: Sequence[str]) -> Method:
         )
     best = min(wanted, key=lambda c: (-c.order, families.index(c.family), c.cutoff or 0))
     uncut = Method(best.family, tableau)
-    if best.family == "rkmk" and best.order <= FEWEST_UP_TO and uncut.can_reduce_brackets():
+    if best.order <= uncut.kind.minimal_brackets and uncut.can_reduce_brackets():
         return uncut
     return Method(best.family, tableau, best.cutoff)

@@ -1,15 +1,16 @@
-"""The folder ``generated/``: what stands in it is what ``regenerate.toml`` lists, to the byte."""
+"""The folder ``generated/``: it holds exactly the modules that ``regenerate.toml`` lists."""
 
 from __future__ import annotations
 
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
-from codegen.artifact import MANIFEST, Artifact, entries_of, manifest_text, write_text
+from codegen.artifact import MANIFEST, Artifact, entries_of, manifest_text, write_text, writing
 from codegen.emitter import compile_method, emit_compiled
 from orderconds.errors import InputError
+from orderconds.input_file import content_of, read_text, reason
+from orderconds.output_file import is_temporary
 
 LIST = Path(__file__).with_name("regenerate.toml")
 KEYS = ("scene", "method", "targets")
@@ -17,7 +18,7 @@ KEYS = ("scene", "method", "targets")
 
 @dataclass(frozen=True)
 class Entry:
-    """One line of the list: a method on a scene, and the targets it is kept in."""
+    """One entry of the list: a method on a scene, and its targets."""
 
     scene: str
     method: str
@@ -31,26 +32,25 @@ class Entry:
 
 
 def entries(path: Path = LIST) -> list[Entry]:
-    """Return the list; an InputError names the entry that cannot be read.
+    """Return the entries of the list; an InputError names an entry that cannot be read.
 
-    A file without modules is no list: by it everything that stands in ``generated/`` would be stale.
+    A file without modules is an error, because all of ``generated/`` would be stale.
     """
+    text = read_text(path, "a list of modules")
     try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise InputError("no such file", where=str(path), expected="a list of modules") from None
-    except ValueError as error:  # TOML that is wrong, or bytes that are no text
+        data = tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
         raise InputError(f"this is not TOML: {error}", where=str(path)) from None
     modules = data.get("module", [])
     if set(data) != {"module"} or not isinstance(modules, list) or not modules:
         keys = ", ".join(data) or "none"
         raise InputError(
-            f"no list of modules; its keys are: {keys}", where=str(path), expected="tables [[module]] alone"
+            f"no list of modules; its keys are: {keys}", where=str(path), expected="tables [[module]] only"
         )
     return [_entry(module, f"{path}: module {number}") for number, module in enumerate(modules, start=1)]
 
 
-def _entry(module: Any, where: str) -> Entry:
+def _entry(module: object, where: str) -> Entry:
     """Return one entry of the list."""
     if not isinstance(module, dict) or sorted(module) != sorted(KEYS):
         keys = ", ".join(sorted(module)) if isinstance(module, dict) else repr(module)
@@ -67,14 +67,14 @@ def _entry(module: Any, where: str) -> Entry:
 def contents(listed: list[Entry]) -> dict[str, str]:
     """Return every file that belongs in the folder, by its path within it, manifests included."""
     files: dict[str, str] = {}
-    manifests: dict[str, list[dict[str, Any]]] = {}
+    manifests: dict[str, list[dict[str, object]]] = {}
     for entry in listed:
-        for emission in entry.emissions():
+        for artifact in entry.emissions():
             folder = Path(entry.scene).stem
-            manifests.setdefault(folder, []).append(dict(emission.manifest))
-            for name, text in emission.files.items():
+            manifests.setdefault(folder, []).append(dict(artifact.manifest))
+            for name, text in artifact.files.items():
                 if files.setdefault(f"{folder}/{name}", text) != text:
-                    raise InputError(f"two modules want the file {name}", where=str(LIST))
+                    raise InputError(f"two modules emit the file {name}", where=str(LIST))
     for folder, manifest in manifests.items():
         files[f"{folder}/{MANIFEST}"] = manifest_text(manifest)
     return dict(sorted(files.items()))
@@ -82,10 +82,10 @@ def contents(listed: list[Entry]) -> dict[str, str]:
 
 @dataclass(frozen=True)
 class Difference:
-    """A file that is not as it should be.
+    """A file of the folder that differs from the list.
 
-    ``kind`` is ``missing``, ``different``, ``stale`` (emitted once, but by nothing on the list) or
-    ``unknown`` (never emitted, so that it is not ours to remove).
+    ``kind`` is ``missing``, ``different``, ``stale`` (emitted, but not by a listed module) or ``unknown``
+    (never emitted, so it must not be removed).
     """
 
     path: str
@@ -93,47 +93,55 @@ class Difference:
 
 
 def compare(directory: Path, files: dict[str, str]) -> list[Difference]:
-    """Return what differs between the folder and the files that belong in it, by path."""
+    """Return the differences between the folder and the expected files, by path."""
     there = {p.relative_to(directory).as_posix() for p in directory.rglob("*") if p.is_file()}
     ours = emitted(directory)
     extra = [path for path in sorted(there - files.keys()) if not ignored(path)]
-    found = [Difference(path, "stale" if path in ours else "unknown") for path in extra]
+    differences = [Difference(path, "stale" if path in ours else "unknown") for path in extra]
     for path, text in files.items():
         if path not in there:
-            found.append(Difference(path, "missing"))
-        elif (directory / path).read_bytes() != text.encode():
-            found.append(Difference(path, "different"))
-    return sorted(found, key=lambda d: d.path)
+            differences.append(Difference(path, "missing"))
+        elif not _holds(directory / path, text.encode()):
+            differences.append(Difference(path, "different"))
+    return sorted(differences, key=lambda d: d.path)
+
+
+def _holds(path: Path, content: bytes) -> bool:
+    try:
+        return content_of(path, limit=len(content)) == content
+    except OSError:  # larger, for example
+        return False
 
 
 def emitted(directory: Path) -> set[str]:
-    """Return the paths that the folder's manifests say were emitted, theirs included."""
-    found: set[str] = set()
+    """Return the paths of emitted files according to the manifests, including the manifests."""
+    paths: set[str] = set()
     for manifest in directory.glob(f"*/{MANIFEST}"):
         folder = manifest.parent.name
         names = [name for entry in entries_of(manifest.parent) for name in entry["files"]]
-        found.update(f"{folder}/{name}" for name in (*names, MANIFEST))
-    return found
+        paths.update(f"{folder}/{name}" for name in (*names, MANIFEST))
+    return paths
 
 
 def ignored(path: str) -> bool:
-    """Whether a file is a by-product of running what stands beside it."""
-    return "__pycache__" in path.split("/")
+    """Return whether a file is a by-product: of running an emitted module, or of a write that was killed."""
+    return "__pycache__" in path.split("/") or is_temporary(path.rpartition("/")[2])
 
 
 def write(directory: Path, files: dict[str, str]) -> list[Difference]:
-    """Make the folder hold these files and no others that were emitted; return what differed before."""
+    """Write the files, remove stale ones, and return the differences that there were before."""
     changed = compare(directory, files)
-    # Manifests go last: until then they tell which files are ours.
+    # Manifests are written last, because they identify emitted files.
     last = sorted(changed, key=lambda d: (d.path.endswith(MANIFEST), d.path))
     try:
         for difference in last:
             path = directory / difference.path
             if difference.kind == "stale":
-                path.unlink()
+                path.unlink(missing_ok=True)
             elif difference.kind != "unknown":
                 path.parent.mkdir(parents=True, exist_ok=True)
-                write_text(path, files[difference.path])
+                with writing(path.parent):
+                    write_text(path, files[difference.path])
     except OSError as error:
-        raise InputError(f"cannot write there: {error.strerror}", where=str(directory)) from None
+        raise InputError(f"cannot write there: {reason(error)}", where=str(directory)) from None
     return changed

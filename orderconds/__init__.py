@@ -41,11 +41,11 @@ from typing import TYPE_CHECKING
 from orderconds.lazy import lazy
 
 if TYPE_CHECKING:
-    from orderconds.check import check as check
-    from orderconds.derive import derive as derive
+    from orderconds.checking.verdict import check as check
+    from orderconds.derivation import derive as derive
     from orderconds.tableau import Tableau as Tableau
 
 __version__ = "0.1.0"
 __all__ = ["Tableau", "check", "derive"]
 
-lazy(__name__, check=("check",), derive=("derive",), tableau=("Tableau",))
+lazy(__name__, derivation=("derive",), tableau=("Tableau",), **{"checking.verdict": ("check",)})

@@ -3,15 +3,14 @@
 Built-in commands are known by name. Those of other packages (``codegen`` ships emit, converge, report and
 regenerate) come from the entry-point group ``orderconds.commands``, scanned only when a name is not built in.
 
-Exit statuses: 0 it holds or was done; 1 it ran and a claim or check failed; 2 bad input or usage, with one
-message on stderr; 130 and 141, the shell's own, when interrupted and when the reader of a pipe went away.
+Exit statuses are those of :mod:`orderconds.exit_status`.
 """
 
 from __future__ import annotations
 
-import contextlib
 import gc
 import importlib
+import io
 import os
 import sys
 from collections.abc import Iterable
@@ -21,6 +20,7 @@ import click
 
 from orderconds import __version__
 from orderconds.errors import InputError, UnknownName
+from orderconds.exit_status import Run, catch_signals, current_run, past_click
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
@@ -44,10 +44,12 @@ BUILT_IN = {
     ),
     "derive": ("orderconds.commands.derive", "Print the independent order conditions of a family."),
     "list": ("orderconds.commands.list", "List families, tableaux, and what other packages offer."),
+    "modified": ("orderconds.commands.modified", "Print the modified equation of a method."),
     "refine": (
         "orderconds.commands.refine",
         "Sharpen the decimals of a tableau by Newton's method and prove them.",
     ),
+    "series": ("orderconds.commands.series", "Print the BCH, Magnus or dexp series in a basis of brackets."),
     "solve": ("orderconds.commands.solve", "Find a method, prove its order, and write its tableau."),
     "table": ("orderconds.commands.table", "The library as a Markdown table; keep it current in a file."),
     "trees": ("orderconds.commands.trees", "Enumerate, draw and explain trees, forests and Lyndon words."),
@@ -103,10 +105,10 @@ class Program(click.Group):
                 expected=f"one of {', '.join(names)}",
                 hint=f"type: orderconds {close[0] if close else '--help'}",
             )
-        found = super().resolve_command(ctx, args)
-        if found[1] is not None:
-            _refuse_repetition(found[1], click.Context(found[1], parent=ctx, info_name=name), args[1:])
-        return found
+        resolved = super().resolve_command(ctx, args)
+        if resolved[1] is not None:
+            _refuse_repetition(resolved[1], click.Context(resolved[1], parent=ctx, info_name=name), args[1:])
+        return resolved
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """List all commands with one line each; one that cannot be loaded says so."""
@@ -125,37 +127,36 @@ class Program(click.Group):
             formatter.write_dl(rows)
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Run the command; when the reader of stdout goes away, as ``head`` does, end quietly with 141."""
-        try:
+        """Run the command and write out what it printed."""
+        with past_click():
             result = super().invoke(ctx)
             sys.stdout.flush()
-        except BrokenPipeError:
-            # The interpreter flushes stdout once more when it exits; let that go nowhere.
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-            sys.exit(141)
         return result
 
+    def make_context(self, *args: Any, **extra: Any) -> click.Context:
+        """Read the command line; --help prints while it is read."""
+        with past_click():
+            return super().make_context(*args, **extra)
+
     def main(self, *args: Any, **extra: Any) -> NoReturn:
-        """Run one command and exit with its status; every error a user can cause becomes one message."""
+        """Run one command and exit with its status; every error becomes one message."""
         status = 0
         for name in ("stdout", "stderr"):
             if getattr(sys, name) is None:  # closed by the caller, as in ``orderconds ... >&-``
                 setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115 - until the end
+        given = list(args[0] if args else extra.get("args") or sys.argv[1:])
+        run = Run(as_json="--json" in given[: given.index("--") if "--" in given else None])
+        settings = {"prog_name": "orderconds", **extra, "standalone_mode": False, "obj": run}
         try:
-            result = super().main(*args, **{"prog_name": "orderconds", **extra, "standalone_mode": False})
+            result = super().main(*args, **settings)
+            sys.stdout.flush()
             status = result if isinstance(result, int) else 0
-        except InputError as error:
-            status = _complain(str(error))
         except click.exceptions.NoArgsIsHelpError as error:
             click.echo(error.format_message())
-        except click.UsageError as error:
-            status = _complain(_usage_message(error))
-        except click.ClickException as error:
-            status = _complain(error.format_message())
-        except click.Abort:
-            status = 130
-        except OSError as error:
-            status = _complain(f"{error.filename or 'system'}: {error.strerror or error}")
+        except SystemExit:
+            raise
+        except BaseException as error:
+            status = run.end(error)
         sys.exit(status)
 
 
@@ -189,23 +190,21 @@ def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[st
         seen.add(option.name)
 
 
-def _usage_message(error: click.UsageError) -> str:
-    message = error.format_message().rstrip(".")
-    if error.ctx is None:
-        return message
-    path = error.ctx.command_path
-    return f"{path.partition(' ')[2] or 'usage'}: {message}; type: {path} --help"
-
-
-def _complain(message: str) -> int:
-    # Where stderr takes nothing, the status still tells.
-    with contextlib.suppress(OSError):
-        click.echo(f"orderconds: {message}", err=True)
-    return 2
+def _ask_for_traceback(ctx: click.Context, parameter: click.Parameter, asked: bool) -> None:
+    current_run().traceback = asked
 
 
 @click.group(cls=Program, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, prog_name="orderconds")
+@click.option(
+    "--traceback",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=_ask_for_traceback,
+    envvar="ORDERCONDS_TRACEBACK",
+    help="Show where an internal error arose; ORDERCONDS_TRACEBACK=1 asks for it as well.",
+)
 def program() -> None:
     """Derive, prove and compile Lie group integrators."""
 
@@ -217,6 +216,10 @@ def main() -> NoReturn:
     end, many times while they are made and once more when the interpreter ends, for a tenth of a check.
     """
     gc.set_threshold(100_000, 20, 20)
+    catch_signals()
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # a locale without the letters of a name is no error
+            stream.reconfigure(errors="backslashreplace")
     try:
         program.main()
     finally:

@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import Any
 
 from orderconds.formula import Formula, named
-from orderconds.formula.spelling import fraction_latex
+from orderconds.formula.rendering import latex_fraction
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class OrderCondition:
     @property
     def latex_equation(self) -> str:
         """The whole equation in LaTeX."""
-        return f"{self.latex} = {fraction_latex(self.rhs)}"
+        return f"{self.latex} = {latex_fraction(self.rhs)}"
 
     def sympy(self) -> Any:
         """Return the equation as ``sympy.Eq`` (SymPy is imported here)."""

@@ -1,8 +1,8 @@
-"""pytest collects tableau files: ``pytest --orderconds tableaux/`` makes each a test of all that it claims.
+"""A pytest plugin for tableau files: ``pytest --orderconds tableaux/`` makes each a test of its claims.
 
-Without a flag the plugin does nothing. ``--orderconds-complete`` demands a claim for every family that a
-tableau can serve and ``--orderconds-certified`` a proof of every order, as ``orderconds check`` does. A
-tableau that claims nothing is skipped, with a word. Files ``*.toml`` without the keys of a tableau
+Without a flag the plugin does nothing. ``--orderconds-complete`` requires a claim for every family that a
+tableau can claim and ``--orderconds-certified`` a proof of every order, as ``orderconds check`` does. A
+tableau that claims nothing is skipped, with a reason. Files ``*.toml`` without the keys of a tableau
 (``pyproject.toml``) are left alone, unless they are named one by one.
 """
 
@@ -26,12 +26,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption(
         "--orderconds-complete",
         action="store_true",
-        help="the same, and demand a claim for every family that a tableau can serve",
+        help="the same, and require a claim for every family that a tableau can claim",
     )
     group.addoption(
         "--orderconds-certified",
         action="store_true",
-        help="the same, and demand a proof of every order",
+        help="the same, and require a proof of every order",
     )
 
 
@@ -58,8 +58,8 @@ class TableauItem(pytest.Item):
     """All claims of one tableau file."""
 
     def runtest(self) -> None:
-        """Check the file; :class:`ClaimFails` with what the command would print."""
-        from orderconds.check import check
+        """Check the file; :class:`ClaimFails` with the text that the command prints."""
+        from orderconds.checking import check
 
         complete, certified = (bool(self.config.getoption(flag)) for flag in FLAGS[1:])
         report = check(self.path, complete=complete, certified=certified)

@@ -29,7 +29,7 @@ from codegen.groups import (
     Rn,
     Rotation,
 )
-from codegen.groups.matrix import _invert
+from codegen.groups.linear_algebra import invert
 from codegen.ir.domain import FloatDomain, PreciseDomain, SeriesDomain
 from codegen.ir.interpret import interpret
 from codegen.lower import lower, problem_for
@@ -151,7 +151,7 @@ def inverse(group: Any, d: Any, g: tuple[Any, ...]) -> tuple[Any, ...]:
     if isinstance(group, SE2):
         c, s, a, b = g
         return (c, -s, -(c * a + s * b), s * a - c * b)
-    return _invert(d, g, round(group.size**0.5))
+    return invert(d, g, round(group.size**0.5))
 
 
 def quadratic(rng: random.Random, symbols: Any, terms: int = 6) -> Any:

@@ -1,1 +1,1 @@
-"""The compiler's commands, a module each, found by the command line through entry points."""
+"""The commands of the compiler, one module each; the command line finds them through entry points."""

@@ -1,8 +1,8 @@
-"""``orderconds bench``: error against run time of emitted integrators, beside peers."""
+"""``orderconds bench``: error against run time of emitted integrators and peers."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -11,18 +11,21 @@ from orderconds.commands.screen import counting, print_json, print_table, workin
 from orderconds.commands.variadic import Variadic
 from orderconds.errors import InputError
 
+if TYPE_CHECKING:
+    from codegen.lab.efficiency.bench import Result
+
 
 @click.command("bench", cls=Variadic, short_help="Measure error against run time, beside peers.")
 @click.argument("scene")
 @click.option("--method", "-m", "methods", multiple=True, help="TABLEAU or FAMILY:TABLEAU; may be repeated.")
-@click.option("--adaptive", multiple=True, help="Methods that choose their steps, over tolerances.")
+@click.option("--adaptive", multiple=True, help="Methods to run with step-size control, over tolerances.")
 @click.option("--target", "-t", "targets", multiple=True, help="c (the default) or python; may be repeated.")
-@click.option("--against", "-a", "peers", multiple=True, help="Peers, or scipy, c or all for several.")
+@click.option("--against", "-a", "peers", multiple=True, help="Peers by name, or the groups scipy, c, all.")
 @click.option("--budget", default=1.0, show_default=True, help="CPU seconds that one run may take.")
 @click.option(
     "--output", "-o", type=FOLDER, metavar="DIR", help="Write SCENE.csv, SCENE.json and SCENE.svg there."
 )
-@click.option("--json", "as_json", is_flag=True, help="The rows on stdout, nothing else.")
+@click.option("--json", "as_json", is_flag=True, help="Print the rows as JSON.")
 def command(
     scene: str,
     methods: tuple[str, ...],
@@ -33,22 +36,22 @@ def command(
     output: str | None,
     as_json: bool,
 ) -> int:
-    """Run methods on SCENE (a gallery name or a Python file) over ladders of steps, and time them.
+    """Run methods on SCENE (a gallery name or a Python file) with shorter and shorter steps, and time them.
 
     --adaptive takes methods with an embedded row, as ambient:dop853, rkmk(3):dormand_prince5 or
-    ambient:radau2a3; they run beside those of equal steps, or alone. Peers: scipy-dop853, scipy-radau,
-    scipy-lsoda, heyoka, diffrax, c-dop853, c-rk4-projected; those not installed are left out of groups. With
-    -o an interrupted measurement goes on where it stopped. The exit status is 1 when some method has no run
-    that succeeds.
+    ambient:radau2a3, and runs them with step-size control. Peers: scipy-dop853, scipy-radau, scipy-lsoda,
+    heyoka, diffrax, c-dop853, c-rk4-projected; a group contains only the installed ones. With -o an
+    interrupted measurement continues when the command is repeated. A method or peer that fails is a row with
+    the reason. The exit status is 1 if a method or peer has no successful run.
     """
-    from codegen.lab.bench import bench
+    from codegen.lab.efficiency.bench import bench
 
     if not 0 < budget < 1e5:
         raise InputError(f"the budget {budget:g}", where="--budget", expected="CPU seconds above 0")
-    with working("reading scene and methods") as tell:
-        match = bench(scene, methods, targets or ("c",), peers, budget, output, tell, adaptive)
-    with counting(f"{match.scene.name}: first runs") as done:
-        result = match.run(lambda row: done(f"{row.method} ({row.target})"))
+    with working("reading scene and methods") as progress:
+        candidates = bench(scene, methods, targets or ("c",), peers, budget, output, progress, adaptive)
+    with counting(f"{candidates.scene.name}: first runs") as done:
+        result = candidates.run(lambda row: done(f"{row.method} ({row.target})"))
     if as_json:
         print_json([row.as_json() for row in result.rows])
     else:
@@ -56,8 +59,10 @@ def command(
     return 0 if all(any(r.error is not None for r in rows) for rows in result.entries.values()) else 1
 
 
-def show(result: Any) -> None:
-    """Print each ladder's best rows, the winner of each decade, and set-up times."""
+def show(result: Result) -> None:
+    """Print all rows, the fastest for each decade of accuracy, and set-up times."""
+    from codegen.lab.page.formatting import duration
+
     rows = []
     for row in result.rows:
         if row.failure:
@@ -67,11 +72,11 @@ def show(result: Any) -> None:
         cells += [duration(row.seconds), f"{row.spread:.0%}" if row.spread is not None else ""]
         cells += ["" if x is None else str(x) for x in (row.evaluations, row.exponentials, row.iterations)]
         rows.append(cells)
-    columns = ["method", "target", "asked", "steps", "error", "CPU time", "spread", "evaluations"]
+    columns = ["method", "target", "requested", "steps", "error", "CPU time", "spread", "evaluations"]
     print_table([*columns, "exponentials", "iterations"], rows)
     click.echo()
     print_table(
-        ["error", "fastest", "CPU time", "next", "times slower"],
+        ["error", "fastest", "CPU time", "second", "times slower"],
         [
             [
                 f"1e-{p.decade}",
@@ -90,15 +95,3 @@ def show(result: Any) -> None:
     )
     for path in result.paths:
         click.echo(path)
-
-
-def duration(seconds: float) -> str:
-    """Return a time with three digits and a unit.
-
-    >>> duration(1.234e-5), duration(2.0)
-    ('12.3 µs', '2 s')
-    """
-    for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
-        if seconds >= 0.9995 * size:
-            return f"{seconds / size:.3g} {unit}"
-    return f"{seconds / 1e-9:.3g} ns"

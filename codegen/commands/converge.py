@@ -1,4 +1,4 @@
-"""``orderconds converge``: the observed order of emitted integrators against the stated one."""
+"""``orderconds converge``: the observed order of emitted integrators against the stated order."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from orderconds.commands.variadic import Variadic
 from orderconds.errors import InputError
 
 if TYPE_CHECKING:
-    from codegen.lab.converge import Convergence
+    from codegen.lab.orders.convergence import Convergence
 
 
 @click.command("converge", cls=Variadic)
 @click.argument("scene", required=False)
 @click.option("--method", "-m", "methods", multiple=True, required=True, help="TABLEAU or FAMILY:TABLEAU.")
 @click.option("--target", help="c (the default), python or interpreter.")
-@click.option("--steps", multiple=True, help="Prescribe the rungs, as 20,40,80,160.")
+@click.option("--steps", multiple=True, help="Numbers of steps, as 20,40,80,160.")
 @click.option("--digits", type=click.IntRange(16, 60), help="Precision of the interpreter.")
 @click.option(
     "--protocol",
     type=click.Choice(["strict"]),
-    help="strict: a battery of scenes in 50 digits, against the claimed order; takes no SCENE.",
+    help="strict: built-in scenes in 50 digits, against the claimed order; takes no SCENE.",
 )
-@click.option("--stated", type=click.IntRange(1, 20), help="The order to hold methods to.")
-@click.option("--json", "as_json", is_flag=True, help="Machine-readable output.")
+@click.option("--stated", type=click.IntRange(1, 20), help="The order to compare with.")
+@click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
     scene: str | None,
     methods: tuple[str, ...],
@@ -39,22 +39,22 @@ def command(
 ) -> int:
     """Measure the order of methods on SCENE (a gallery name or a Python file).
 
-    The exit status is 0 when every observed order is the stated one, 1 when some is not or cannot be told.
+    The exit status is 0 if every observed order is the stated one, 1 if some order differs or is undecided.
     """
     if (scene is None) != (protocol is not None):
-        raise click.UsageError("name one SCENE, or give --protocol strict, which brings its own")
+        raise click.UsageError("name one SCENE, or give --protocol strict, which has its own scenes")
     if scene is None and (steps or target is not None or digits is not None):
         raise click.UsageError(
-            "--protocol strict has its own steps, in 50 digits; leave --target, --steps, --digits out"
+            "--protocol strict uses its own steps and 50 digits; omit --target, --steps, --digits"
         )
-    found = (
+    results = (
         _by_protocol(methods, stated, as_json)
         if scene is None
         else _on_scene(scene, methods, target or "c", steps, digits or 16, stated, as_json)
     )
     if as_json:
-        print_json([result.as_json() for result in found])
-    return 0 if all(result.verdict == "holds" for result in found) else 1
+        print_json([result.as_json() for result in results])
+    return 0 if all(result.verdict == "holds" for result in results) else 1
 
 
 def _on_scene(
@@ -67,8 +67,8 @@ def _on_scene(
     as_json: bool,
 ) -> list[Convergence]:
     from codegen.certify import CertifiedOrder, certified_order
-    from codegen.lab.converge import converge
-    from codegen.lab.remembered import remembered
+    from codegen.lab.orders.convergence import converge
+    from codegen.lab.reference import cached_reference
     from codegen.lab.runner import runner
     from codegen.lower import families_for
     from codegen.method import parse
@@ -76,36 +76,36 @@ def _on_scene(
 
     prescribed = read_steps(steps)
     problem = load(scene)
-    chosen = [parse(spelling, families_for(problem)) for spelling in methods]
-    with working("order conditions") as tell:
+    chosen = [parse(name, families_for(problem)) for name in methods]
+    with working("order conditions") as progress:
         held = None if stated is None else CertifiedOrder(stated, "stated")
         pairs = [(method, held or certified_order(method, problem)) for method in chosen]
-        tell("compiling")
+        progress("compiling")
         runners = [(runner(problem, method, target, digits, order), order) for method, order in pairs]
-        tell("reference solution")
-        exact = remembered(problem)
-    found: list[Convergence] = []
+        progress("reference solution")
+        exact = cached_reference(problem)
+    results: list[Convergence] = []
     for run, order in runners:
         with working(f"running {run.compiled.method.label}"):
-            found.append(converge(run, order, exact, steps=prescribed))
+            results.append(converge(run, order, exact, steps=prescribed))
         if not as_json:
-            show(found[-1], first=len(found) == 1)
-    return found
+            show(results[-1], first=len(results) == 1)
+    return results
 
 
 def _by_protocol(methods: tuple[str, ...], stated: int | None, as_json: bool) -> list[Convergence]:
-    from codegen.lab.strict import stated_order, strict
-    from codegen.lower import LOWERINGS
+    from codegen.lab.orders.strict_protocol import stated_order, strict
+    from codegen.lower import names
     from codegen.method import parse
 
-    found: list[Convergence] = []
-    for method in [parse(spelling, tuple(LOWERINGS)) for spelling in methods]:
-        with counting(f"{method.label}") as tell:
-            for result in strict(method, stated_order(method, stated), tell):
-                found.append(result)
+    results: list[Convergence] = []
+    for method in [parse(name, names()) for name in methods]:
+        with counting(f"{method.label}") as done:
+            for result in strict(method, stated_order(method, stated), done):
+                results.append(result)
                 if not as_json:
                     click.echo(f"{result.method} on {result.scene}: {result.sentence()}")
-    return found
+    return results
 
 
 def read_steps(texts: tuple[str, ...]) -> list[int]:
@@ -123,12 +123,12 @@ def read_steps(texts: tuple[str, ...]) -> list[int]:
 
 
 def show(result: Convergence, first: bool) -> None:
-    """Print one ladder as a table with the verdict below it."""
+    """Print the runs as a table with the verdict below it."""
     if not first:
         click.echo()
     click.echo(f"{result.method} on {result.scene}, {result.target}")
-    rungs, clean = result.ladder.rungs, result.ladder.clean
-    slopes = dict(zip((r.steps for r in clean[1:]), result.ladder.slopes, strict=True))
+    runs, clean = result.refinement.runs, result.refinement.clean
+    slopes = dict(zip((r.steps for r in clean[1:]), result.refinement.slopes, strict=True))
     rows = [
         [
             str(r.steps),
@@ -137,7 +137,7 @@ def show(result: Convergence, first: bool) -> None:
             f"{slopes[r.steps]:.3f}" if r.steps in slopes else "",
             r.excluded,
         ]
-        for r in rungs
+        for r in runs
     ]
-    print_table(["steps", "h", "error", "slope", "left out"], rows, indent=2)
+    print_table(["steps", "h", "error", "slope", "excluded"], rows, indent=2)
     click.echo(f"  {result.sentence()}")

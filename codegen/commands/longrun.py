@@ -1,26 +1,38 @@
-"""``orderconds longrun``: what emitted integrators keep over many steps."""
+"""``orderconds longrun``: drift of conserved quantities over many steps of emitted integrators."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 import click
 
-from orderconds.commands.screen import counting, print_json, print_table, working
+from orderconds.commands.screen import counting, print_json, print_table
 from orderconds.commands.variadic import Variadic
 from orderconds.errors import InputError
 
+if TYPE_CHECKING:
+    from codegen.lab.long_runs.long_run import LongRun
+
 FEWEST = 200
+"""Smallest number of steps from which a drift is fitted."""
 
 
-@click.command("longrun", cls=Variadic, short_help="Measure what is kept over many steps.")
+@click.command(
+    "longrun", cls=Variadic, short_help="Measure the drift of conserved quantities over many steps."
+)
 @click.argument("scene")
 @click.option("--method", "-m", "methods", multiple=True, help="TABLEAU or FAMILY:TABLEAU; may be repeated.")
 @click.option("--h", "size", type=float, help="The step size; by default a hundredth of the scene's span.")
-@click.option("--steps", default=100_000, show_default=True, type=click.IntRange(FEWEST, 10**9))
-@click.option("--one-way", is_flag=True, help="Leave out the way back.")
-@click.option("--no-rounding", is_flag=True, help="Leave out how rounding grows.")
-@click.option("--json", "as_json", is_flag=True, help="The measurements on stdout, nothing else.")
+@click.option(
+    "--steps",
+    default=100_000,
+    show_default=True,
+    type=click.IntRange(FEWEST, 10**9),
+    help="The number of steps.",
+)
+@click.option("--one-way", is_flag=True, help="Omit the run back to the initial state.")
+@click.option("--no-rounding", is_flag=True, help="Omit the growth of rounding errors.")
+@click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
     scene: str,
     methods: tuple[str, ...],
@@ -30,16 +42,18 @@ def command(
     no_rounding: bool,
     as_json: bool,
 ) -> int:
-    """Run methods on SCENE over many steps; say what became of energy, invariants and the manifold.
+    """Run methods on SCENE over many steps and report the drift of energy, invariants and manifold equations.
 
-    What a method keeps exactly is followed from several starts, by emitted C and by the same steps with
-    compensated summation: the root mean square of what rounding did, and the exponent of its growth.
-    The exit status is 1 when a run ends early.
+    Deviations are relative to the size of the quantity. The law is "lost" if the deviation reaches that
+    size, "rounding" if rounding explains it, and "too short to tell" if it grows but the interval of the
+    slope contains zero. Quantities that a method conserves exactly show the growth of rounding errors: the
+    root mean square over several starts and its exponent, with and without compensated summation. The exit
+    status is 1 if a run ends early or a method fails.
     """
     from codegen import scenes
     from codegen.emitter import compile_method
-    from codegen.lab.longrun import longrun
-    from codegen.lab.study import methods_for
+    from codegen.lab.default_methods import methods_for
+    from codegen.lab.long_runs.long_run import LongRun, long_run
 
     problem = scenes.load(scene)
     h = float((problem.span[1] - problem.span[0]) / 100) if size is None else size
@@ -47,23 +61,25 @@ def command(
         raise InputError(
             f"the step size {h:g}", where="--h", expected="a number between 1e-300 and 1e300 in size"
         )
-    with working("emitting"):
-        compiled = [compile_method(problem, m) for m in methods_for(problem, methods)]
-    found = []
+    runs: list[LongRun] = []
     with counting(f"{problem.name}: {steps} steps") as done:
-        for made in compiled:
-            found.append(longrun(made, h, steps, back=not one_way, rounding=not no_rounding))
-            done(made.method.label)
+        for method in methods_for(problem, methods):
+            try:
+                compiled = compile_method(problem, method)
+                runs.append(long_run(compiled, h, steps, back=not one_way, rounding=not no_rounding))
+            except (InputError, ArithmeticError) as error:
+                runs.append(LongRun(problem.name, method.label, h, 0, (), (), None, str(error)))
+            done(method.label)
     if as_json:
-        print_json([run.as_json() for run in found])
+        print_json([run.as_json() for run in runs])
     else:
-        for run in found:
+        for run in runs:
             show(run)
-    return 1 if any(run.failure for run in found) else 0
+    return 1 if any(run.failure for run in runs) else 0
 
 
-def show(run: Any) -> None:
-    """Print one run: a line a kept quantity, then the way back and the symplectic defect."""
+def show(run: LongRun) -> None:
+    """Print one run: its quantities, the distance after the run back, and the symplectic defect."""
     click.echo(f"{run.method} on {run.scene}, {run.steps} steps of {run.h:g}")
     rows = [
         [
@@ -75,9 +91,9 @@ def show(run: Any) -> None:
         ]
         for kept in run.kept
     ]
-    print_table(["kept", "largest", "drift a unit of time", "t^p", "law"], rows, indent=2)
+    print_table(["quantity", "largest", "slope per unit of time", "t^p", "law"], rows, indent=2)
     for steps, distance in run.reversals:
-        click.echo(f"  {steps} steps there and back: {distance:.2e} from the start")
+        click.echo(f"  {steps} steps forward and back: {distance:.2e} from the start")
     if run.rounding:
         rows = [
             [
@@ -89,8 +105,8 @@ def show(run: Any) -> None:
             ]
             for g in run.rounding
         ]
-        click.echo(f"  rounding over {run.rounding[0].steps[-1]} steps, in what is kept exactly")
-        print_table(["kept", "steps", "rms", "steps^p", "law"], rows, indent=4)
+        click.echo(f"  rounding over {run.rounding[0].steps[-1]} steps, in exactly conserved quantities")
+        print_table(["quantity", "steps", "rms", "steps^p", "law"], rows, indent=4)
     if run.symplectic is not None:
         click.echo(f"  symplectic defect of a step: {run.symplectic:.1e}")
     if run.failure:

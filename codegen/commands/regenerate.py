@@ -1,4 +1,4 @@
-"""``orderconds regenerate``: rewrite the folder of emitted modules, or check it to the byte."""
+"""``orderconds regenerate``: rewrite the folder of emitted modules, or compare it byte by byte."""
 
 from __future__ import annotations
 
@@ -10,18 +10,20 @@ from orderconds.commands import screen
 from orderconds.commands.place import FOLDER
 
 
-@click.command(name="regenerate", short_help="Rewrite generated/, or check it to the byte.")
-@click.option("--check", "check_only", is_flag=True, help="Change nothing; exit 1 on a byte of difference.")
+@click.command(name="regenerate", short_help="Rewrite generated/, or compare it byte by byte.")
+@click.option(
+    "--check", "check_only", is_flag=True, help="Change nothing; the exit status is 1 if a file differs."
+)
 @click.option(
     "--output", "-o", type=FOLDER, metavar="DIR", help="The folder; by default generated/ of the source tree."
 )
 @click.option("--list", "listing", metavar="FILE", help="The list of modules, by default regenerate.toml.")
-@click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON record.")
 def command(check_only: bool, output: str | None, listing: str | None, as_json: bool) -> int:
-    """Rewrite the emitted modules that regenerate.toml lists; with --check say which files differ.
+    """Rewrite the emitted modules that regenerate.toml lists; with --check report the files that differ.
 
-    Files that were emitted once but by nothing on the list are stale: they are removed, or reported. Files
-    that were never emitted are unknown: they are reported and left alone.
+    An emitted file that no listed module produces is stale: it is removed, or reported. A file that was never
+    emitted is unknown: it is reported and not changed.
     """
     from codegen.regenerate import LIST, compare, contents, entries, write
 
@@ -41,7 +43,7 @@ def command(check_only: bool, output: str | None, listing: str | None, as_json: 
             click.echo(f"{directory / difference.path}: {difference.kind}")
         if check_only:
             hint = "; type: orderconds regenerate" if differences else ""
-            click.echo(f"{len(differences)} differences, {len(files)} files belong there{hint}")
+            click.echo(f"{len(differences)} differences, {len(files)} files expected{hint}")
         else:
             written = sum(d.path in files for d in differences)
             click.echo(f"{written} of {len(files)} files rewritten in {directory}")
@@ -49,9 +51,9 @@ def command(check_only: bool, output: str | None, listing: str | None, as_json: 
 
 
 def source_folder() -> Path:
-    """Return ``generated/`` beside the source tree's pyproject.toml, or say that -o is needed."""
+    """Return ``generated/`` beside the pyproject.toml of the source tree; a usage error elsewhere."""
     root = Path(__file__).resolve().parents[2]
     pyproject = root / "pyproject.toml"
     if pyproject.is_file() and 'name = "orderconds"' in pyproject.read_text(encoding="utf-8").splitlines():
         return root / "generated"
-    raise click.UsageError("this is not a source tree: say with -o which folder to regenerate")
+    raise click.UsageError("this is not a source tree: give the folder with -o")

@@ -1,90 +1,99 @@
-"""``orderconds stability``: stiff and extreme cases of emitted integrators, and how each was answered."""
+"""``orderconds stability``: stress tests of emitted integrators on stiff and extreme inputs."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, TypeAlias
 
 import click
 
-from orderconds.commands.processes import in_processes
 from orderconds.commands.screen import counting, print_json, print_table
 from orderconds.commands.variadic import Variadic
+from orderconds.processes import in_processes
+
+if TYPE_CHECKING:
+    from codegen.lab.stability.stability_study import Stability
+
+Job: TypeAlias = tuple[str, tuple[str, ...], bool]
+"""Scene, methods, and whether to include endurance runs."""
 
 
-@click.command("stability", cls=Variadic, short_help="Try stiff and extreme cases; say what held.")
+@click.command("stability", cls=Variadic, short_help="Stress-test emitted steps on stiff and extreme inputs.")
 @click.argument("scene", required=False)
 @click.option("--method", "-m", "methods", multiple=True, help="TABLEAU or FAMILY:TABLEAU; may be repeated.")
 @click.option("--all", "everything", is_flag=True, help="Every scene of the gallery with its usual methods.")
-@click.option("--quick", is_flag=True, help="Leave out the runs of ten million steps.")
-@click.option("--json", "as_json", is_flag=True, help="The measurements on stdout, nothing else.")
+@click.option("--quick", is_flag=True, help="Omit the runs of ten million steps.")
+@click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(scene: str | None, methods: tuple[str, ...], everything: bool, quick: bool, as_json: bool) -> int:
-    """Compare single steps of emitted C with 60 digits on extreme input; find the largest step and more.
+    """Compare single steps of emitted C on extreme input with 60 digits; find the largest usable step.
 
-    Each case reads accurate or a status of the emitted code. The exit status is 1 when an answer is neither.
+    Each case must be accurate, or end with a status of the emitted code. The exit status is 1 if a case is
+    neither.
     """
     from codegen import scenes
-    from codegen.lab.stability.study import Stability
-    from codegen.lab.study import methods_for
+    from codegen.lab.default_methods import methods_for
 
     if everything == (scene is not None):
         raise click.UsageError("name one SCENE, or give --all")
     names = scenes.GALLERY if scene is None else (scene,)
     for name in names:
-        methods_for(scenes.load(name), methods)  # what is wrong with the input is found before the work
-    found: list[Stability] = []
+        methods_for(scenes.load(name), methods)  # InputError before the work begins
+    all_results: list[Stability] = []
     with counting("stability") as done:
-        work = _alone if len(names) > 1 else partial(_studied, tell=done)
+        work = _alone if len(names) > 1 else partial(_run, progress=done)
         for name, results in zip(
             names, in_processes(work, [(name, methods, not quick) for name in names]), strict=True
         ):
             done(name)
             for result in results:
-                found.append(result)
+                all_results.append(result)
                 if not as_json:
                     show(result)
     if as_json:
-        print_json([result.as_json() for result in found])
-    return 0 if all(result.held for result in found) else 1
+        print_json([result.as_json() for result in all_results])
+    return 0 if all(result.held for result in all_results) else 1
 
 
-def _studied(job: tuple[str, tuple[str, ...], bool], tell: Callable[[str], object]) -> list[Any]:
-    """Return the stability of methods on a scene; the job is its name, theirs and whether runs are long."""
+def _run(job: Job, progress: Callable[[str], object]) -> list[Stability]:
+    """Return the stability of methods on a scene."""
     from codegen import scenes
-    from codegen.lab.stability.study import study
-    from codegen.lab.study import methods_for
+    from codegen.lab.default_methods import methods_for
+    from codegen.lab.stability.stability_study import stability
 
-    name, methods, long = job
+    name, methods, endurance = job
     problem = scenes.load(name)
-    return list(study(problem, methods_for(problem, methods), tell, long=long))
+    return list(stability(problem, methods_for(problem, methods), progress, endurance=endurance))
 
 
-def _alone(job: tuple[str, tuple[str, ...], bool]) -> list[Any]:
-    """Do the job in a process of its own, where nobody listens."""
-    return _studied(job, str)
+def _alone(job: Job) -> list[Stability]:
+    """Do the job in a separate process, without a progress display."""
+    return _run(job, str)
 
 
-def show(result: Any) -> None:
+def show(result: Stability) -> None:
     """Print the tables of one method on one scene."""
+    from codegen.lab.measurements.stability import endurance_text
+
     click.echo(f"{result.method} on {result.scene}")
     if result.region is not None:
         lengths = [interval(x) for x in (result.region.real, result.region.imaginary)]
         click.echo(f"  linear stability: real axis {lengths[0]}, imaginary axis {lengths[1]}")
-    limit = result.limit
+    findings = result.findings
+    limit = findings.limit
     size = "none" if limit.h is None else f"{limit.h:.3g} ({limit.steps} steps)"
     click.echo(f"  largest usable step: {size}; limited by: {limit.reason}")
     rows = []
-    for a in result.answers:
+    for a in findings.answers:
         error = "" if a.error is None else f"{a.error:.1e}"
         digits = "" if a.determined is None else f"{a.determined:.0f}"
         rows.append([a.case.name, a.verdict, error, digits])
-    print_table(["case", "answer", "error", "digits determined"], rows, indent=2)
-    for s in result.stiff:
+    print_table(["case", "result", "error", "digits determined"], rows, indent=2)
+    for s in findings.stiff:
         click.echo(f"  {s.variant}: {s.verdict}")
-    for e in result.endurance:
-        click.echo(f"  {e.name}: {endurance(e)}")
-    for note in result.notes:
+    for e in findings.endurance:
+        click.echo(f"  {e.name}: {endurance_text(e)}")
+    for note in findings.notes:
         click.echo(f"  {note}")
     click.echo()
 
@@ -96,15 +105,3 @@ def interval(length: float) -> str:
     ('2', 'unbounded', 'none')
     """
     return "unbounded" if length == float("inf") else f"{length:.4g}" if length else "none"
-
-
-def endurance(run: Any) -> str:
-    """Say how a long run ended."""
-    if run.failure:
-        return run.failure  # type: ignore[no-any-return]
-    parts = [f"{run.steps} steps"]
-    if run.defect is not None:
-        parts.append(f"{run.defect:.1e} off the manifold")
-    if run.returned is not None:
-        parts.append(f"{run.returned:.1e} from the start")
-    return ", ".join(parts) + ("" if run.held else ": more than rounding explains")

@@ -1,26 +1,28 @@
-"""Lie groups and their actions, each written once over any domain, by name.
+"""Lie groups and their actions, each written once over any domain (:mod:`codegen.ir.domain`).
 
-Elements of a group, of its Lie algebra and of the dual are flat tuples of scalars; which coordinates they
-are, and the identity every operation satisfies, stands in each group's docstring. Conventions: left action,
-right trivialisation, [A, B] = AB - BA (see :mod:`orderconds`).
+One file defines one group, one file in ``actions`` one action. You can define a group or an action elsewhere:
+inherit :class:`LieGroup` (see :mod:`codegen.groups.base`) or :class:`Action`, use the class in a scene, and
+call :func:`register` to list it.
 """
 
 from __future__ import annotations
 
-import sys
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, TypeVar
 
-from orderconds.errors import UnknownName
+from codegen.errors import SceneError
+from codegen.groups.registry import Registry
 from orderconds.lazy import lazy
 
 if TYPE_CHECKING:
-    from codegen.groups.actions import LeftMultiplication, Linear, Motion, Rotation
+    from codegen.groups.actions import Action, LeftMultiplication, Linear, Motion, Rotation
+    from codegen.groups.base import LieGroup
     from codegen.groups.cotangent import Cotangent
-    from codegen.groups.euclidean import Rn
-    from codegen.groups.matrix import GL, MatrixGroup
-    from codegen.groups.plane import SE2
+    from codegen.groups.gl import GL
+    from codegen.groups.matrix import MatrixGroup
     from codegen.groups.product import Product
-    from codegen.groups.quaternions import S3
+    from codegen.groups.rn import Rn
+    from codegen.groups.s3 import S3
+    from codegen.groups.se2 import SE2
     from codegen.groups.sl2 import SL2
     from codegen.groups.so3 import SO3
 
@@ -30,39 +32,79 @@ __all__ = [
     "SE2",
     "SL2",
     "SO3",
+    "Action",
     "Cotangent",
     "LeftMultiplication",
+    "LieGroup",
     "Linear",
     "MatrixGroup",
     "Motion",
     "Product",
     "Rn",
     "Rotation",
+    "get",
+    "listing",
+    "register",
+    "unregister",
 ]
 
 LISTED = ("Cotangent", "GL", "MatrixGroup", "Product", "Rn", "S3", "SE2", "SL2", "SO3")
 
 lazy(
     __name__,
-    actions=("Linear", "Rotation", "Motion", "LeftMultiplication"),
+    actions=("Action", "LeftMultiplication", "Linear", "Motion", "Rotation"),
+    base=("LieGroup",),
     cotangent=("Cotangent",),
-    euclidean=("Rn",),
-    matrix=("GL", "MatrixGroup"),
-    plane=("SE2",),
+    gl=("GL",),
+    matrix=("MatrixGroup",),
     product=("Product",),
-    quaternions=("S3",),
+    rn=("Rn",),
+    s3=("S3",),
+    se2=("SE2",),
     sl2=("SL2",),
     so3=("SO3",),
 )
 
+GROUPS: Registry[LieGroup] = Registry("group", __name__, LISTED)
+
+Registered = TypeVar("Registered", bound="type[LieGroup] | type[Action]")
+
+
+def register(cls: Registered) -> Registered:
+    """Add a group or an action defined elsewhere to the listings and return it, so it is a decorator too.
+
+    A scene may use a class that is not registered. A second class of the same name replaces the first.
+    :class:`SceneError` for another class, for one with abstract methods, and for the name of a class of this
+    package.
+    """
+    from codegen.groups.actions import ACTIONS, Action
+    from codegen.groups.base import LieGroup
+
+    if isinstance(cls, type) and issubclass(cls, LieGroup):
+        GROUPS.add(cls)
+    elif isinstance(cls, type) and issubclass(cls, Action):
+        ACTIONS.add(cls)
+    else:
+        raise SceneError(f"cannot register {cls!r}", expected="a subclass of LieGroup or Action")
+    return cls
+
+
+def unregister(cls: type[LieGroup] | type[Action]) -> None:
+    """Remove a class that :func:`register` added."""
+    from codegen.groups.actions import ACTIONS
+    from codegen.groups.base import LieGroup
+
+    if issubclass(cls, LieGroup):
+        GROUPS.remove(cls)
+    else:
+        ACTIONS.remove(cls)
+
 
 def listing() -> list[dict[str, str]]:
     """Return name and first docstring line of every group, for ``orderconds list groups``."""
-    return [{"name": n, "about": (get(n).__doc__ or "").splitlines()[0]} for n in LISTED]
+    return GROUPS.listing()
 
 
-def get(name: str) -> Any:
+def get(name: str) -> type[LieGroup]:
     """Return the group class of that name; :class:`orderconds.errors.UnknownName` for another."""
-    if name not in LISTED:
-        raise UnknownName(f"unknown group {name!r}", expected=f"one of {', '.join(LISTED)}")
-    return getattr(sys.modules[__name__], name)
+    return GROUPS.get(name)

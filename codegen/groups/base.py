@@ -1,194 +1,130 @@
-"""What a group offers, and what follows for every group from its bracket."""
+"""The base class of Lie groups: the operations that every group has.
+
+An element of the group is a flat tuple of ``size`` scalars, an element of the Lie algebra or of its dual is a
+flat tuple of ``dim`` scalars. The class docstring of a group says which coordinates these are. Conventions:
+left action, right trivialisation, [A, B] = AB - BA (see :mod:`orderconds`).
+
+Each operation takes a domain first (:mod:`codegen.ir.domain`). It uses ``+ - * /`` on the scalars, constants
+from ``d.rational(p, q)`` and functions from ``d.call``. One implementation then serves floats, 40-digit
+numbers, power series in h, and expressions, whose evaluation is code generation.
+
+To define a group, inherit :class:`LieGroup` and write the five abstract methods. That is enough for fields:
+all families of field methods, emission, convergence. A Hamiltonian needs the coadjoint action as well
+(:class:`codegen.groups.capabilities.Coadjoint`). The other capabilities make emitted code shorter or permit
+further measurements. :func:`codegen.groups.register` adds the class to the list of groups.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from fractions import Fraction
-from functools import cache
-from math import comb, factorial
-from typing import Any
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, ClassVar, TypeVar
 
+from codegen.errors import SceneError
+from codegen.groups.bernoulli import bernoulli_sum
+from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
 
-Scalars = tuple[Any, ...]
-"""A flat tuple of scalars of one domain."""
+if TYPE_CHECKING:
+    import sympy
+
+C = TypeVar("C", bound="LieGroup")
 
 
-@cache
-def bernoulli_over_factorial(k: int) -> Fraction:
-    """Return B_k/k! with B_1 = -1/2, the coefficients of dexp^{-1}.
+class LieGroup(ABC):
+    """A Lie group in coordinates.
 
-    >>> [str(bernoulli_over_factorial(k)) for k in range(5)]
-    ['1', '-1/2', '1/12', '0', '-1/720']
-    """
-    values = [Fraction(1)]
-    for m in range(1, k + 1):
-        values.append(-sum((comb(m + 1, j) * values[j] for j in range(m)), Fraction(0)) / (m + 1))
-    return values[k] / factorial(k)
-
-
-def _last(order: int) -> int:
-    """Return the greatest k <= order whose Bernoulli number is not zero."""
-    return max(k for k in range(order + 1) if bernoulli_over_factorial(k))
-
-
-def _combined(d: Domain, terms: Sequence[tuple[Fraction, Scalars]]) -> Scalars:
-    """Return the sum of c x over terms (c, x), the empty tuple where there are none."""
-    total: Scalars = ()
-    for c, x in terms:
-        scaled = tuple(d.rational(c.numerator, c.denominator) * a for a in x)
-        total = tuple(a + b for a, b in zip(total, scaled, strict=True)) if total else scaled
-    return total
-
-
-class LieGroup:
-    """A Lie group in coordinates: ``dim`` of its algebra, ``size`` of an element.
-
-    Subclasses give ``identity exp mul ad velocity`` and, where variational methods are wanted, ``Ad Adt
-    Adtinv adt dexpt``. ``velocity(d, x, g)`` is x.g, the derivative of exp(eps x) g at eps = 0, in the
-    coordinates of g.
+    ``name`` is printed in messages and headers, ``dim`` is the dimension of the algebra, ``size`` is the
+    number of coordinates of an element. ``abelian`` promises that all brackets vanish. ``layout`` follows the
+    name in the description of the state and gives the order of the coordinates, as ``, row by row``.
     """
 
     name: str
     dim: int
     size: int
-    abelian = False
-    layout = ""
-    """What to add to the name to say how an element's coordinates are ordered: ``, row by row``."""
+    abelian: bool = False
+    layout: str = ""
+    provides: ClassVar[str] = "group operations"
+    """What a capability adds, for the message about a group without it."""
 
-    def identity(self, d: Domain) -> Scalars:
-        """Return the neutral element."""
-        raise AttributeError(f"{self.name} has no identity")
+    @abstractmethod
+    def identity(self, d: Domain) -> Vector[S]:
+        """Return the neutral element e, ``size`` scalars: e g = g e = g."""
 
-    def exp(self, d: Domain, x: Scalars) -> Scalars:
-        """Return exp(x)."""
-        raise AttributeError(f"{self.name} has no exponential")
+    @abstractmethod
+    def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
+        """Return the product g k of two elements; it is associative."""
 
-    def mul(self, d: Domain, g: Scalars, k: Scalars) -> Scalars:
-        """Return g k."""
-        raise AttributeError(f"{self.name} has no product")
+    @abstractmethod
+    def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return exp(x) for x in the algebra: exp(0) = e, exp(s x) exp(t x) = exp((s + t) x).
 
-    def ad(self, d: Domain, x: Scalars, y: Scalars) -> Scalars:
-        """Return [x, y]."""
-        raise AttributeError(f"{self.name} has no bracket")
+        It must be smooth at zero in every domain: write sin(t)/t as ``stumpff1(t^2)``.
+        """
 
-    def adt(self, d: Domain, x: Scalars, mu: Scalars) -> Scalars:
-        """Return ad*_x mu."""
-        raise AttributeError(f"{self.name} has no dual bracket")
+    @abstractmethod
+    def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return [x, y], bilinear and antisymmetric, with the Jacobi identity.
 
-    def velocity(self, d: Domain, x: Scalars, g: Scalars) -> Scalars:
-        """Return x.g, the derivative of exp(eps x) g at eps = 0."""
-        raise AttributeError(f"{self.name} has no velocity")
+        Its sign is that of exp(h x) exp(h y) exp(-h x) exp(-h y) = exp(h^2 [x, y] + O(h^3)).
+        """
 
-    def rate(self, d: Domain, v: Scalars, g: Scalars) -> Scalars:
-        """Return x where v = x.g, for v that is such a derivative: the inverse of :meth:`velocity`."""
-        raise AttributeError(f"{self.name} has no rate")
+    @abstractmethod
+    def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
+        """Return x.g, ``size`` scalars: the derivative of exp(eps x) g at eps = 0 in the coordinates of g."""
 
-    def laws(self, d: Domain, g: Scalars) -> tuple[tuple[str, Any], ...]:
-        """Return the equations that coordinates of an element satisfy: a name, and what must be zero."""
+    def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
+        """Return the equations of the group in its coordinates: pairs of a name and a residual.
+
+        The residuals vanish exactly on the group.
+        """
         return ()
 
-    def dexpinv(self, d: Domain, x: Scalars, y: Scalars, order: int) -> Scalars:
+    def dexpinv(self, d: Domain, x: Vector[S], y: Vector[S], order: int) -> Vector[S]:
         """Return dexp^{-1}_{(order),x} y = sum over k <= order of B_k/k! ad_x^k y."""
-        return self._bernoulli_sum(d, lambda power: self.ad(d, x, power), y, order)
+        return bernoulli_sum(d, lambda power: self.ad(d, x, power), y, order)
 
-    def _bernoulli_sum(
-        self, d: Domain, advance: Callable[[Scalars], Scalars], first: Scalars, order: int
-    ) -> Scalars:
-        """Return sum over k <= order of B_k/k! advance^k(first)."""
-        total, power = first, first
-        for k in range(1, _last(order) + 1):
-            power = advance(power)
-            b = bernoulli_over_factorial(k)
-            if b:
-                factor = d.rational(b.numerator, b.denominator)
-                total = tuple(s + factor * t for s, t in zip(total, power, strict=True))
-        return total
-
-    def dexpinvt(self, d: Domain, x: Scalars, mu: Scalars, order: int) -> Scalars:
-        """Return (dexp^{-1}_{(order),x})* mu = sum over k <= order of B_k/k! (ad*_x)^k mu."""
-        return self._bernoulli_sum(d, lambda power: self.adt(d, x, power), mu, order)
-
-    def P(self, d: Domain, x: Scalars, y: Scalars, mu: Scalars, order: int) -> Scalars:
-        """Return P*_(order)(x, y) mu, paired with z what mu is with the derivative of dexpinv_x y along z.
-
-        That is -sum over 1 <= k <= order of B_k/k! sum_{i<k} ad*_{ad_x^{k-1-i} y} (ad*_x)^i mu (thesis eq.
-        3.16), summed over k first, for the operator is linear in its subscript.
-        """
-        last = _last(order)
-        brackets, powers = [y], [mu]
-        for _ in range(1, last):
-            brackets.append(self.ad(d, x, brackets[-1]))
-            powers.append(self.adt(d, x, powers[-1]))
-        total = (d.rational(0),) * self.dim
-        for i, power in enumerate(powers):
-            terms = [(-bernoulli_over_factorial(k), brackets[k - 1 - i]) for k in range(i + 1, last + 1)]
-            subscript = _combined(d, [(c, z) for c, z in terms if c])
-            if last and subscript:
-                pairs = zip(total, self.adt(d, subscript, power), strict=True)
-                total = tuple(a + b for a, b in pairs)
-        return total
-
-    def variants(self) -> tuple[Any, ...]:
-        """Return this group with the ways in which :meth:`left` can be computed, the plain one first."""
-        return (self,)
-
-    def left(self, d: Domain, x: Scalars, g: Scalars) -> Scalars:
+    def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return exp(x) g."""
         return self.mul(d, self.exp(d, x), g)
 
-    def moved(self, d: Domain, x: Scalars, n: Scalars, mu: Scalars) -> Scalars:
-        """Return Ad*_{exp(-x)} mu + dexp*_{-x} n, the momentum after exp(x, n) on T*G."""
-        group: Any = self  # with a coadjoint action, which not every group has
-        turned = group.Adtinv(d, self.exp(d, x), mu)
-        pushed = group.dexpt(d, tuple(-a for a in x), n)
-        return tuple(a + b for a, b in zip(pushed, turned, strict=True))
+    def variants(self) -> Sequence[LieGroup]:
+        """Return implementations of this group that differ in :meth:`expmul` only, the default one first.
 
-    def right(self, d: Domain, g: Scalars, axis: Scalars, angle: Any) -> Scalars:
-        """Return g exp(angle axis)."""
-        return self.mul(d, g, self.exp(d, tuple(angle * e for e in axis)))
+        The compiler tries each of them and keeps the one with the shortest step.
+        """
+        return (self,)
 
-    def symbols(self, name: str) -> list[Any]:
-        """Return sympy symbols of a group element's coordinates: ``name``, row and column digits."""
+    def offers(self, capability: type[C]) -> C | None:
+        """Return this group as one with a capability, None if it has not declared it."""
+        return self if isinstance(self, capability) else None
+
+    def require(self, capability: type[C], where: str = "") -> C:
+        """Return this group as one with a capability; :class:`SceneError` if it has not declared it."""
+        offered = self.offers(capability)
+        if offered is None:
+            raise SceneError(
+                f"{self.name} has no {capability.provides}",
+                where=where,
+                expected=f"a group with the capability {capability.__name__}",
+                hint=f"inherit {capability.__module__}.{capability.__name__} and write its methods",
+            )
+        return offered
+
+    def symbols(self, name: str) -> list[sympy.Symbol]:
+        """Return sympy symbols of the coordinates of an element: ``name`` with an index."""
         from sympy import Symbol
 
-        n = round(self.size**0.5)
-        return [Symbol(f"{name}{i}{j}", real=True) for i in range(n) for j in range(n)]
+        return [Symbol(f"{name}{i}", real=True) for i in range(self.size)]
 
-    def point(self, name: str) -> Any:
-        """Return a sympy matrix of symbols for a group element."""
+    def point(self, name: str) -> sympy.Matrix:
+        """Return :meth:`symbols` as a sympy column, for formulas of a scene."""
         from sympy import Matrix
 
-        n = round(self.size**0.5)
-        return Matrix(n, n, self.symbols(name))
+        return Matrix(self.symbols(name))
 
-    def dual(self, name: str) -> Any:
-        """Return a sympy column of symbols for a covector: ``name`` with an index."""
+    def dual(self, name: str) -> sympy.Matrix:
+        """Return a sympy column of ``dim`` symbols for a covector: ``name`` with an index."""
         from sympy import Matrix, Symbol
 
         return Matrix([Symbol(f"{name}{i}", real=True) for i in range(self.dim)])
-
-
-def dot(a: Scalars, b: Scalars) -> Any:
-    """Return sum a_i b_i, added from the left."""
-    total = a[0] * b[0]
-    for x, y in zip(a[1:], b[1:], strict=True):
-        total = total + x * y
-    return total
-
-
-def cross(a: Scalars, b: Scalars) -> Scalars:
-    """Return the cross product of two 3-vectors."""
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def matmul(a: Scalars, b: Scalars, n: int) -> Scalars:
-    """Return the product of two n x n matrices, row by row."""
-    rows = range(n)
-    return tuple(dot(a[n * i : n * i + n], b[j::n]) for i in rows for j in rows)
-
-
-def matvec(a: Scalars, v: Scalars) -> Scalars:
-    """Return the matrix a, row by row, times the vector v."""
-    n = len(v)
-    return tuple(dot(a[i : i + n], v) for i in range(0, len(a), n))

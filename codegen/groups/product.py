@@ -1,24 +1,30 @@
-"""Direct products of groups: pairs, triples and so on, each factor for itself."""
+"""Direct products of groups."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from itertools import accumulate
-from typing import Any
+from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
-from codegen.groups.base import LieGroup, Scalars
+from codegen.groups.base import C, LieGroup
+from codegen.groups.capabilities import Coadjoint, DirectProduct, RightTrivialisation
+from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
 
+if TYPE_CHECKING:
+    import sympy
 
-class Product(LieGroup):
+
+class Product(DirectProduct, Coadjoint, RightTrivialisation):
     """G1 x G2 x ...: coordinates of the factors one after the other, every operation factor by factor.
 
-    As SO(3) x R^3 it holds a rigid body's attitude and momentum, as G x R a configuration and the time. It is
-    not the group of rigid motions, whose rotations turn its translations.
+    SO(3) x R^3 holds a rigid body's attitude and momentum, G x R a configuration and the time. SO(3) x R^3 is
+    not the group of rigid motions, whose rotations turn the translations. The product has a capability if all
+    its factors have it.
     """
 
-    def __init__(self, *factors: Any) -> None:
+    def __init__(self, *factors: LieGroup) -> None:
         if not factors:
             raise SceneError("a product without factors", expected="one group at least")
         self.factors = factors
@@ -27,7 +33,7 @@ class Product(LieGroup):
         self.abelian = all(f.abelian for f in factors)
         self.layout = ": " + "; ".join(f.name + f.layout for f in factors)
 
-    def parts(self, x: Scalars) -> tuple[Scalars, ...]:
+    def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
         """Return the factors' coordinates of an element, or of one of the algebra or its dual, by length.
 
         Where the lengths agree they do in every factor.
@@ -36,67 +42,68 @@ class Product(LieGroup):
         pairs = zip(accumulate(sizes), sizes, strict=True)
         return tuple(tuple(x[end - n : end]) for end, n in pairs)
 
-    def _each(self, operation: Callable[..., Scalars], *args: Scalars) -> Scalars:
+    def offers(self, capability: type[C]) -> C | None:
+        """Return this product as a group with a capability, None if a factor lacks it."""
+        own = super().offers(capability)
+        if issubclass(DirectProduct, capability):  # to be a product needs nothing of the factors
+            return own
+        return own if all(f.offers(capability) is not None for f in self.factors) else None
+
+    def _each(self, capability: type[C], operation: Callable[..., Vector[S]], *args: Vector[S]) -> Vector[S]:
         """Return operation(factor, its own arguments) for all factors, one after the other."""
-        rows = zip(self.factors, *map(self.parts, args), strict=True)
+        rows = zip((f.require(capability) for f in self.factors), *map(self.parts, args), strict=True)
         return tuple(x for factor, *own in rows for x in operation(factor, *own))
 
-    def identity(self, d: Domain) -> Scalars:
+    def identity(self, d: Domain) -> Vector[S]:
         """Return the neutral elements."""
-        return self._each(lambda f: f.identity(d))
+        return self._each(LieGroup, lambda f: f.identity(d))
 
-    def exp(self, d: Domain, x: Scalars) -> Scalars:
+    def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return the exponentials."""
-        return self._each(lambda f, a: f.exp(d, a), x)
+        return self._each(LieGroup, lambda f, a: f.exp(d, a), x)
 
-    def mul(self, d: Domain, g: Scalars, k: Scalars) -> Scalars:
+    def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
         """Return the products."""
-        return self._each(lambda f, a, b: f.mul(d, a, b), g, k)
+        return self._each(LieGroup, lambda f, a, b: f.mul(d, a, b), g, k)
 
-    def ad(self, d: Domain, x: Scalars, y: Scalars) -> Scalars:
+    def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return the brackets."""
-        return self._each(lambda f, a, b: f.ad(d, a, b), x, y)
+        return self._each(LieGroup, lambda f, a, b: f.ad(d, a, b), x, y)
 
-    def adt(self, d: Domain, x: Scalars, mu: Scalars) -> Scalars:
-        """Return ad*_x mu of each factor."""
-        return self._each(lambda f, a, m: f.adt(d, a, m), x, mu)
-
-    def Ad(self, d: Domain, g: Scalars, x: Scalars) -> Scalars:
-        """Return Ad_g x of each factor."""
-        return self._each(lambda f, a, b: f.Ad(d, a, b), g, x)
-
-    def Adt(self, d: Domain, g: Scalars, mu: Scalars) -> Scalars:
-        """Return Ad*_g mu of each factor."""
-        return self._each(lambda f, a, m: f.Adt(d, a, m), g, mu)
-
-    def Adtinv(self, d: Domain, g: Scalars, mu: Scalars) -> Scalars:
-        """Return Ad*_{g^-1} mu of each factor."""
-        return self._each(lambda f, a, m: f.Adtinv(d, a, m), g, mu)
-
-    def dexpt(self, d: Domain, x: Scalars, mu: Scalars) -> Scalars:
-        """Return dexp*_x mu of each factor."""
-        return self._each(lambda f, a, m: f.dexpt(d, a, m), x, mu)
-
-    def velocity(self, d: Domain, x: Scalars, g: Scalars) -> Scalars:
+    def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return x.g of each factor."""
-        return self._each(lambda f, a, b: f.velocity(d, a, b), x, g)
+        return self._each(LieGroup, lambda f, a, b: f.velocity(d, a, b), x, g)
 
-    def rate(self, d: Domain, v: Scalars, g: Scalars) -> Scalars:
-        """Return x where v = x.g, of each factor."""
-        return self._each(lambda f, a, b: f.rate(d, a, b), v, g)
+    def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return ad*_x mu of each factor."""
+        return self._each(Coadjoint, lambda f, a, m: f.adt(d, a, m), x, mu)
 
-    def laws(self, d: Domain, g: Scalars) -> tuple[tuple[str, Any], ...]:
+    def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return Ad_g x of each factor."""
+        return self._each(Coadjoint, lambda f, a, b: f.Ad(d, a, b), g, x)
+
+    def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return Ad*_g mu of each factor."""
+        return self._each(Coadjoint, lambda f, a, m: f.Adt(d, a, m), g, mu)
+
+    def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return Ad*_{g^-1} mu of each factor."""
+        return self._each(Coadjoint, lambda f, a, m: f.Adtinv(d, a, m), g, mu)
+
+    def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return dexp*_x mu of each factor."""
+        return self._each(Coadjoint, lambda f, a, m: f.dexpt(d, a, m), x, mu)
+
+    def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
+        """Return x with v = x.g, of each factor."""
+        return self._each(RightTrivialisation, lambda f, a, b: f.rate(d, a, b), v, g)
+
+    def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return the laws of every factor."""
         pairs = zip(self.factors, self.parts(g), strict=True)
         return tuple(law for f, a in pairs for law in f.laws(d, a))
 
-    def symbols(self, name: str) -> list[Any]:
+    def symbols(self, name: str) -> list[sympy.Symbol]:
         """Return the factors' symbols: ``name``, a letter for the factor, and its own indices."""
         letters = (chr(ord("a") + k) for k in range(len(self.factors)))
         return [s for f, letter in zip(self.factors, letters, strict=True) for s in f.symbols(name + letter)]
-
-    def point(self, name: str) -> Any:
-        """Return a sympy column of symbols for an element; :meth:`parts` cuts it by factor."""
-        from sympy import Matrix
-
-        return Matrix(self.symbols(name))

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from codegen.groups.base import Scalars, dot
+from codegen.groups.linear_algebra import S, Vector, dot, units
 from codegen.groups.matrix import MatrixGroup
 from codegen.ir.domain import Domain
 
 
 class SL2(MatrixGroup):
-    """Matrices of determinant 1, row by row; sl(2) with the basis X, Y, H of thesis section 2.2.
+    """Matrices of determinant 1, row by row; sl(2) with the basis X, Y, H.
 
-    X = [[0, 1], [0, 0]], Y = [[0, 0], [1, 0]], H = [[1, 0], [0, -1]]; [X, Y] = H, [H, X] = 2X, [H, Y] = -2Y.
+    The basis is that of H. Marthinsen's thesis, section 2.2: X = [[0, 1], [0, 0]], Y = [[0, 0], [1, 0]],
+    H = [[1, 0], [0, -1]]; [X, Y] = H, [H, X] = 2X, [H, Y] = -2Y.
     A traceless matrix A has A^2 = -det A, so exp A = c_0(det A) + c_1(det A) A with the Stumpff functions,
     which for a negative determinant are hyperbolic.
     """
@@ -20,31 +19,32 @@ class SL2(MatrixGroup):
     def __init__(self) -> None:
         super().__init__("SL(2)", [[[0, 1], [0, 0]], [[0, 0], [1, 0]], [[1, 0], [0, -1]]])
 
-    def exp(self, d: Domain, x: Scalars) -> Scalars:
+    def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return c_0 + c_1 A for the matrix A of x."""
         z = -(x[2] * x[2] + x[0] * x[1])
         c0, c1 = d.call("signed_stumpff0", z), d.call("signed_stumpff1", z)
         diagonal = c1 * x[2]
         return (c0 + diagonal, c1 * x[0], c1 * x[1], c0 - diagonal)
 
-    def Ad(self, d: Domain, g: Scalars, x: Scalars) -> Scalars:
+    def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
         """Return g x g^-1."""
         return self._conjugated(d, g, x, _adjugate(g))
 
-    def Adt(self, d: Domain, g: Scalars, mu: Scalars) -> Scalars:
+    def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return Ad*_g mu."""
         inverse = _adjugate(g)
-        return tuple(dot(mu, self._conjugated(d, g, e, inverse)) for e in self._units(d))
+        basis: tuple[Vector[S], ...] = units(d, self.dim)
+        return tuple(dot(mu, self._conjugated(d, g, e, inverse)) for e in basis)
 
-    def Adtinv(self, d: Domain, g: Scalars, mu: Scalars) -> Scalars:
+    def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return Ad*_{g^-1} mu."""
         return self.Adt(d, _adjugate(g), mu)
 
-    def laws(self, d: Domain, g: Scalars) -> tuple[tuple[str, Any], ...]:
+    def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return det g = 1."""
         return (("det g = 1", g[0] * g[3] - g[1] * g[2] - d.rational(1)),)
 
 
-def _adjugate(g: Scalars) -> Scalars:
+def _adjugate(g: Vector[S]) -> Vector[S]:
     """Return g^-1 for a matrix of determinant 1."""
     return (g[3], -g[1], -g[2], g[0])

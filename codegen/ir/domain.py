@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeAlias
 
 from codegen.ir.expr import Expr, Space
 from codegen.ir.number import Number
@@ -22,22 +22,39 @@ class NotConverged(ArithmeticError):
     """A fixed-point iteration that reached its limit, or left the numbers, in the interpreter."""
 
 
+Scalar: TypeAlias = Any
+"""A number of one domain: the domain decides its type when a program runs."""
+
+Value: TypeAlias = Any
+"""A scalar for the kind Real, a flat tuple of scalars of one domain for every other kind."""
+
+Values: TypeAlias = tuple[Value, ...]
+"""The arguments or the results of an operation."""
+
+
 class Domain(Protocol):
     """Scalars of one kind; ``h`` is the step size among them."""
 
-    h: Any
+    h: Scalar
 
-    def number(self, value: Number) -> Any:
+    def number(self, value: Number) -> Scalar:
         """Return an exact number in this domain, rounded once."""
 
-    def rational(self, p: int, q: int = 1) -> Any:
+    def rational(self, p: int, q: int = 1) -> Scalar:
         """Return p/q in this domain."""
 
-    def call(self, function: str, *args: Any) -> Any:
+    def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the value of a function of :data:`codegen.ir.expr.FUNCTIONS`."""
 
-    def settled(self, old: Sequence[Any], new: Sequence[Any], previous: Any) -> tuple[bool, Any]:
+    def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return whether an iteration stands still, and the size of its last change for the next call."""
+
+
+class Differenced(Domain, Protocol):
+    """A domain with difference quotients, in which Newton's method needs no derivatives."""
+
+    def increment(self, x: Scalar) -> Scalar:
+        """Return the step of a difference quotient at x."""
 
 
 def stumpff(k: int, z: float) -> float:
@@ -115,7 +132,7 @@ class FloatDomain:
         result: float = getattr(math, function)(*args)
         return result
 
-    def settled(self, old: Sequence[float], new: Sequence[float], previous: Any) -> tuple[bool, float]:
+    def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
         """Stand still at rounding level: the rule of :class:`codegen.ir.kernel.Loop`."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         if not math.isfinite(change):
@@ -134,7 +151,7 @@ class FloatDomain:
 class PreciseDomain:
     """mpmath numbers of a given number of decimal digits, in a context of their own."""
 
-    def __init__(self, h: Any, digits: int = 50) -> None:
+    def __init__(self, h: Scalar, digits: int = 50) -> None:
         import mpmath
 
         self.context = mpmath.mp.clone()
@@ -145,18 +162,18 @@ class PreciseDomain:
         )
         self.patience = 3 * digits
 
-    def number(self, value: Number) -> Any:
+    def number(self, value: Number) -> Scalar:
         """Return the number rounded to this domain's precision."""
         if value.is_rational:
             fraction = value.fraction()
             return self.rational(fraction.numerator, fraction.denominator)
         return self.context.mpf(value.ring.approximate(value.element, self.digits + 5))
 
-    def rational(self, p: int, q: int = 1) -> Any:
+    def rational(self, p: int, q: int = 1) -> Scalar:
         """Return p/q rounded once."""
         return self.context.mpf(p) / q
 
-    def call(self, function: str, *args: Any) -> Any:
+    def call(self, function: str, *args: Scalar) -> Scalar:
         """Call mpmath; Stumpff functions by their series near zero."""
         if function == "quotient":
             return args[0] / args[1] if args[1] else args[0] * 0
@@ -178,7 +195,7 @@ class PreciseDomain:
             term = -term * z / ((2 * j + k) * (2 * j + k - 1))
         return total
 
-    def _slope(self, k: int, z: Any) -> Any:
+    def _slope(self, k: int, z: Scalar) -> Scalar:
         """Return c_k'(z) by its series up to 1, by c_{k-1} and c_k beyond."""
         if z > 1:
             return (self.call(f"stumpff{k - 1}", z) - k * self.call(f"stumpff{k}", z)) / (2 * z)
@@ -190,13 +207,13 @@ class PreciseDomain:
             term = -term * z * j / ((j - 1) * (2 * j + k) * (2 * j + k - 1))
         return total
 
-    def settled(self, old: Sequence[Any], new: Sequence[Any], previous: Any) -> tuple[bool, Any]:
+    def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Stand still within 2^12 units of the working precision."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
-    def increment(self, x: Any) -> Any:
+    def increment(self, x: Scalar) -> Scalar:
         """Return the step of a difference quotient at x."""
         return self.context.sqrt(self.context.eps) * max(1, abs(x))
 
@@ -209,18 +226,18 @@ class SeriesDomain:
         self.ring = PowerSeries(base, order)
         self.h = self.ring.h
 
-    def number(self, value: Number) -> Any:
+    def number(self, value: Number) -> Scalar:
         """Return the constant series of a number of the base field."""
         if value.ring is self.base:
             return self.ring.constant(value.element)
         fraction = value.fraction()
         return self.ring.rational(fraction.numerator, fraction.denominator)
 
-    def rational(self, p: int, q: int = 1) -> Any:
+    def rational(self, p: int, q: int = 1) -> Scalar:
         """Return the constant series p/q."""
         return self.ring.rational(p, q)
 
-    def call(self, function: str, *args: Any) -> Any:
+    def call(self, function: str, *args: Scalar) -> Scalar:
         """Evaluate an entire function at a series without constant term, exactly; others are refused.
 
         A quotient's last coefficients, as many as the valuation of the divisor, are unknown and set to zero.
@@ -243,7 +260,7 @@ class SeriesDomain:
         k, step, first = starts[function]
         return self._sum(k, step, first, z * z if step == 2 else -z)
 
-    def _quotient(self, a: Any, b: Any) -> Any:
+    def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
         """Return a/b where the valuation of a is at least that of b; 0 where b vanishes."""
         power = self.ring.valuation(b)
         if power > self.order:
@@ -253,7 +270,7 @@ class SeriesDomain:
         shifted = (self.ring.from_coefficients(x.coefficients[power:]) for x in (a, b))
         return next(shifted) / next(shifted)
 
-    def _sum(self, k: int, step: int, first: Any, z: Any) -> Any:
+    def _sum(self, k: int, step: int, first: Scalar, z: Scalar) -> Scalar:
         """Return the sum of first (-z)^j k!/(step j + k)!."""
         total, term, j = first, first, 0
         while True:
@@ -264,7 +281,7 @@ class SeriesDomain:
                 return total
             total = total + term
 
-    def settled(self, old: Sequence[Any], new: Sequence[Any], previous: Any) -> tuple[bool, Any]:
+    def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Stand still exactly."""
         return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None
 
@@ -296,6 +313,6 @@ class ExprDomain:
             self.samples[t.id] = t, {name: self.space.sym(f"{name}_at{k}") for name in names}
         return self.samples[t.id][1]
 
-    def settled(self, old: Sequence[Any], new: Sequence[Any], previous: Any) -> tuple[bool, Any]:
+    def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Refuse: there is nothing to iterate."""
         raise NotConverged("expressions are not iterated")

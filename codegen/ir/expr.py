@@ -11,10 +11,16 @@ exponent >= 2), ``call`` (a function of :data:`FUNCTIONS`).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from codegen.ir.number import Number
+
+if TYPE_CHECKING:
+    from codegen.ir.domain import Domain, Scalar
+
+Payload: TypeAlias = Any
+"""A number for ``const``, a name for ``sym`` and ``call``, an exponent for ``pow``, None for all others."""
 
 FUNCTIONS = (
     "sqrt",
@@ -43,7 +49,7 @@ class Expr:
 
     __slots__ = ("args", "id", "op", "payload", "space")
 
-    def __init__(self, space: Space, id: int, op: str, args: tuple[Expr, ...], payload: Any) -> None:
+    def __init__(self, space: Space, id: int, op: str, args: tuple[Expr, ...], payload: Payload) -> None:
         self.space, self.id, self.op, self.args, self.payload = space, id, op, args, payload
 
     def __repr__(self) -> str:
@@ -96,11 +102,11 @@ class Space:
     """
 
     def __init__(self) -> None:
-        self._table: dict[tuple[Any, ...], Expr] = {}
+        self._table: dict[tuple[object, ...], Expr] = {}
         self.zero = self.const(Number.rational(0))
         self.one = self.const(Number.rational(1))
 
-    def _make(self, op: str, args: tuple[Expr, ...] = (), payload: Any = None) -> Expr:
+    def _make(self, op: str, args: tuple[Expr, ...] = (), payload: Payload = None) -> Expr:
         key = (op, tuple(a.id for a in args), payload)
         node = self._table.get(key)
         if node is None:
@@ -243,13 +249,15 @@ def _joinable(a: Expr, b: Expr) -> bool:
 def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> Iterator[Expr]:
     """Yield every node below the roots once, arguments before users; nodes where stop holds are leaves."""
     seen: set[int] = set()
-    waiting: list[Any] = []
+    waiting: list[Expr | None] = []
     for root in roots:
         waiting.append(root)
         while waiting:
             node = waiting.pop()
-            if node is None:  # what stands below it has had all its arguments
-                yield waiting.pop()
+            if node is None:  # a marker: all arguments of the node below it were yielded
+                user = waiting.pop()
+                assert user is not None
+                yield user
             elif node.id not in seen:
                 seen.add(node.id)
                 if not node.args or (stop is not None and stop(node)):
@@ -259,13 +267,13 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
                 waiting += [a for a in node.args[::-1] if a.id not in seen]
 
 
-def evaluate(roots: Iterable[Expr], domain: Any, values: dict[str, Any]) -> list[Any]:
+def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]) -> list[Scalar]:
     """Evaluate roots in a domain (see :mod:`codegen.ir.domain`), symbols taking the given values.
 
     With an expression domain this is substitution.
     """
     roots = list(roots)
-    result: dict[int, Any] = {}
+    result: dict[int, Scalar] = {}
     for node in walk(roots):
         args = [result[a.id] for a in node.args]
         match node.op:
@@ -291,7 +299,7 @@ def evaluate(roots: Iterable[Expr], domain: Any, values: dict[str, Any]) -> list
     return [result[r.id] for r in roots]
 
 
-def power(x: Any, n: int) -> Any:
+def power(x: Scalar, n: int) -> Scalar:
     """Return x**n, n >= 1, by squaring, left to right: printers spell the same products."""
     result = x
     for bit in bin(n)[3:]:

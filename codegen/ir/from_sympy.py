@@ -1,83 +1,106 @@
-"""Reading sympy: where a scene's formulas become expressions, and sympy ends.
+"""Reading sympy: a scene's formulas become expressions, and no other part of the compiler uses sympy.
 
 The order of sympy's arguments is taken by ``sort_key``, so that the result does not depend on hashing.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
 from codegen.ir.expr import Expr, Space
 from codegen.ir.number import Number
 
-CALLS = {"sin": "sin", "cos": "cos", "exp": "exp", "log": "log"}
-
-
-def read(space: Space, expression: Any, where: str = "") -> Expr:
-    """Return a sympy expression as a node of space; :class:`SceneError` names what cannot be read.
-
-    Rational numbers stay exact; floats are refused, because an exact scene is what orders are computed on.
-    """
+if TYPE_CHECKING:
     import sympy
 
-    cache: dict[Any, Expr] = {}
+CALLS = ("sin", "cos", "exp", "log")
+"""The functions that formulas may call."""
 
-    def visit(e: Any) -> Expr:
-        if e in cache:
-            return cache[e]
-        if isinstance(e, sympy.Symbol):
-            node = space.sym(e.name)
-        elif isinstance(e, sympy.Rational):
-            node = space.const(Number.rational(int(e.p), int(e.q)))
-        elif isinstance(e, sympy.Add):
-            node = _fold(space.add, [visit(a) for a in sorted(e.args, key=sympy.default_sort_key)])
-        elif isinstance(e, sympy.Mul):
-            node = product(e)
-        elif isinstance(e, sympy.Pow):
-            node = raised(visit(e.base), e.exp, e)
-        elif isinstance(e, sympy.Function) and e.func.__name__ in CALLS:
-            node = space.call(CALLS[e.func.__name__], visit(e.args[0]))
-        elif isinstance(e, sympy.Float):
-            raise SceneError(
-                f"the float {e}", where=where, expected="exact numbers", hint="write Rational(1, 10) for 0.1"
-            )
-        else:
-            allowed = "symbols, rationals, + - * /, integer and half-integer powers, sin, cos, exp, log"
-            raise SceneError(f"{type(e).__name__} in {e}", where=where, expected=allowed)
-        cache[e] = node
-        return node
 
-    def product(e: Any) -> Expr:
-        above, below = [], []
-        for a in sorted(e.args, key=sympy.default_sort_key):
-            if isinstance(a, sympy.Pow) and a.exp.is_Rational and a.exp < 0:
-                below.append(raised(visit(a.base), -a.exp, a))
-            else:
-                above.append(visit(a))
-        node = _fold(space.mul, above) if above else space.one
-        return space.div(node, _fold(space.mul, below)) if below else node
+def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
+    """Return a sympy expression as a node of space; :class:`SceneError` names what cannot be read.
 
-    def raised(base: Expr, exponent: Any, e: Any) -> Expr:
-        if exponent.is_Integer:
-            return space.pow(base, int(exponent))
-        if exponent.is_Rational and exponent.q == 2:
-            root = space.call("sqrt", base)
-            n = int(exponent.p)
-            whole = space.pow(base, abs(n) // 2)
-            value = space.mul(whole, root)
-            return value if n > 0 else space.div(space.one, value)
-        raise SceneError(f"the power {e}", where=where, expected="an integer or half-integer exponent")
+    Rational numbers stay exact. Floats are refused, because orders are computed on exact scenes.
+    """
+    import sympy
 
     try:
         formula = sympy.sympify(expression, strict=True)  # strict: a string is no formula
     except sympy.SympifyError:
         found = f"{type(expression).__name__} {expression!r}"
         raise SceneError(found, where=where, expected="a sympy formula or a number") from None
-    return visit(formula)
+    return _Reader(space, where).node(formula)
 
 
-def _fold(operation: Any, nodes: list[Expr]) -> Expr:
+@dataclass
+class _Reader:
+    """Reads one formula; equal subexpressions are read once."""
+
+    space: Space
+    where: str
+    known: dict[sympy.Basic, Expr] = field(default_factory=dict)
+
+    def node(self, e: sympy.Basic) -> Expr:
+        """Return an expression as a node."""
+        if e not in self.known:
+            self.known[e] = self._read(e)
+        return self.known[e]
+
+    def _read(self, e: sympy.Basic) -> Expr:
+        import sympy
+
+        if isinstance(e, sympy.Symbol):
+            return self.space.sym(e.name)
+        if isinstance(e, sympy.Rational):
+            return self.space.const(Number.rational(int(e.p), int(e.q)))
+        if isinstance(e, sympy.Add):
+            return _fold(self.space.add, [self.node(a) for a in _sorted(e)])
+        if isinstance(e, sympy.Mul):
+            return self._product(e)
+        if isinstance(e, sympy.Pow):
+            return self._power(self.node(e.base), e.exp, e)
+        if isinstance(e, sympy.Function) and e.func.__name__ in CALLS:
+            return self.space.call(e.func.__name__, self.node(e.args[0]))
+        if isinstance(e, sympy.Float):
+            hint = "write Rational(1, 10) for 0.1"
+            raise SceneError(f"the float {e}", where=self.where, expected="exact numbers", hint=hint)
+        allowed = "symbols, rationals, + - * /, integer and half-integer powers, sin, cos, exp, log"
+        raise SceneError(f"{type(e).__name__} in {e}", where=self.where, expected=allowed)
+
+    def _product(self, e: sympy.Mul) -> Expr:
+        """Return a product; factors with negative powers are one divisor, so that it has one division."""
+        import sympy
+
+        above, below = [], []
+        for a in _sorted(e):
+            if isinstance(a, sympy.Pow) and a.exp.is_Rational and a.exp < 0:
+                below.append(self._power(self.node(a.base), -a.exp, a))
+            else:
+                above.append(self.node(a))
+        product = _fold(self.space.mul, above) if above else self.space.one
+        return self.space.div(product, _fold(self.space.mul, below)) if below else product
+
+    def _power(self, base: Expr, exponent: sympy.Expr, e: sympy.Pow) -> Expr:
+        space = self.space
+        if exponent.is_Integer:
+            return space.pow(base, int(exponent))
+        if exponent.is_Rational and exponent.q == 2:
+            root, n = space.call("sqrt", base), int(exponent.p)
+            value = space.mul(space.pow(base, abs(n) // 2), root)
+            return value if n > 0 else space.div(space.one, value)
+        raise SceneError(f"the power {e}", where=self.where, expected="an integer or half-integer exponent")
+
+
+def _sorted(e: sympy.Basic) -> list[sympy.Basic]:
+    import sympy
+
+    return sorted(e.args, key=sympy.default_sort_key)
+
+
+def _fold(operation: Callable[[Expr, Expr], Expr], nodes: list[Expr]) -> Expr:
     total = nodes[0]
     for node in nodes[1:]:
         total = operation(total, node)

@@ -2,88 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import replace
-from typing import Any, Protocol
+from typing import cast
 
-from codegen.ir.domain import Domain, NotConverged
-from codegen.ir.program import (
-    BODY,
-    FLOWS,
-    FLOWS_FOR,
-    SPACE,
-    Assign,
-    Coefficient,
-    Factor,
-    Kind,
-    Program,
-    Solve,
-    Var,
-)
+from codegen.ir.domain import Differenced, Domain, NotConverged, Scalar, Value
+from codegen.ir.operations import Adjoint, Problem
+from codegen.ir.program import BODY, SPACE, Assign, Program, Solve
+from codegen.ir.values import Kind, Var
 
+Env = dict[Var, Value]
+"""The values of a program's variables."""
 
-class Problem(Protocol):
-    """What a program needs to know of its scene: group, action, field or Hamiltonian, over any domain."""
+State = dict[str, Value]
+"""The values of inputs or outputs by name."""
 
-    def apply(self, domain: Domain, name: str, order: int | None, args: tuple[Any, ...]) -> tuple[Any, ...]:
-        """Return the results of a group or scene operation (any but lin, zero, advance, series and flows)."""
-
-    def flow(self, domain: Domain, part: str, tau: Any, args: tuple[Any, ...]) -> tuple[Any, ...]:
-        """Return the state after the exact flow of a part for the time tau."""
-
-    def series(self, domain: Domain, word: tuple[Factor, ...], dual: bool, x: Any, v: Any) -> tuple[Any, ...]:
-        """Return the product of a word's functions of ad_x, of ad*_x where ``dual``, applied to v."""
-
-    def dimension(self) -> int:
-        """Return the dimension of the Lie algebra."""
+TO_BODY = Adjoint(dual=True)
+TO_SPACE = TO_BODY.opposite()
 
 
-def coefficient(domain: Domain, c: Coefficient) -> Any:
-    """Return value * h**power in the domain."""
-    value = domain.number(c.value)
-    for _ in range(c.power):
-        value = domain.h * value
-    return value
-
-
-def apply(problem: Problem, domain: Domain, assign: Assign, args: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return the values of an assignment's targets; linear values are tuples of scalars."""
-    operation = assign.operation
-    if operation.name == "zero":
-        return ((domain.rational(0),) * problem.dimension(),)
-    if operation.name == "advance":
-        return (args[0] + coefficient(domain, operation.coefficients[0]),)
-    if operation.name == "lin":
-        return (_combine(domain, operation.coefficients, args),)
-    if operation.word:
-        return (problem.series(domain, operation.word, operation.name == "seriest", *args),)
-    if operation.name in FLOWS:
-        return problem.flow(domain, operation.part, coefficient(domain, operation.coefficients[0]), args)
-    if operation.name in FLOWS_FOR:
-        return problem.flow(domain, operation.part, args[-1], args[:-1])
-    return problem.apply(domain, operation.name, operation.order, args)
-
-
-def _combine(domain: Domain, coefficients: tuple[Coefficient, ...], args: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return sum c_k x_k componentwise; terms with equal coefficients are added before they are scaled."""
-    groups: dict[Coefficient, list[tuple[Any, ...]]] = {}
-    for c, x in zip(coefficients, args, strict=True):
-        groups.setdefault(c, []).append(x)
-    total: tuple[Any, ...] | None = None
-    for c, vectors in groups.items():
-        part = vectors[0]
-        for x in vectors[1:]:
-            part = tuple(a + b for a, b in zip(part, x, strict=True))
-        if not c.is_one:
-            factor = coefficient(domain, c)
-            part = tuple(factor * a for a in part)
-        total = part if total is None else tuple(a + b for a, b in zip(total, part, strict=True))
-    assert total is not None
-    return total
-
-
-def flatten(kind: Kind, value: Any) -> tuple[Any, ...]:
+def flatten(kind: Kind, value: Value) -> tuple[Scalar, ...]:
     """Return the scalars of a value; every value but a Real is a flat tuple already, matrices row by row."""
     return (value,) if kind is Kind.REAL else tuple(value)
 
@@ -92,13 +31,13 @@ def interpret(
     program: Program,
     problem: Problem,
     domain: Domain,
-    inputs: Mapping[str, Any],
+    inputs: Mapping[str, Value],
     *,
     limit: int = 400,
     newton: bool = True,
-    solutions: dict[Var, Any] | None = None,
-    near: list[list[Any]] | None = None,
-) -> dict[str, Any]:
+    solutions: Env | None = None,
+    near: list[list[Scalar]] | None = None,
+) -> State:
     """Return the new state after one step, by input name.
 
     ``inputs`` gives every input of the program: a Real is a scalar of the domain, anything else a flat tuple
@@ -113,18 +52,18 @@ def interpret(
     """
     if program.frame == BODY:
         core, start = replace(program, frame=SPACE), {**inputs, "mu": inward(problem, domain, inputs)}
-        options: dict[str, Any] = {"limit": limit, "newton": newton, "solutions": solutions, "near": near}
+        options: State = {"limit": limit, "newton": newton, "solutions": solutions, "near": near}
         found = interpret(core, problem, domain, start, **options)
         return found | {"mu": outward(problem, domain, inputs, start, found)}
     if program.substeps:
         return _composed(program, problem, domain, inputs, limit, newton, near)
     expected = {} if solutions is None else solutions
-    env: dict[Var, Any] = {v: inputs[v.name] for v in program.inputs}
+    env: Env = {v: inputs[v.name] for v in program.inputs}
 
     computed = getattr(domain, "computed", None)
 
     def run(assign: Assign) -> None:
-        results = apply(problem, domain, assign, tuple(env[a] for a in assign.args))
+        results = assign.operation.evaluate(problem, domain, tuple(env[a] for a in assign.args))
         if computed is not None:
             results = tuple(computed(v.name, x) for v, x in zip(assign.targets, results, strict=True))
         env.update(zip(assign.targets, results, strict=True))
@@ -133,7 +72,7 @@ def interpret(
         if isinstance(statement, Assign):
             run(statement)
         elif near is not None:
-            near.append(_correct(statement, env, domain, run, limit, near.pop(0)))
+            near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
             patience = getattr(domain, "patience", limit) if newton else limit
             try:
@@ -141,26 +80,26 @@ def interpret(
             except (ArithmeticError, ValueError):
                 if not newton or not hasattr(domain, "increment"):
                     raise
-                _correct(statement, env, domain, run, limit)
+                _correct(statement, env, _differenced(domain), run, limit)
             expected.update((unknown, env[unknown]) for unknown in statement.unknowns)
     return {name: env[var] for name, var in program.outputs}
 
 
-def inward(problem: Problem, domain: Domain, state: Mapping[str, Any]) -> tuple[Any, ...]:
+def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tuple[Scalar, ...]:
     """Return Ad*_q mu, the momentum of the body."""
-    (m,) = problem.apply(domain, "Adt", None, (state["q"], state["mu"]))
+    (m,) = TO_BODY.evaluate(problem, domain, (state["q"], state["mu"]))
     return tuple(m)
 
 
 def outward(
-    problem: Problem, domain: Domain, state: Mapping[str, Any], *ends: Mapping[str, Any]
-) -> tuple[Any, ...]:
+    problem: Problem, domain: Domain, state: Mapping[str, Value], *ends: Mapping[str, Value]
+) -> tuple[Scalar, ...]:
     """Return the momentum in space after a step from a state, made in the body between two ends.
 
     It is that of the state and what has been added: where rounding has made q not quite orthogonal, it turns
     this alone.
     """
-    before, after = (problem.apply(domain, "Adtinv", None, (x["q"], x["mu"]))[0] for x in ends)
+    before, after = (TO_SPACE.evaluate(problem, domain, (x["q"], x["mu"]))[0] for x in ends)
     return tuple(mu + (b - a) for mu, a, b in zip(state["mu"], before, after, strict=True))
 
 
@@ -168,11 +107,11 @@ def _composed(
     program: Program,
     problem: Problem,
     domain: Domain,
-    inputs: Mapping[str, Any],
+    inputs: Mapping[str, Value],
     limit: int,
     newton: bool,
-    near: list[list[Any]] | None,
-) -> dict[str, Any]:
+    near: list[list[Scalar]] | None,
+) -> State:
     """Return the new state after all substeps."""
     once, state = replace(program, substeps=()), dict(inputs)
     for step in program.substeps:
@@ -185,11 +124,16 @@ def _composed(
 
 
 def _iterate(
-    block: Solve, env: dict[Var, Any], domain: Domain, run: Any, limit: int, expected: Mapping[Var, Any]
+    block: Solve,
+    env: Env,
+    domain: Domain,
+    run: Callable[[Assign], None],
+    limit: int,
+    expected: Mapping[Var, Value],
 ) -> None:
     for unknown, start in zip(block.unknowns, block.starts, strict=True):
         env[unknown] = expected.get(unknown, env[start])
-    size: Any = None
+    size: Scalar = None
     for _ in range(limit):
         for assign in block.body:
             run(assign)
@@ -203,9 +147,20 @@ def _iterate(
     raise NotConverged(f"{block.label} did not settle in {limit} sweeps; the last change was {size}")
 
 
+def _differenced(domain: Domain) -> Differenced:
+    # Domains that wrap another one answer through __getattr__, which isinstance does not see.
+    assert hasattr(domain, "increment")
+    return cast("Differenced", domain)
+
+
 def _correct(
-    block: Solve, env: dict[Var, Any], domain: Any, run: Any, limit: int, near: Sequence[Any] | None = None
-) -> list[Any]:
+    block: Solve,
+    env: Env,
+    domain: Differenced,
+    run: Callable[[Assign], None],
+    limit: int,
+    near: Sequence[Scalar] | None = None,
+) -> list[Scalar]:
     """Solve a block by Newton's method with difference quotients: no formula is differentiated.
 
     It begins at ``near``, by default where the block starts; the unknowns are returned. A domain may say how
@@ -214,7 +169,7 @@ def _correct(
     kinds = [u.kind for u in block.unknowns]
     widths = [len(flatten(s.kind, env[s])) for s in block.starts]
 
-    def images(numbers: list[Any]) -> list[Any]:
+    def images(numbers: list[Scalar]) -> list[Scalar]:
         place = 0
         for unknown, kind, width in zip(block.unknowns, kinds, widths, strict=True):
             part = tuple(numbers[place : place + width])
@@ -249,7 +204,7 @@ def _correct(
     raise NotConverged(f"{block.label} did not settle in {limit} sweeps; the last change was {size}")
 
 
-def _solved(columns: list[list[Any]], right: list[Any]) -> list[Any]:
+def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
     """Solve a linear system by elimination with row exchanges; the matrix is given by columns."""
     n = len(right)
     rows = [[column[i] for column in columns] + [right[i]] for i in range(n)]
@@ -261,7 +216,7 @@ def _solved(columns: list[list[Any]], right: list[Any]) -> list[Any]:
         for i in range(k + 1, n):
             factor = rows[i][k] / rows[k][k]
             rows[i] = [x - factor * y for x, y in zip(rows[i], rows[k], strict=True)]
-    found: list[Any] = []
+    found: list[Scalar] = []
     for k in reversed(range(n)):
         total = rows[k][n]
         for x, y in zip(rows[k][k + 1 : n], reversed(found), strict=True):

@@ -13,7 +13,6 @@ import sys
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
 
 from orderconds.ring import QQ
 from orderconds.ring.protocol import Element, Ring
@@ -39,7 +38,7 @@ class Number:
     element: Element = field(repr=False)
 
     @cached_property
-    def key(self) -> tuple[Any, ...]:
+    def key(self) -> tuple[object, ...]:
         """What tells whether numbers are equal."""
         return tuple(self.ring.key(self.element))
 

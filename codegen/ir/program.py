@@ -10,155 +10,28 @@ Not supported here: branches on data, loops other than blocks, more than one gro
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from enum import StrEnum
-from fractions import Fraction
-from itertools import zip_longest
 
 from codegen.ir.number import Number
-
-
-class Kind(StrEnum):
-    """The type of a value."""
-
-    REAL = "Real"
-    ALG = "Alg"
-    DUAL = "Dual"
-    GROUP = "Group"
-    POINT = "Point"
-
-
-@dataclass(frozen=True)
-class Var:
-    """A named value; names are unique within a program."""
-
-    name: str
-    kind: Kind
-
-
-@dataclass(frozen=True)
-class Coefficient:
-    """value * h**power."""
-
-    value: Number
-    power: int = 0
-
-    @property
-    def is_zero(self) -> bool:
-        """Whether the number is provably zero."""
-        return self.value.is_zero
-
-    @property
-    def is_one(self) -> bool:
-        """Whether this is the constant 1, free of h."""
-        return self.power == 0 and self.value.is_one
-
-    def text(self) -> str:
-        """Spell it: ``1/2 h``."""
-        h = "" if self.power == 0 else " h" if self.power == 1 else f" h^{self.power}"
-        return f"{self.value.text()}{h}"
-
-
-ONE = Coefficient(Number.rational(1))
-
-A, D, G, P, R = Kind.ALG, Kind.DUAL, Kind.GROUP, Kind.POINT, Kind.REAL
-
-SIGNATURES: dict[str, tuple[tuple[Kind, ...], tuple[Kind, ...]]] = {
-    "identity": ((), (G,)),
-    "exp": ((A,), (G,)),
-    "mulexp": ((G, A), (G,)),  # g exp(x), each row of its matrix on its own
-    "mul": ((G, G), (G,)),  # the right factor acts first
-    "act": ((G, P), (P,)),
-    "actexp": ((A, P), (P,)),  # exp(x).y without forming exp(x)
-    "Ad": ((G, A), (A,)),
-    "Adinv": ((G, A), (A,)),  # Ad_{g^-1} x
-    "Adt": ((G, D), (D,)),  # Ad*_g mu, the plain dual of Ad_g
-    "Adtinv": ((G, D), (D,)),  # Ad*_{g^-1} mu
-    "ad": ((A, A), (A,)),  # [x, y]
-    "adt": ((A, D), (D,)),  # ad*_x mu
-    "dexpinv": ((A, A), (A,)),  # sum over k <= order of B_k/k! ad_x^k y
-    "dexpinvt": ((A, D), (D,)),  # sum over k <= order of B_k/k! (ad*_x)^k mu
-    "P": ((A, A, D), (D,)),  # P*_(order)(x, y) mu: its pairing with z is mu's with d/dx dexpinv_x y along z
-    "dexpt": ((A, D), (D,)),  # dexp*_x mu
-    "advance": ((R,), (R,)),  # t + coefficient
-    "field": ((P,), (A,)),  # f(y)
-    "fieldt": ((P, R), (A,)),  # f(y, t)
-    "hamilton": ((G, D), (A, D)),  # xi = D_2 H, n = -(D_1 H).q^-1
-    "hamiltont": ((G, D, R), (A, D)),
-    "energy": ((P,), (R,)),  # H(y)
-    "differential": ((P,), (D,)),  # R*_y dH: its pairing with e is d/deps H(exp(eps e).y) at eps = 0
-    "secant": ((D, A, R, R), (D,)),  # the covector nearest to g whose pairing with x is H1 - H0
-    "bivector": ((P, D), (A,)),  # omega_y(alpha, .), f(y) where alpha is the differential of H
-    # in the body frame (codegen.scene.body_frame): W and N of (q, P) with P = Ad*_q mu, and P of W
-    "velocity": ((G, D), (A,)),
-    "velocityt": ((G, D, R), (A,)),
-    "force": ((G, D), (D,)),
-    "forcet": ((G, D, R), (D,)),
-    "legendre": ((A,), (D,)),
-    # the product of a word's functions of ad_x, and of ad*_x
-    "series": ((A, A), (A,)),
-    "seriest": ((A, D), (D,)),
-    "flow": ((G, D), (G, D)),  # the exact flow of a part, for a time coefficient
-    "flowt": ((G, D, R), (G, D)),  # the same of a part that depends on t, which stands still
-    "flowfor": ((G, D, R), (G, D)),  # the flow for a time that is a value
-    "flowtfor": ((G, D, R, R), (G, D)),  # the same at a time t, the duration last
-}
-"""Argument and result kinds of every operation but ``lin`` and ``zero``, which are of any linear kind."""
-
-CUT_OFF = frozenset({"dexpinv", "dexpinvt", "P"})
-"""Operations with an ``order``, the number of brackets after which dexp^{-1} is cut off."""
-
-FLOWS = frozenset({"flow", "flowt"})
-"""Operations with a ``part``, and one coefficient: how long it flows."""
-
-FLOWS_FOR = frozenset({"flowfor", "flowtfor"})
-"""Operations with a ``part`` whose last argument says how long it flows."""
-
-LINEAR_LAST = frozenset(
-    {"Ad", "Adinv", "Adt", "Adtinv", "ad", "adt", "dexpinv", "dexpinvt", "P", "dexpt", "bivector"}
-    | {"series", "seriest"}
+from codegen.ir.operations import (
+    Act,
+    Adjoint,
+    Advance,
+    Bracket,
+    DualDexp,
+    Exp,
+    Field,
+    FlowOf,
+    HamiltonianDerivatives,
+    Identity,
+    InverseDexp,
+    Linear,
+    Multiply,
+    Operation,
+    Zero,
 )
-"""Operations that are linear in their last argument."""
-
-
-@dataclass(frozen=True, order=True)
-class Factor:
-    """phi(scale t)^power, where phi is exp, dexp = (e^t - 1)/t, or dexpinv cut off after t^order."""
-
-    function: str
-    scale: Fraction
-    order: int = 0
-    power: int = 1
-
-    def text(self) -> str:
-        """Spell it: ``exp(-t)``, ``1/dexpinv2(t)``."""
-        scale = {"1": "", "-1": "-"}.get(str(self.scale), str(self.scale))
-        order = str(self.order) if self.function == "dexpinv" else ""
-        return f"{'1/' if self.power < 0 else ''}{self.function}{order}({scale}t)"
-
-
-@dataclass(frozen=True)
-class Operation:
-    """What is done: a name of :data:`SIGNATURES`, ``lin`` (with coefficients) or ``zero``.
-
-    ``coefficients`` belongs to ``lin`` (one an argument), ``advance`` and :data:`FLOWS` (one), ``order`` to
-    :data:`CUT_OFF`, ``part`` to flows: which exact flow of the scene, ``word`` to ``series`` and ``seriest``.
-    """
-
-    name: str
-    coefficients: tuple[Coefficient, ...] = ()
-    order: int | None = None
-    part: str = ""
-    word: tuple[Factor, ...] = ()
-
-    def text(self) -> str:
-        """Spell it with its parameters."""
-        if self.word:
-            return f"{self.name}[{' '.join(factor.text() for factor in self.word)}]"
-        if self.part:
-            return f"{self.name}[{self.part}]"
-        return self.name if self.order is None else f"{self.name}({self.order})"
+from codegen.ir.values import Coefficient, Kind, Var
 
 
 @dataclass(frozen=True)
@@ -169,15 +42,28 @@ class Assign:
     operation: Operation
     args: tuple[Var, ...]
 
+    @property
+    def terms(self) -> tuple[tuple[Coefficient, Var], ...]:
+        """The terms of a linear combination; () for any other operation."""
+        if not isinstance(self.operation, Linear):
+            return ()
+        return tuple(zip(self.operation.coefficients, self.args, strict=True))
+
+    @property
+    def is_multiple(self) -> bool:
+        """Whether this is one coefficient times one value."""
+        return isinstance(self.operation, Linear) and len(self.args) == 1
+
+    @classmethod
+    def of_terms(cls, target: Var, terms: Iterable[tuple[Coefficient, Var]]) -> Assign:
+        """Return target = the linear combination of these terms."""
+        pairs = tuple(terms)
+        return cls((target,), Linear(tuple(c for c, _ in pairs)), tuple(v for _, v in pairs))
+
     def text(self) -> str:
-        """Spell it for people."""
+        """Return the text ``x = operation(a, b)``."""
         left = ", ".join(t.name for t in self.targets)
-        if self.operation.name == "lin":
-            # The verifier spells wrong programs too: coefficients and arguments may differ in number.
-            terms = zip_longest([f"({c.text()})" for c in self.operation.coefficients], self.args)
-            return f"{left} = " + " + ".join(f"{c or '?'} {a.name if a else '?'}" for c, a in terms)
-        extra = [c.text() for c in self.operation.coefficients]
-        return f"{left} = {self.operation.text()}({', '.join([a.name for a in self.args] + extra)})"
+        return f"{left} = {self.operation.applied([a.name for a in self.args])}"
 
 
 @dataclass(frozen=True)
@@ -283,40 +169,72 @@ class Builder:
         self.taken.add(candidate)
         return Var(candidate, kind)
 
-    def do(self, name: str, target: str, *args: Var, order: int | None = None) -> Var:
-        """Append target = name(args) for an operation with one result."""
-        (kind,) = SIGNATURES[name][1]
+    def add(self, operation: Operation, target: str, *args: Var) -> Var:
+        """Append target = operation(args) for an operation with one result."""
+        (kind,) = operation.signature()[1]
         var = self.fresh(target, kind)
-        self.body.append(Assign((var,), Operation(name, order=order), args))
+        self.body.append(Assign((var,), operation, args))
         return var
+
+    def identity(self, target: str) -> Var:
+        """Append target = e."""
+        return self.add(Identity(), target)
+
+    def exp(self, target: str, x: Var) -> Var:
+        """Append target = exp(x)."""
+        return self.add(Exp(), target, x)
+
+    def mul(self, target: str, g: Var, k: Var) -> Var:
+        """Append target = g k."""
+        return self.add(Multiply(), target, g, k)
+
+    def act(self, target: str, g: Var, y: Var) -> Var:
+        """Append target = g.y."""
+        return self.add(Act(), target, g, y)
+
+    def adjoint(self, target: str, g: Var, v: Var, *, inverse: bool = False) -> Var:
+        """Append target = Ad_g v, or Ad*_g v for v in the dual; of g^-1 where ``inverse``."""
+        return self.add(Adjoint(v.kind is Kind.DUAL, inverse), target, g, v)
+
+    def bracket(self, target: str, x: Var, v: Var) -> Var:
+        """Append target = [x, v], or ad*_x v for v in the dual."""
+        return self.add(Bracket(v.kind is Kind.DUAL), target, x, v)
+
+    def dexpinv(self, target: str, x: Var, v: Var, order: int) -> Var:
+        """Append target = dexp^{-1}_{(order),x} v, or its dual for v in the dual."""
+        return self.add(InverseDexp(order, v.kind is Kind.DUAL), target, x, v)
+
+    def dual_dexp(self, target: str, x: Var, mu: Var) -> Var:
+        """Append target = dexp*_x mu."""
+        return self.add(DualDexp(), target, x, mu)
+
+    def field_at(self, target: str, y: Var, *time: Var) -> Var:
+        """Append target = f(y), or f(y, t)."""
+        return self.add(Field(bool(time)), target, y, *time)
 
     def lin(self, target: str, kind: Kind, terms: list[tuple[Coefficient, Var]]) -> Var:
         """Append target = sum of coefficient * variable; an empty sum is ``zero``."""
         var = self.fresh(target, kind)
         terms = [(c, v) for c, v in terms if not c.is_zero]
-        operation = Operation("lin", tuple(c for c, _ in terms)) if terms else Operation("zero")
+        operation = Linear(tuple(c for c, _ in terms)) if terms else Zero(kind)
         self.body.append(Assign((var,), operation, tuple(v for _, v in terms)))
         return var
 
     def advance(self, target: str, t: Var, coefficient: Coefficient) -> Var:
         """Append target = t + coefficient."""
-        var = self.fresh(target, Kind.REAL)
-        self.body.append(Assign((var,), Operation("advance", (coefficient,)), (t,)))
-        return var
+        return self.add(Advance(coefficient), target, t)
 
-    def hamilton(self, xi: str, n: str, *args: Var) -> tuple[Var, Var]:
-        """Append (xi, n) = hamilton(q, mu[, t])."""
+    def hamilton(self, xi: str, n: str, q: Var, mu: Var, *time: Var) -> tuple[Var, Var]:
+        """Append (xi, n), the derivatives of the Hamiltonian at (q, mu), or at (q, mu, t)."""
         targets = (self.fresh(xi, Kind.ALG), self.fresh(n, Kind.DUAL))
-        name = "hamilton" if len(args) == 2 else "hamiltont"
-        self.body.append(Assign(targets, Operation(name), args))
+        self.body.append(Assign(targets, HamiltonianDerivatives(bool(time)), (q, mu, *time)))
         return targets
 
     def flow(self, part: str, q: Var, mu: Var, duration: Coefficient, *time: Var) -> tuple[Var, Var]:
         """Append (q, mu) = the exact flow of a part for a time ``duration``."""
         number = 1 + len(self.body)
         targets = (self.fresh(f"q{number}", Kind.GROUP), self.fresh(f"mu{number}", Kind.DUAL))
-        operation = Operation("flowt" if time else "flow", (duration,), part=part)
-        self.body.append(Assign(targets, operation, (q, mu, *time)))
+        self.body.append(Assign(targets, FlowOf(part, duration, bool(time)), (q, mu, *time)))
         return targets
 
     def take(self) -> tuple[Assign, ...]:

@@ -2,20 +2,8 @@
 
 from __future__ import annotations
 
-from codegen.ir.program import (
-    CUT_OFF,
-    EMBEDDED,
-    FLOWS,
-    FLOWS_FOR,
-    SIGNATURES,
-    Assign,
-    Kind,
-    Program,
-    Solve,
-    Var,
-)
-
-LINEAR = (Kind.ALG, Kind.DUAL)
+from codegen.ir.program import EMBEDDED, Assign, Program, Solve
+from codegen.ir.values import Var
 
 
 class IllFormed(AssertionError):
@@ -24,54 +12,71 @@ class IllFormed(AssertionError):
 
 def verify(program: Program) -> Program:
     """Return the program unchanged, or raise :class:`IllFormed` naming the first statement that is wrong."""
-    defined: set[Var] = set()
-    names: set[str] = set()
-
-    def define(var: Var, at: str | Assign) -> None:
-        if var.name in names:
-            raise IllFormed(f"{program.name}: {var.name} is assigned twice, at {_place(at)}")
-        names.add(var.name)
-        defined.add(var)
-
-    def use(var: Var, at: str | Assign) -> None:
-        if var not in defined:
-            what = f"{var.name}: {var.kind} is used before it is defined"
-            raise IllFormed(f"{program.name}: {what}, at {_place(at)}")
-
-    def check(assign: Assign) -> None:
-        for arg in assign.args:
-            use(arg, assign)
-        _types(program.name, assign)
-        for target in assign.targets:
-            define(target, assign)
-
-    for var in program.inputs:
-        define(var, "the inputs")
-    for statement in program.body:
-        if isinstance(statement, Assign):
-            check(statement)
-        else:
-            _shape(program.name, statement)
-            for start in statement.starts:
-                use(start, f"the starts of {statement.label}")
-            for unknown in statement.unknowns:
-                define(unknown, statement.label)
-            for assign in statement.body:
-                check(assign)
-            for image in statement.images:
-                use(image, f"the images of {statement.label}")
-            for residual in statement.residuals:
-                use(residual, f"the residuals of {statement.label}")
-    inputs = {v.name: v.kind for v in program.inputs}
-    for name, var in program.outputs:
-        use(var, f"output {name}")
-        if inputs.get("y" if name == EMBEDDED else name) != var.kind:
-            raise IllFormed(f"{program.name}: output {name} replaces no input of kind {var.kind}")
+    _Verifier(program).run()
     return program
 
 
+class _Verifier:
+    """One reading of a program from top to bottom."""
+
+    def __init__(self, program: Program) -> None:
+        self.program = program
+        self.defined: set[Var] = set()
+        self.names: set[str] = set()
+
+    def run(self) -> None:
+        """Raise for the first rule that is broken."""
+        for var in self.program.inputs:
+            self.define(var, "the inputs")
+        for statement in self.program.body:
+            if isinstance(statement, Assign):
+                self.assign(statement)
+            else:
+                self.block(statement)
+        inputs = {v.name: v.kind for v in self.program.inputs}
+        for name, var in self.program.outputs:
+            self.use(var, f"output {name}")
+            if inputs.get("y" if name == EMBEDDED else name) != var.kind:
+                raise IllFormed(f"{self.program.name}: output {name} replaces no input of kind {var.kind}")
+
+    def define(self, var: Var, at: str | Assign) -> None:
+        """Take note of a definition; a name is defined once."""
+        if var.name in self.names:
+            raise IllFormed(f"{self.program.name}: {var.name} is assigned twice, at {_place(at)}")
+        self.names.add(var.name)
+        self.defined.add(var)
+
+    def use(self, var: Var, at: str | Assign) -> None:
+        """Raise for a value that is not defined yet."""
+        if var not in self.defined:
+            what = f"{var.name}: {var.kind} is used before it is defined"
+            raise IllFormed(f"{self.program.name}: {what}, at {_place(at)}")
+
+    def assign(self, assign: Assign) -> None:
+        """Check one assignment."""
+        for arg in assign.args:
+            self.use(arg, assign)
+        _types(self.program.name, assign)
+        for target in assign.targets:
+            self.define(target, assign)
+
+    def block(self, block: Solve) -> None:
+        """Check one block; its body may read the unknowns."""
+        _shape(self.program.name, block)
+        for start in block.starts:
+            self.use(start, f"the starts of {block.label}")
+        for unknown in block.unknowns:
+            self.define(unknown, block.label)
+        for assign in block.body:
+            self.assign(assign)
+        for image in block.images:
+            self.use(image, f"the images of {block.label}")
+        for residual in block.residuals:
+            self.use(residual, f"the residuals of {block.label}")
+
+
 def _place(at: str | Assign) -> str:
-    """Spell where something is wrong; long numbers make that slow, so it is done for what is wrong alone."""
+    """Return the text of a place; it is computed for errors only, because long numbers make it slow."""
     return at.text() if isinstance(at, Assign) else at
 
 
@@ -84,20 +89,6 @@ def _shape(name: str, block: Solve) -> None:
 
 
 def _types(name: str, assign: Assign) -> None:
-    operation, args = assign.operation, tuple(a.kind for a in assign.args)
-    results = tuple(t.kind for t in assign.targets)
-    if operation.name == "zero":
-        good = not args and len(results) == 1 and results[0] in LINEAR
-    elif operation.name == "lin":
-        good = bool(args) and len(args) == len(operation.coefficients) and len(results) == 1
-        good = good and results[0] in LINEAR and all(k == results[0] for k in args)
-    elif operation.name in SIGNATURES:
-        good = (args, results) == SIGNATURES[operation.name]
-        good = good and len(operation.coefficients) == (operation.name in {"advance", *FLOWS})
-        good = good and bool(operation.part) == (operation.name in FLOWS | FLOWS_FOR)
-        good = good and (operation.order is not None) == (operation.name in CUT_OFF)
-        good = good and bool(operation.word) == (operation.name in {"series", "seriest"})
-    else:
-        good = False
-    if not good:
+    arguments, results = tuple(a.kind for a in assign.args), tuple(t.kind for t in assign.targets)
+    if not assign.operation.accepts(arguments, results):
         raise IllFormed(f"{name}: wrong types in {assign.text()}")

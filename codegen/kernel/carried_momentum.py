@@ -14,7 +14,8 @@ from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr
 from codegen.ir.interpret import inward, outward
 from codegen.ir.kernel import Carried, Field, Kernel
-from codegen.ir.program import BODY, Kind, Program
+from codegen.ir.program import BODY, Program
+from codegen.ir.values import Kind
 from codegen.scene.problem import Problem
 
 State = tuple[Expr, ...]

@@ -9,10 +9,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from codegen.groups.cotangent import Cotangent
+from codegen.groups.capabilities import CotangentBundle
 from codegen.ir.expr import walk
 from codegen.ir.kernel import Kernel
-from codegen.ir.program import FLOWS, Assign, Program
+from codegen.ir.operations import FLOWS
+from codegen.ir.program import Assign, Program
 from codegen.kernel.critical_path import chain
 from codegen.kernel.deferred_flows import part, with_deferred
 from codegen.kernel.translate import AS_WRITTEN, COMBINED, ORDERED, SHORTENED, to_kernel
@@ -32,7 +33,8 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     """
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
-    if not isinstance(scene.group, Cotangent) and FLOWS.isdisjoint(program.counts()):
+    flows = any(isinstance(assign.operation, FLOWS) for assign in program.assigns())
+    if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
     parted = None if scene.inputs else part(program, scene)  # inputs are sampled step by step
     core = program if parted is None else parted.core

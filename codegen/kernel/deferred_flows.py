@@ -12,7 +12,9 @@ from dataclasses import dataclass, replace
 
 from codegen.ir.kernel import ELAPSED, LEAD, Deferred, Kernel
 from codegen.ir.number import Number
-from codegen.ir.program import Assign, Kind, Operation, Program, Var
+from codegen.ir.operations import Advance, FlowFor, FlowOf, Operation
+from codegen.ir.program import Assign, Program
+from codegen.ir.values import Kind, Var
 from codegen.ir.verify import verify
 from codegen.kernel.translate import AS_WRITTEN, to_kernel
 from codegen.passes.flows import Letter, apart, commuting, word
@@ -104,23 +106,21 @@ def _run(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> int:
 
 
 def _last_time(program: Program) -> tuple[Var, ...]:
-    times = [a.targets for a in program.assigns() if a.operation.name == "advance"]
+    times = [a.targets for a in program.assigns() if isinstance(a.operation, Advance)]
     return times[-1] if times else ()
 
 
 def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
     """Return the program of some flows, those with a variable for the time that it holds."""
-    body = [a for a in old.assigns() if a.operation.name == "advance"]
+    body = [a for a in old.assigns() if isinstance(a.operation, Advance)]
     first = state = tuple(v for v in old.inputs if v.kind is not Kind.REAL)
     for number, (letter, duration) in enumerate(letters):
         targets = tuple(Var(f"{v.name}{number + 1}", v.kind) for v in first)
-        timed = "t" if letter.time else ""
-        if duration is None:
-            operation = Operation(f"flow{timed}", (letter.duration,), part=letter.part)
-            args = (*state, *letter.time)
-        else:
-            operation = Operation(f"flow{timed}for", part=letter.part)
-            args = (*state, *letter.time, duration)
+        operation: Operation = FlowOf(letter.part, letter.duration, bool(letter.time))
+        args = (*state, *letter.time)
+        if duration is not None:
+            operation = FlowFor(letter.part, bool(letter.time))
+            args = (*args, duration)
         body.append(Assign(targets, operation, args))
         state = targets
     outputs = tuple((name, var) for (name, _), var in zip(old.outputs, state, strict=True))

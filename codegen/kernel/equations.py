@@ -16,7 +16,8 @@ from codegen.ir.interpret import flatten
 from codegen.ir.kernel import CHORD
 from codegen.ir.linearise import FirstOrder, NotLinearised
 from codegen.ir.normal_form import NormalForms
-from codegen.ir.program import Kind, Program, Solve, Var
+from codegen.ir.program import Program, Solve
+from codegen.ir.values import Kind, Var
 from codegen.kernel import newton
 from codegen.passes.rewrite import uses
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from math import factorial
-from typing import Any
 
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, Space, evaluate, walk
@@ -67,7 +66,7 @@ class _AtZero(ExprDomain):
 def _at_zero(space: Space, roots: Sequence[Expr]) -> list[Expr]:
     """Return the roots at h = 0."""
     names = {n.payload for n in walk(roots) if n.op == "sym"}
-    values: dict[str, Any] = {name: space.zero if name == "h" else space.sym(name) for name in sorted(names)}
+    values = {name: space.zero if name == "h" else space.sym(name) for name in sorted(names)}
     return evaluate(roots, _AtZero(space), values)
 
 

@@ -7,12 +7,12 @@ wherever it is called; it computes those results that are read.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
+from codegen.ir.domain import Value
 from codegen.ir.expr import Expr, Space, evaluate, walk
-from codegen.ir.interpret import apply, flatten
+from codegen.ir.interpret import flatten
 from codegen.ir.kernel import Function, Kernel
-from codegen.ir.program import Coefficient, Kind
+from codegen.ir.values import Coefficient, Kind
 from codegen.kernel.repeated_trees import Tree, Trees, Values, distinct
 from codegen.scene.problem import Problem
 
@@ -56,33 +56,33 @@ def function(
     inputs = _Inputs(name, domain.space, fixed)
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
-    values: list[Any] = []
+    values: list[Value] = []
     for v, word in zip(given, words, strict=True):
         own = inputs.take([f"{word}_{k}" for k in range(trees.width(tree, v))])
         values.append(own[0] if v.kind is Kind.REAL else own)
     coefficients = [c for i in tree.members for c in distinct(trees.made[i].assign)]
     numbers = inputs.take([f"c{k + 1}" for k in range(len(coefficients))])
     (step,) = inputs.take(["h"]) if any(c.power for c in coefficients) else (domain.h,)
-    results: list[Any] = []
+    results: list[Value] = []
     texts: list[str] = []
     first = 0
     for i, places in zip(tree.members, wires, strict=True):
         assign = trees.made[i].assign
         args = tuple(values[p] if p >= 0 else results[-p - 1] for p in places)
         names = [words[p] if p >= 0 else texts[-p - 1] for p in places]
-        if assign.operation.name == "lin":
+        if assign.terms:
             own_terms = distinct(assign)
             symbol = dict(zip(own_terms, numbers[first:], strict=False))
             first += len(own_terms)
             scaled = {c: x * step**c.power if c.power else x for c, x in symbol.items()}
-            results.append(_sum(assign.operation.coefficients, scaled, args))
+            results.append(_sum([c for c, _ in assign.terms], scaled, args))
             terms = [
                 x if c.is_one else f"{inputs.spelled(symbol[c], c)} {x}"
-                for c, x in zip(assign.operation.coefficients, names, strict=True)
+                for (c, _), x in zip(assign.terms, names, strict=True)
             ]
             texts.append(f"({' + '.join(terms)})" if len(terms) > 1 else terms[0])
         else:
-            made = apply(scene, domain, assign, args)
+            made = assign.operation.evaluate(scene, domain, args)
             results += made
             texts += [f"{assign.operation.text()}({', '.join(names)})"] * len(made)
     targets = trees.made[tree.root].assign.targets
@@ -114,13 +114,13 @@ def calls(kernel: Kernel) -> dict[str, int]:
 class WithFunctions:
     """A domain in which a kernel's functions can be called."""
 
-    def __init__(self, domain: Any, functions: Sequence[Function]) -> None:
+    def __init__(self, domain: Value, functions: Sequence[Function]) -> None:
         self.domain, self.functions = domain, {function.name: function for function in functions}
 
-    def __getattr__(self, name: str) -> Any:
+    def __getattr__(self, name: str) -> Value:
         return getattr(self.domain, name)
 
-    def call(self, callee: str, *args: Any) -> Any:
+    def call(self, callee: str, *args: Value) -> Value:
         """Return one result of a function, or a function's value."""
         name, dot, k = callee.partition(".")
         if not dot:

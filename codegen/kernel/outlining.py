@@ -14,7 +14,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 from codegen.ir.domain import ExprDomain, FloatDomain
 from codegen.ir.expr import Expr, evaluate, walk
@@ -22,7 +21,7 @@ from codegen.ir.kernel import Function
 from codegen.ir.program import Program
 from codegen.ir.verify import IllFormed
 from codegen.kernel.outlined_functions import WithFunctions, function, rewritten
-from codegen.kernel.repeated_trees import Tree, Trees
+from codegen.kernel.repeated_trees import Key, Tree, Trees
 from codegen.scene.problem import Problem
 
 LONG, LONG_EXPLICIT = 700, 500
@@ -36,7 +35,7 @@ WORTH = 0.85
 AGREE = 1e-9
 """Relative difference of values that are the same but for rounding."""
 
-Shape = tuple[Any, tuple[int, ...]]
+Shape = tuple[Key, tuple[int, ...]]
 """What trees of one function have in common: their key, and the results that are read."""
 
 

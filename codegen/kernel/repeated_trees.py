@@ -6,22 +6,29 @@ Trees have one key where they do the same to other operands, with other coeffici
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
-from codegen.ir.domain import ExprDomain
+from codegen.ir.domain import ExprDomain, Value
 from codegen.ir.expr import Expr, walk
 from codegen.ir.interpret import flatten
-from codegen.ir.program import Assign, Coefficient, Operation, Program, Var
+from codegen.ir.operations import FLOWS, Advance, Identity, Linear, Zero
+from codegen.ir.program import Assign, Program
+from codegen.ir.values import Coefficient, Var
 
-NEVER = frozenset({"advance", "zero", "identity", "flow", "flowt", "flowfor", "flowtfor"})
+NEVER = (Advance, Zero, Identity, *FLOWS)
 """Operations that are not outlined: hardly any work, or flows, whose steps are timed as a whole."""
 
 NODES = 3
 """About how many operations stand on a line."""
 
 Values = tuple[Expr, ...]
+
+Key = Hashable
+"""What trees of one shape have in common."""
+
+PairKey = tuple[Key, Key, Key]
+"""The keys of two trees and of the tree that they are joined to."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +44,7 @@ class Made:
     @property
     def may_join(self) -> bool:
         """Whether it may be computed in a function."""
-        return self.joined and self.assign.operation.name not in NEVER
+        return self.joined and not isinstance(self.assign.operation, NEVER)
 
 
 @dataclass
@@ -62,14 +69,14 @@ class Trees:
 
     def __post_init__(self) -> None:
         self._users: dict[Var, list[int | None]] = {}
-        self._lines: dict[Any, int] = {}
-        self._multiples: dict[Var, tuple[Coefficient, Var, Any]] = {}
+        self._lines: dict[str, int] = {}
+        self._multiples: dict[Var, tuple[Coefficient, Var, Value]] = {}
 
     def note(
         self,
         assign: Assign,
-        args: Sequence[Any],
-        results: Sequence[Any],
+        args: Sequence[Value],
+        results: Sequence[Value],
         place: int,
         joined: bool = True,
     ) -> None:
@@ -89,15 +96,15 @@ class Trees:
             )
         )
 
-    def _from_the_whole(self, assign: Assign, args: Sequence[Any]) -> tuple[Assign, Sequence[Any]]:
+    def _from_the_whole(self, assign: Assign, args: Sequence[Value]) -> tuple[Assign, Sequence[Value]]:
         """Return a multiple of a multiple as one of that, so that the first is not read twice."""
-        if assign.operation.name != "lin" or len(assign.args) != 1:
+        if not assign.is_multiple:
             return assign, args
-        (c,), (v,), (target,) = assign.operation.coefficients, assign.args, assign.targets
+        ((c, v),), (target,) = assign.terms, assign.targets
         if v in self._multiples:
             d, v, value = self._multiples[v]
             c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)
-            assign = Assign((target,), Operation("lin", (c,)), (v,))
+            assign = Assign.of_terms(target, [(c, v)])
         self._multiples[target] = c, v, args[0]
         return assign, args
 
@@ -107,9 +114,9 @@ class Trees:
         trees = {i: Tree([i]) for i, m in enumerate(self.made) if m.may_join}
         owner = {i: i for i in trees}
         while True:
-            pairs: dict[Any, list[tuple[int, int]]] = {}
+            pairs: dict[PairKey, list[tuple[int, int]]] = {}
             keys = {i: self.key(t) for i, t in trees.items()}
-            count: dict[Any, int] = {}
+            count: dict[Key, int] = {}
             for key in keys.values():
                 count[key] = count.get(key, 0) + 1
             for i in trees:
@@ -134,7 +141,7 @@ class Trees:
                 for member in trees.pop(i).members:
                     owner[member] = j
 
-    def _gain(self, key: Any, found: list[tuple[int, int]], count: Mapping[Any, int]) -> int:
+    def _gain(self, key: PairKey, found: list[tuple[int, int]], count: Mapping[Key, int]) -> int:
         """Return about how many lines joining pairs of trees saves."""
         first, second, _ = key
         k = len(found)
@@ -196,17 +203,15 @@ class Trees:
                 targets[v] = 1 + len(targets)
         return list(given), wires
 
-    def key(self, tree: Tree) -> Any:
+    def key(self, tree: Tree) -> Key:
         """Return what trees of one shape have in common; coefficients differ, but those equal stay so."""
         _, wires = self.wiring(tree)
         shape = []
         for i, places in zip(tree.members, wires, strict=True):
             assign = self.made[i].assign
-            operation = assign.operation
-            own = _pattern(operation.coefficients)
-            shape.append(
-                (operation.name, operation.order, operation.word, own, places, assign.targets[0].kind)
-            )
+            # Sums of one shape may have other coefficients: they are arguments of the function.
+            operation = None if isinstance(assign.operation, Linear) else assign.operation
+            shape.append((operation, _pattern([c for c, _ in assign.terms]), places, assign.targets[0].kind))
         return tuple(shape)
 
     def useful(self, tree: Tree) -> bool:
@@ -249,6 +254,4 @@ def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]
 
 def distinct(assign: Assign) -> list[Coefficient]:
     """Return the coefficients of a sum, each once, without those that are one."""
-    if assign.operation.name != "lin":
-        return []
-    return list(dict.fromkeys(c for c in assign.operation.coefficients if not c.is_one))
+    return list(dict.fromkeys(c for c, _ in assign.terms if not c.is_one))

@@ -15,7 +15,7 @@ from codegen.errors import SceneError
 from codegen.ir.collect_constants import gathered
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, Space, walk
-from codegen.ir.interpret import apply, flatten
+from codegen.ir.interpret import flatten
 from codegen.ir.kernel import (
     ELAPSED,
     FIXED_POINT,
@@ -32,8 +32,10 @@ from codegen.ir.kernel import (
     Sample,
     Start,
 )
-from codegen.ir.program import EMBEDDED, Assign, Kind, Program, Solve, Var
+from codegen.ir.operations import BodyForce
+from codegen.ir.program import EMBEDDED, Assign, Program, Solve
 from codegen.ir.tangent import tangents
+from codegen.ir.values import Kind, Var
 from codegen.kernel import critical_path
 from codegen.kernel.assignments import Assignments
 from codegen.kernel.carried_momentum import Frames, State
@@ -115,7 +117,7 @@ class _Translation:
         args = tuple(self.env[a] for a in assign.args)
         try:
             nested = self.sums.value(domain, assign, self.env)
-            results = (nested,) if nested is not None else apply(scene, domain, assign, args)
+            results = (nested,) if nested is not None else assign.operation.evaluate(scene, domain, args)
         except ArithmeticError as error:
             raise SceneError(
                 f"{assign.operation.name} on {scene.group.name}: {error}",
@@ -123,7 +125,7 @@ class _Translation:
                 expected="a group whose operations have closed forms",
                 hint="this group serves exact series and interpretation",
             ) from error
-        if assign.operation.name.startswith("force"):
+        if isinstance(assign.operation, BodyForce):
             known = [x for v in assign.args for x in flatten(v.kind, self.env[v])]
             results = tuple(gathered(x, known) for x in results)
         reads = bool(scene.inputs) and any(v.kind is Kind.REAL for v in assign.args)  # signals at a time

@@ -7,15 +7,14 @@ group elements, vary component by component. So the Jacobian on T*SO(3) is 6 x 6
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 from codegen.errors import SceneError
 from codegen.groups.actions import LeftMultiplication
 from codegen.groups.base import LieGroup
-from codegen.groups.cotangent import Cotangent
+from codegen.groups.capabilities import CotangentBundle, RightTrivialisation
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr
-from codegen.ir.program import Kind
+from codegen.ir.values import Kind
 from codegen.scene.problem import Problem
 
 
@@ -23,25 +22,23 @@ from codegen.scene.problem import Problem
 class Variations:
     """How a state varies: its symbols in parts, each with the group that moves it, or None for numbers."""
 
-    parts: tuple[tuple[Any, tuple[str, ...]], ...]
+    parts: tuple[tuple[RightTrivialisation | None, tuple[str, ...]], ...]
 
     @classmethod
     def of(cls, scene: Problem) -> Variations:
         """Return those of a problem; SceneError for a group whose elements have no rates."""
-        parts: list[tuple[Any, tuple[str, ...]]] = []
+        parts: list[tuple[LieGroup | None, tuple[str, ...]]] = []
         for block in scene.state:
             moved = block.kind is Kind.POINT and isinstance(scene.action, LeftMultiplication)
-            if isinstance(scene.group, Cotangent) and moved:
-                base = scene.group.base
+            bundle = scene.group.offers(CotangentBundle) if moved else None
+            if bundle is not None:
+                base = bundle.base
                 parts += [(base, block.symbols[: base.size]), (None, block.symbols[base.size :])]
             elif block.kind is Kind.GROUP or moved:
                 parts.append((scene.group, block.symbols))
             else:
                 parts.append((None, block.symbols))
-        for group, _ in parts:
-            if group is not None and type(group).rate is LieGroup.rate:
-                raise SceneError(f"a Jacobian on {group.name}", where=scene.name, expected="another group")
-        return cls(tuple(parts))
+        return cls(tuple((_trivialised(scene, group), symbols) for group, symbols in parts))
 
     @property
     def dim(self) -> int:
@@ -86,3 +83,13 @@ class Variations:
             words.append(f"[{first}..{first + count - 1}] {what}")
             first += count
         return "; ".join(words)
+
+
+def _trivialised(scene: Problem, group: LieGroup | None) -> RightTrivialisation | None:
+    """Return a group as one whose tangent vectors are elements of its algebra, None for numbers."""
+    if group is None:
+        return None
+    trivialised = group.offers(RightTrivialisation)
+    if trivialised is None:
+        raise SceneError(f"a Jacobian on {group.name}", where=scene.name, expected="another group")
+    return trivialised

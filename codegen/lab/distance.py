@@ -1,22 +1,23 @@
-"""How far a computed state is from the reference: the scene's own measure.
+"""The error norm of a scene: the distance of a computed state from the reference.
 
-Each block of the state adds its own norm: the spectral norm for group elements that are matrices, the
-Euclidean norm for points, vectors, momenta and everything else. For the dipole on a stick that is
-|mu - mu_ref|_2 + |g - g_ref|_2 (thesis Fig. 3.2), for a point on the sphere the chord.
+Each field of the state adds its own norm: the spectral norm for group elements that are matrices, the
+Euclidean norm for everything else. For the dipole on a stick this is |mu - mu_ref|_2 + |g - g_ref|_2
+(H. Marthinsen, *Lie group integrators*, Fig. 3.2); for a point on the sphere it is the straight distance.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
-from codegen.groups import SO3, MatrixGroup, Product
-from codegen.ir.program import Kind
+from codegen.groups import LieGroup
+from codegen.groups.capabilities import DirectProduct, MatrixElements
+from codegen.ir.values import Kind
+from codegen.lab.number_types import Scalar
 from codegen.scene.problem import Problem
 
 
-def distance(scene: Problem, state: Sequence[Any], exact: Sequence[Any]) -> float:
+def distance(scene: Problem, state: Sequence[Scalar], exact: Sequence[Scalar]) -> float:
     """Return the error of ``state`` against ``exact``, both flat in the order of ``scene.symbols``.
 
     Differences are taken in the precision of ``exact`` before they are rounded, so that an error below 1e-16
@@ -34,12 +35,12 @@ def distance(scene: Problem, state: Sequence[Any], exact: Sequence[Any]) -> floa
     return total
 
 
-def _norm(group: Any, gap: Sequence[float]) -> float:
-    """Return the norm of a difference of two elements; a product adds those of its factors."""
-    if isinstance(group, Product):
-        return sum(map(_norm, group.factors, group.parts(tuple(gap))))
-    matrix = isinstance(group, SO3 | MatrixGroup)
-    return spectral_norm(gap) if matrix else euclidean_norm(gap)
+def _norm(group: LieGroup, gap: Sequence[float]) -> float:
+    """Return the norm of a difference of two elements; a product group adds the norms of its factors."""
+    product = group.offers(DirectProduct)
+    if product is not None:
+        return sum(map(_norm, product.factors, product.parts(tuple(gap))))
+    return euclidean_norm(gap) if group.offers(MatrixElements) is None else spectral_norm(gap)
 
 
 def euclidean_norm(vector: Sequence[float]) -> float:

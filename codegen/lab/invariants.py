@@ -1,31 +1,35 @@
-"""What a scene keeps, as functions of state and time: its invariants, and the laws of the manifold."""
+"""Conserved quantities of a scene as functions: its invariants and the manifold equations."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any
 
 from codegen.groups import LeftMultiplication
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr
-from codegen.ir.program import Kind
+from codegen.ir.values import Kind
+from codegen.lab.number_types import Evaluate, Vector
 from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import Problem
 
 FUNCTIONS = {name: getattr(math, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
 
 MANIFOLD = "manifold"
+"""Name of the manifold equations among the conserved quantities."""
 
 
-def functions(scene: Problem) -> dict[str, Callable[..., tuple[float, ...]]]:
-    """Return what a scene keeps as functions of state and time: its invariants, and the manifold's laws."""
+def functions(scene: Problem) -> dict[str, Evaluate]:
+    """Return each conserved quantity as a function (state, t) of floats."""
     kept = expressions(scene)
     return {name: straight_line(scene, exprs).python(float, FUNCTIONS) for name, exprs in kept.items()}
 
 
 def expressions(scene: Problem) -> dict[str, tuple[Expr, ...]]:
-    """Return what :func:`functions` evaluates, as expressions in the state's symbols."""
+    """Return each conserved quantity as expressions in the symbols of the state.
+
+    The expressions of :data:`MANIFOLD` vanish on the manifold; it is absent where the manifold is a vector
+    space.
+    """
     domain = ExprDomain()
     state = tuple(domain.space.sym(s) for s in scene.symbols)
     roots: dict[str, tuple[Expr, ...]] = {
@@ -37,13 +41,14 @@ def expressions(scene: Problem) -> dict[str, tuple[Expr, ...]]:
     return roots
 
 
-def _laws(scene: Problem, domain: ExprDomain, state: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return what must vanish on the blocks of the state that are elements of the group."""
-    start, found = 0, []
+def _laws(scene: Problem, domain: ExprDomain, state: Vector) -> Vector:
+    """Return the expressions that vanish where every group element of the state is in the group."""
+    start = 0
+    laws: list[Expr] = []
     for block in scene.state:
         values = state[start : start + len(block.symbols)]
         start += len(values)
         acting = block.kind is Kind.POINT and isinstance(scene.action, LeftMultiplication)
         if block.kind is Kind.GROUP or acting:
-            found += [x for _, x in scene.group.laws(domain, values)]
-    return tuple(found)
+            laws += [x for _, x in scene.group.laws(domain, values)]
+    return tuple(laws)

@@ -1,42 +1,44 @@
-"""Reference solutions: Gragg-Bulirsch-Stoer extrapolation of a scene's ambient equations, to 28 digits.
+"""Reference solutions: Gragg-Bulirsch-Stoer extrapolation of the ambient equations of a scene, to 28 digits.
 
-No Lie group enters: the modified midpoint rule is applied to y' = f(y).y in the coordinates of the state and
-extrapolated in the squared step (Hairer, Norsett and Wanner I, section II.9). So a mistake in a group's
-exponential or in a family cannot hide in the reference as well. Two runs of different order and tolerance
-must agree, and their distance is the stated uncertainty.
+No Lie group is involved: the modified midpoint rule is applied to y' = f(y).y in the coordinates of the
+state and extrapolated in the squared step (Hairer, Norsett and Wanner I, section II.9). So an error in a
+group's exponential or in a family cannot be hidden by the same error in the reference. Two runs of different
+order and tolerance must agree, and their distance is the stated uncertainty.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 from flint import arb
 
 from codegen.errors import SceneError
 from codegen.ir.domain import PreciseDomain
-from codegen.lab.ambient import Field, ambient_field
+from codegen.lab.ambient_field import ambient_field
+from codegen.lab.measurement_cache import MeasurementCache, user_cache
+from codegen.lab.number_types import Evaluate, Scalar, Vector
+from codegen.lab.straight_line_field import velocity
 from codegen.scene.problem import Problem
 from orderconds.ring.precision import precision
 
 DIGITS = 50
-"""Working precision: the harmonic step sequence loses up to ten digits at 16 columns."""
+"""Working precision: the harmonic step sequence loses up to ten digits with 16 columns."""
 
 BITS = 200
-"""Working precision of the balls that are computed with: some digits more."""
+"""Working precision of the balls, some digits more than :data:`DIGITS`."""
 
 RUNS = ((14, -33), (16, -36))
-"""Columns of the extrapolation and decimal exponent of the tolerance, of the check and of the answer."""
+"""Columns of the extrapolation and decimal exponent of the tolerance: for the check, and for the result."""
 
 AGREEMENT = 1e-28
 """The two runs must agree to this, relative to the size of the state."""
 
 LEAST_STEP = 1e-6
-"""Part of the span below which a step says that the solution runs into a singularity."""
+"""A step below this part of the span shows that the solution is near a singularity."""
 
 MOST_STEPS = 10_000
-"""Steps of extrapolation after which a scene is too stiff, or its span too long: they take minutes."""
+"""Largest number of extrapolation steps. A scene that needs more is too stiff, or its span is too long."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +50,7 @@ class Reference:
     """
 
     scene: str
-    state: tuple[Any, ...]
+    state: Vector
     uncertainty: float
 
     def digits(self, count: int = 30) -> tuple[str, ...]:
@@ -58,11 +60,49 @@ class Reference:
         return tuple(mpmath.nstr(x, count) for x in self.state)
 
 
+@dataclass(frozen=True)
+class _Stored:
+    """A reference as the cache stores it: decimal strings, and the uncertainty."""
+
+    state: tuple[str, ...]
+    uncertainty: float
+
+
+def cached_reference(scene: Problem, cache: MeasurementCache | None = None) -> Reference:
+    """Return the reference of a scene, computed only if the cache does not hold it.
+
+    ``cache`` is the user's cache by default. Errors as :func:`reference`.
+    """
+
+    def compute() -> _Stored:
+        computed = reference(scene)
+        return _Stored(computed.digits(DIGITS), computed.uncertainty)
+
+    stored = (cache or user_cache()).get(_key(scene), _Stored, compute)
+    context = PreciseDomain(0, DIGITS).context
+    return Reference(scene.name, tuple(map(context.mpf, stored.state)), stored.uncertainty)
+
+
+def _key(scene: Problem) -> tuple[object, ...]:
+    """Return everything that a reference depends on: field, constants, initial state, span, settings."""
+    field = velocity(scene)
+    start = scene.initial(PreciseDomain(0, DIGITS))
+    return (
+        "reference",
+        field.lines,
+        field.results,
+        [x.text() for x in field.constants],
+        [str(x) for x in start],
+        [str(x) for x in scene.span],
+        (AGREEMENT, BITS, DIGITS, RUNS),
+    )
+
+
 def reference(scene: Problem) -> Reference:
     """Return the reference of a scene at the end of its span, with its measured uncertainty.
 
-    :class:`codegen.errors.SceneError` where the equations cannot be evaluated along the way, or where two
-    runs do not agree to 28 digits.
+    :class:`codegen.errors.SceneError` if the equations cannot be evaluated along the way, or if the two runs
+    do not agree to 28 digits.
     """
     checked, answer = (_end(scene, columns, exponent) for columns, exponent in RUNS)
     size = max(1.0, *(float(abs(x)) for x in answer))
@@ -77,20 +117,18 @@ def reference(scene: Problem) -> Reference:
     return Reference(scene.name, answer, gap)
 
 
-def _end(scene: Problem, columns: int, exponent: int) -> tuple[Any, ...]:
-    """Return the final state, by steps as long as the difference of the last two columns permits."""
+def _end(scene: Problem, columns: int, exponent: int) -> Vector:
+    """Return the final state; the difference of the last two columns controls the step."""
     context = PreciseDomain(0, DIGITS)
     with precision(BITS):
         field = ambient_field(scene)
         y = tuple(arb(context.context.nstr(x, DIGITS + 5)) for x in scene.initial(context))
-        found = _integrate(scene, field, tuple(x.mid() for x in y), columns, 10.0**exponent)
-        return tuple(context.context.mpf(x.str(DIGITS + 5, radius=False)) for x in found)
+        final = _integrate(scene, field, tuple(x.mid() for x in y), columns, 10.0**exponent)
+        return tuple(context.context.mpf(x.str(DIGITS + 5, radius=False)) for x in final)
 
 
-def _integrate(
-    scene: Problem, field: Field, y: tuple[Any, ...], columns: int, tolerance: float
-) -> tuple[Any, ...]:
-    """Return the state at the end of the span, as midpoints of the working precision."""
+def _integrate(scene: Problem, field: Evaluate, y: Vector, columns: int, tolerance: float) -> Vector:
+    """Return the state at the end of the span, as midpoints in the working precision."""
     t, end = (arb(x.numerator) / x.denominator for x in scene.span)
     whole = float(end - t)
     step = whole / 8
@@ -102,7 +140,7 @@ def _integrate(
         last = arb(step) >= left
         try:
             new, error = _extrapolate(field, y, t, left if last else arb(step), columns)
-        except ArithmeticError as failure:  # a trial step may be long enough to leave the field's domain
+        except ArithmeticError as failure:  # a long trial step may leave the domain of the field
             reason, step = str(failure), step / 5
             continue
         size = max(1.0, *(abs(float(x)) for x in new))
@@ -123,15 +161,13 @@ def _integrate(
     )
 
 
-def _extrapolate(
-    field: Field, y: tuple[Any, ...], t: Any, step: Any, columns: int
-) -> tuple[tuple[Any, ...], float]:
-    """Return the diagonal entry of the table after ``columns`` rows, and its distance to its neighbour.
+def _extrapolate(field: Evaluate, y: Vector, t: Scalar, step: Scalar, columns: int) -> tuple[Vector, float]:
+    """Return the diagonal entry of the table after ``columns`` rows, and its distance from its neighbour.
 
-    ArithmeticError where the field cannot be evaluated on the way.
+    ArithmeticError if the field cannot be evaluated at some stage.
     """
     slope = field(y, t)
-    row: list[tuple[Any, ...]] = []
+    row: list[Vector] = []
     for j in range(1, columns + 1):
         new = [_midpoint(field, y, slope, t, step, 2 * j)]
         for k in range(1, j):
@@ -145,9 +181,7 @@ def _extrapolate(
     return tuple(x.mid() for x in row[-1]), error
 
 
-def _midpoint(
-    field: Field, y: tuple[Any, ...], slope: tuple[Any, ...], t: Any, step: Any, n: int
-) -> tuple[Any, ...]:
+def _midpoint(field: Evaluate, y: Vector, slope: Vector, t: Scalar, step: Scalar, n: int) -> Vector:
     """Return n steps (n even) of the explicit midpoint rule, started by an Euler step."""
     h = step / n
     twice = 2 * h

@@ -1,31 +1,29 @@
-"""The report: survey scenes, lay their pages and the overview out, and put each in place whole."""
+"""The report: measure scenes, and write a page for each and an overview, each file atomically."""
 
 from __future__ import annotations
 
 import os
 import tempfile
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from codegen import scenes
+from codegen.build import find_compiler
 from codegen.emitter import bare, quoted
-from codegen.lab.bench import table
-from codegen.lab.page import OVERVIEW, page_name, render, render_overview
-from codegen.lab.records import FOLDER, Records
-from codegen.lab.study import Tell
-from codegen.lab.survey import FULL, PARTS, QUICK, USUAL, Effort, Plan, Survey, plan, survey
+from codegen.lab.default_methods import REPORT_SCENES
+from codegen.lab.measurement_cache import FOLDER, MeasurementCache
+from codegen.lab.page.documents import OVERVIEW, page_name, render, render_overview
+from codegen.lab.progress import Progress
+from codegen.lab.registry import selected
+from codegen.lab.scene_results import SceneResults, measure_scene
+from codegen.lab.subject import EFFORTS, Subject, subject
 from orderconds.errors import InputError
-
-SCENES = ("dipole", "free_rigid_body")
-"""The scenes that are surveyed where nobody chose: a Hamiltonian and a field."""
-
-EFFORTS = {"quick": QUICK, "usual": USUAL, "full": FULL}
 
 
 @dataclass(frozen=True)
 class Request:
-    """What is to be reported: scenes, methods, peers and parts as spelled, and the name of the effort."""
+    """A report as the user requests it: names of scenes, methods, peers, measurements and effort."""
 
     scenes: tuple[str, ...] = ()
     methods: tuple[str, ...] = ()
@@ -34,13 +32,13 @@ class Request:
     effort: str = "usual"
     adaptive: tuple[str, ...] = ()
 
-    def plans(self) -> tuple[Plan, ...]:
-        """Return the plan of each scene; a mistake in any name shows here, before anything is measured."""
-        effort: Effort = EFFORTS[self.effort]
-        chosen = [(name, scenes.load(name)) for name in dict.fromkeys(self.scenes or SCENES)]
+    def subjects(self) -> tuple[Subject, ...]:
+        """Return the subject of each page; InputError for unknown names, before anything is measured."""
+        chosen = [(name, scenes.load(name)) for name in dict.fromkeys(self.scenes or REPORT_SCENES)]
+        selected(self.parts)
+        effort = EFFORTS[self.effort]
         return tuple(
-            plan(name, scene, self.methods, self.peers, effort, self.parts or PARTS, self.adaptive)
-            for name, scene in chosen
+            subject(name, scene, self.methods, self.peers, effort, self.adaptive) for name, scene in chosen
         )
 
     def command(self) -> str:
@@ -54,35 +52,39 @@ class Request:
         return " ".join([*words, "-o DIR"])
 
 
-def report(request: Request, directory: str | Path, tell: Tell) -> tuple[Path, tuple[Survey, ...]]:
-    """Measure, write the pages into a folder, and return the path of the overview with the surveys.
+def report(
+    request: Request, directory: str | Path, progress: Progress
+) -> tuple[Path, tuple[SceneResults, ...]]:
+    """Measure, write the pages into a folder, and return the path of the overview with the results.
 
-    A scene's page is there as soon as the scene is done. What an interrupted report had measured is kept in
-    the folder until the report is whole. :class:`InputError` where the folder cannot be written to; that is
-    found out before the measuring.
+    The page of a scene is written as soon as it is complete. The results of an interrupted report stay in a
+    hidden folder until the report is complete. :class:`InputError` before anything is measured if a name is
+    unknown, if there is no C compiler, or if the folder cannot be written to.
     """
     folder = Path(directory)
-    plans = request.plans()
-    place(folder / OVERVIEW, None)
-    records = Records(folder / FOLDER)
-    surveys: list[Survey] = []
-    for planned in plans:
-        found = survey(planned, tell, records)
-        surveys.append(found)
-        place(folder / page_name(found), render(found, request.command()))
-        if found.cost:
-            place(folder / f"{found.scene.name}.csv", table(found.cost.rows))
-    overview = place(folder / OVERVIEW, render_overview(surveys, request.command()))
-    records.close()
-    return overview, tuple(surveys)
+    subjects = request.subjects()
+    find_compiler()
+    write_file(folder / OVERVIEW, None)
+    cache = MeasurementCache(folder / FOLDER)
+    results: list[SceneResults] = []
+    for planned in subjects:
+        page = measure_scene(replace(planned, cache=cache, progress=progress), selected(request.parts))
+        results.append(page)
+        write_file(folder / page_name(page), render(page, request.command()))
+        for measured in page.measured:
+            for name, text in measured.files().items():
+                write_file(folder / name, text)
+    overview = write_file(folder / OVERVIEW, render_overview(results, request.command()))
+    cache.remove()
+    return overview, tuple(results)
 
 
-def place(path: Path, text: str | None) -> Path:
-    """Write a text under a temporary name and move it into place; None only tries whether that works."""
+def write_file(path: Path, text: str | None) -> Path:
+    """Write a text under a temporary name and move it into place; None only tests the folder."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=path.parent, prefix=".report-") as made:
-            whole = Path(made) / path.name
+        with tempfile.TemporaryDirectory(dir=path.parent, prefix=".report-") as temporary:
+            whole = Path(temporary) / path.name
             whole.write_text(text or "", encoding="utf-8", newline="\n")
             if text is not None:
                 os.replace(whole, path)
@@ -96,5 +98,5 @@ def place(path: Path, text: str | None) -> Path:
 
 
 def read_scenes(names: Sequence[str], everything: bool) -> tuple[str, ...]:
-    """Return the scenes asked for: those named, or the whole gallery."""
+    """Return the named scenes, or the whole gallery."""
     return scenes.GALLERY if everything else tuple(names)

@@ -1,7 +1,7 @@
-"""Running a method over a scene's span: the interpreter, in double or any precision, or an emitted module.
+"""Running a method over the span of a scene, by the interpreter or by an emitted module.
 
-A :data:`Runner` hides which: it takes a number of steps and returns the final state, so that every
-executor of a program climbs the same ladder of step sizes.
+A :data:`Runner` takes a number of steps and returns the final state. So one convergence test serves the
+interpreter in any precision, emitted Python and emitted C.
 """
 
 from __future__ import annotations
@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 from codegen.artifact import Artifact
 from codegen.certify import CertifiedOrder
@@ -17,6 +16,7 @@ from codegen.emitter import Compiled, Optimised, compile_method, emit_compiled
 from codegen.errors import MethodError
 from codegen.ir.domain import Domain, FloatDomain, NotConverged, PreciseDomain
 from codegen.ir.interpret import flatten, interpret
+from codegen.lab.number_types import Scalar, Vector
 from codegen.loader import Integrator, Statistics, StepFailed, load
 from codegen.lower import problem_for
 from codegen.method import Method
@@ -24,7 +24,7 @@ from codegen.scene.problem import Problem
 
 TARGETS = ("c", "python", "interpreter")
 DOUBLE = 16
-"""Decimal digits up to which the interpreter uses doubles."""
+"""Decimal digits up to which the interpreter computes with doubles."""
 
 
 class RunFailed(ArithmeticError):
@@ -33,7 +33,7 @@ class RunFailed(ArithmeticError):
 
 @dataclass
 class Interpreted:
-    """The interpreter on the optimised step program, in ``digits`` decimal digits (16: doubles)."""
+    """The interpreter on the optimised step program, with ``digits`` decimal digits (16: doubles)."""
 
     compiled: Optimised
     digits: int = DOUBLE
@@ -41,44 +41,50 @@ class Interpreted:
 
     @property
     def epsilon(self) -> float:
-        """2^-52 for doubles, else 10^(1 - digits)."""
+        """The machine epsilon: 2^-52 for doubles, else 10^(1 - digits)."""
         return 2.0**-52 if self.digits <= DOUBLE else 10.0 ** (1 - self.digits)
 
     @property
     def most_steps(self) -> int:
-        """About ten seconds' worth."""
+        """The largest number of steps in a convergence test, about ten seconds."""
         return 1280 if self.digits <= DOUBLE else 320
 
     @cached_property
-    def view(self) -> Problem:
-        """The scene as the family sees it."""
+    def problem(self) -> Problem:
+        """The problem in which the method's family was lowered."""
         return problem_for(self.compiled.scene, self.compiled.method)
 
-    def final(self, steps: int) -> tuple[Any, ...]:
-        """Return the state at the end of the span."""
-        start, end = self.view.span
+    def final(self, steps: int) -> Vector:
+        """Return the state at the end of the span after ``steps`` equal steps; :class:`RunFailed`."""
+        start, end = self.problem.span
         h = (end - start) / steps if steps else end - start
         double = self.digits <= DOUBLE
         domain: Domain = FloatDomain(float(h)) if double else PreciseDomain(h, self.digits)
-        state, first = self.view.initial(domain), domain.rational(*start.as_integer_ratio())
+        state, first = self.problem.initial(domain), domain.rational(*start.as_integer_ratio())
         for k in range(steps):
             state = self._step(domain, state, first + k * domain.h)
         return state
 
-    def _step(self, domain: Domain, state: Sequence[Any], t: Any) -> tuple[Any, ...]:
-        values: dict[str, Any] = {"t": t}
-        start = 0
-        for block in self.view.state:
-            end = start + len(block.symbols)
-            values[block.name] = tuple(state[start:end])
-            start = end
+    def _step(self, domain: Domain, state: Vector, t: Scalar) -> Vector:
+        values: dict[str, Scalar] = {"t": t, **split_state(self.problem, state)}
         program = self.compiled.program
         inputs = {v.name: values[v.name] for v in program.inputs}
         try:
-            found = interpret(program, self.view, domain, inputs)
+            outputs = interpret(program, self.problem, domain, inputs)
         except (NotConverged, ZeroDivisionError, OverflowError, ValueError) as error:
             raise RunFailed(str(error)) from error
-        return tuple(x for b in self.view.state for x in flatten(b.kind, found[b.name]))
+        return tuple(x for b in self.problem.state for x in flatten(b.kind, outputs[b.name]))
+
+
+def split_state(problem: Problem, state: Sequence[Scalar]) -> dict[str, Vector]:
+    """Return the fields of a flat state by name."""
+    fields: dict[str, Vector] = {}
+    start = 0
+    for field in problem.state:
+        end = start + len(field.symbols)
+        fields[field.name] = tuple(state[start:end])
+        start = end
+    return fields
 
 
 @dataclass
@@ -92,31 +98,34 @@ class Emitted:
 
     @property
     def most_steps(self) -> int:
-        """About a second's worth."""
+        """The largest number of steps in a convergence test, about one second."""
         return 81920 if self.target == "c" else 10240
 
     @cached_property
-    def emission(self) -> Artifact:
-        """The module's files and manifest."""
+    def artifact(self) -> Artifact:
+        """The files and the manifest of the module."""
         return emit_compiled(self.compiled, self.target, order=self.order)
 
     @cached_property
     def integrator(self) -> Integrator:
         """The loaded module."""
-        return load(self.emission)
+        return load(self.artifact)
 
     @cached_property
-    def twin(self) -> Emitted:
-        """The same step emitted to Python, which can be looked into."""
+    def python(self) -> Emitted:
+        """The same step emitted to Python, whose solver can be observed."""
         return Emitted(self.compiled, "python", self.order)
 
     @cached_property
     def initial(self) -> list[float]:
-        """The scene's initial state in doubles."""
+        """The initial state of the scene in doubles."""
         return list(self.compiled.scene.initial(FloatDomain(0.0)))
 
     def final(self, steps: int, statistics: Statistics | None = None) -> tuple[float, ...]:
-        """Return the state at the end of the span; ``statistics`` counts what blocks took."""
+        """Return the state at the end of the span after ``steps`` equal steps; :class:`RunFailed`.
+
+        ``statistics`` receives the numbers of iterations of implicit blocks.
+        """
         first, last = self.compiled.scene.span
         h = float((last - first) / max(steps, 1))
         try:
@@ -126,15 +135,17 @@ class Emitted:
 
 
 Runner = Interpreted | Emitted
-"""Executes one compiled method over its scene's span: ``target``, ``final``, ``epsilon``, ``most_steps``."""
+"""Runs one compiled method over the span: ``target``, ``final``, ``epsilon``, ``most_steps``."""
 
 
 def runner(
     scene: Problem, method: Method, target: str, digits: int = DOUBLE, order: CertifiedOrder | None = None
 ) -> Runner:
-    """Return the runner of a target.
+    """Return the runner for a target: ``c``, ``python`` or ``interpreter``.
 
-    ``digits`` above 16 are for the interpreter alone; ``order`` is the method's, where it is known already.
+    More than 16 ``digits`` require the interpreter. ``order`` is the order of the method if it is already
+    known. :class:`codegen.errors.MethodError` for an unknown target and for digits that the target does not
+    have.
     """
     if target not in TARGETS:
         raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(TARGETS)}")

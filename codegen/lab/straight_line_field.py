@@ -1,19 +1,19 @@
-"""A scene's ambient equation y' = f(y).y as straight-line code, for references and for peers.
+"""The ambient equation y' = f(y).y of a scene as straight-line code, for reference solutions and peers.
 
-The right-hand side is evaluated once over expressions; every node becomes one line, so that what is shared is
-computed once. The same lines become a Python function over whatever numbers its names stand for (floats,
-balls, arrays of another library) and the body of a C function.
+The right-hand side is evaluated once over expressions. Every node becomes one line, so that common
+subexpressions are computed once. The same lines become a Python function over any numbers (floats, balls,
+arrays of another library) and the body of a C function.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
+from codegen.lab.number_types import Evaluate, Scalar
 from codegen.printers.expression import number
 from codegen.scene.problem import TIME, Problem
 
@@ -30,16 +30,19 @@ class StraightLine:
     results: tuple[str, ...]
     functions: tuple[str, ...]
 
-    def python(self, constant: Callable[[Number], Any], functions: Mapping[str, Any]) -> Callable[..., Any]:
-        """Return field(y, t) -> tuple, over the numbers that ``constant`` makes and ``functions`` take."""
+    def python(self, constant: Callable[[Number], Scalar], functions: Mapping[str, Scalar]) -> Evaluate:
+        """Return field(y, t) -> tuple over any numbers.
+
+        ``constant`` converts an exact number, ``functions`` maps ``sqrt``, ``sin``, ... to functions of them.
+        """
         body = [f"    {name} = {text}" for name, text in self.lines]
         source = "\n".join(
             ["def field(y, t):", *body, f"    return ({''.join(f'{r}, ' for r in self.results)})"]
         )
-        found: dict[str, Any] = {f"c{k}": constant(x) for k, x in enumerate(self.constants)}
-        found |= {name: functions[name] for name in self.functions}
-        exec(compile(source, f"<{self.scene}>", "exec"), found)
-        field: Callable[..., Any] = found["field"]
+        names: dict[str, Scalar] = {f"c{k}": constant(x) for k, x in enumerate(self.constants)}
+        names |= {name: functions[name] for name in self.functions}
+        exec(compile(source, f"<{self.scene}>", "exec"), names)
+        field: Evaluate = names["field"]
         return field
 
     def c(self, target: str = "dy") -> list[str]:
@@ -52,7 +55,7 @@ class StraightLine:
 
 
 def velocity(scene: Problem) -> StraightLine:
-    """Return a scene's ambient derivative, its parameters at their defaults."""
+    """Return the ambient derivative of a scene, its parameters at their defaults."""
     domain = ExprDomain()
     state = tuple(domain.space.sym(s) for s in scene.symbols)
     roots = scene.velocity(domain, state, domain.space.sym(TIME))
@@ -60,7 +63,7 @@ def velocity(scene: Problem) -> StraightLine:
 
 
 def straight_line(scene: Problem, roots: tuple[Expr, ...]) -> StraightLine:
-    """Return expressions in the state's symbols and the time as straight-line code."""
+    """Return expressions in the symbols of the state and the time as straight-line code."""
     constants: list[Number] = []
     names: dict[int, str] = {}
     lines: list[tuple[str, str]] = []
@@ -68,20 +71,20 @@ def straight_line(scene: Problem, roots: tuple[Expr, ...]) -> StraightLine:
     places = {s: f"y[{i}]" for i, s in enumerate(scene.symbols)}
     for node in walk(roots):
         if node.op == "sym":
-            names[node.id] = places.get(node.payload, node.payload)
+            names[node.id] = places.get(node.payload, str(node.payload))
         elif node.op == "const":
             names[node.id] = f"c{len(constants)}"
             constants.append(node.payload)
         else:
             names[node.id] = f"v{node.id}"
-            lines.append((f"v{node.id}", _spelled(node, [names[a.id] for a in node.args])))
+            lines.append((f"v{node.id}", _text(node, [names[a.id] for a in node.args])))
             if node.op == "call":
                 functions.add(node.payload)
     results = tuple(names[r.id] for r in roots)
     return StraightLine(scene.name, tuple(constants), tuple(lines), results, tuple(sorted(functions)))
 
 
-def _spelled(node: Expr, args: list[str]) -> str:
+def _text(node: Expr, args: list[str]) -> str:
     if node.op in INFIX:
         return f"{args[0]} {INFIX[node.op]} {args[1]}"
     if node.op == "neg":

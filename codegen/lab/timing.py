@@ -1,8 +1,8 @@
-"""What a run costs: CPU time of repeated calls in one process, the least over several batches.
+"""The CPU time of a call: the least over several batches of repeated calls in one process.
 
-The least time is the one that the machine disturbed least; a mean would measure the neighbours as well. What
-a call costs before its first step (crossing from Python, copying the state) is measured with runs of no step
-and taken off, so that short runs compare with long ones.
+The least time is the one that other processes disturbed least; a mean would include their load. A call from
+Python costs something before the first step. This overhead is measured with a run of no steps and subtracted,
+so that short and long runs can be compared.
 """
 
 from __future__ import annotations
@@ -10,14 +10,13 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 BATCH = 0.004
-"""Seconds that a batch of calls must last, far above the clock's resolution."""
+"""Seconds that a batch of calls must last, far above the resolution of the clock."""
 
 BATCHES = 7
 FEWER = 3
-"""Batches, and those of a call that takes longer than :data:`LONG` seconds."""
+"""Batches, and batches of a call that takes longer than :data:`LONG` seconds."""
 
 LONG = 0.2
 
@@ -31,12 +30,12 @@ class Timing:
 
     @property
     def ns_per_step(self) -> float:
-        """Nanoseconds a step."""
+        """Nanoseconds per step."""
         return 1e9 * self.seconds / self.steps
 
 
-def samples(call: Callable[[], Any], batch: float = BATCH, batches: int = BATCHES) -> tuple[float, ...]:
-    """Return the CPU seconds of one call by several batches, each long enough for the clock, sorted."""
+def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHES) -> tuple[float, ...]:
+    """Return the CPU seconds of one call in several batches long enough for the clock, sorted."""
     calls, first = 1, _batch(call, 1)
     while first < batch:
         calls *= 2 if first > batch / 8 else 8
@@ -45,19 +44,23 @@ def samples(call: Callable[[], Any], batch: float = BATCH, batches: int = BATCHE
     return tuple(sorted(s / calls for s in (first, *(_batch(call, calls) for _ in range(more)))))
 
 
-def cost(call: Callable[[], Any], batch: float = BATCH, batches: int = BATCHES) -> float:
-    """Return the CPU seconds of one call: the least of several batches, each long enough for the clock."""
+def cost(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHES) -> float:
+    """Return the CPU seconds of one call: the least of several batches."""
     return samples(call, batch, batches)[0]
 
 
-def _batch(call: Callable[[], Any], calls: int) -> float:
+def _batch(call: Callable[[], object], calls: int) -> float:
     start = time.process_time()
     for _ in range(calls):
         call()
     return time.process_time() - start
 
 
-def timings(run: Callable[[int], Any], steps: Sequence[int], batch: float = BATCH) -> tuple[Timing, ...]:
-    """Return the time of ``run(n)`` for each n of ``steps``, without what ``run(0)`` takes."""
-    idle = cost(lambda: run(0), batch)
-    return tuple(Timing(n, max(cost(lambda n=n: run(n), batch) - idle, 0.0)) for n in steps)  # type: ignore[misc]
+def timings(run: Callable[[int], object], steps: Sequence[int], batch: float = BATCH) -> tuple[Timing, ...]:
+    """Return the time of ``run(n)`` for each n of ``steps``, less the time of ``run(0)``."""
+    overhead = cost(lambda: run(0), batch)
+
+    def timing(n: int) -> Timing:
+        return Timing(n, max(cost(lambda: run(n), batch) - overhead, 0.0))
+
+    return tuple(map(timing, steps))

@@ -1,8 +1,7 @@
-"""Commutator-free and Crouch-Grossman methods on a field: products of exponentials, no brackets.
+"""Commutator-free methods on a field: products of exponentials, no brackets.
 
 A stage, and the update, is exp(h sum_j beta_J^j k_j) ... exp(h sum_j beta_1^j k_j) applied to y0 or to an
-earlier stage; the first exponential acts first. A Butcher tableau is read as Crouch-Grossman (thesis eq.
-1.4): one exponential a coefficient. The unknowns are the k_i.
+earlier stage; the first exponential acts first. The unknowns are the k_i.
 """
 
 from __future__ import annotations
@@ -10,27 +9,41 @@ from __future__ import annotations
 from functools import reduce
 from operator import add
 
-from codegen.ir.program import EMBEDDED, Kind, Program, Var
+from codegen.ir.program import EMBEDDED, Program
+from codegen.ir.values import Kind, Var
+from codegen.lower.field import FieldLowering
 from codegen.lower.stages import Stages
 from codegen.method import Method
 from codegen.scene.problem import Problem
 from orderconds.ring.protocol import Element
-from orderconds.tableau import Stage
+from orderconds.tableau import CommutatorFree, Stage
 
 
-def lower(scene: Problem, method: Method) -> Program:
-    """Return the program of a cf or cg method."""
-    tableau = method.commutator_free()
+class CommutatorFreeLowering(FieldLowering):
+    """Commutator-free methods."""
+
+    family = "cf"
+    repeats_substeps = True
+
+    def lower(self, problem: Problem, method: Method) -> Program:
+        """Return the program."""
+        embedded = method.embedded()
+        lower = None if embedded is None else embedded.commutator_free().update
+        return products(problem, method, method.commutator_free(), lower)
+
+
+def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: Stage | None) -> Program:
+    """Return the program of products of exponentials; ``lower`` is the update of an embedded row."""
     y = Var("y", Kind.POINT)
-    stages = Stages(scene, method, (y,))
-    do = stages.builder
-    k = [do.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)]
+    stages = Stages(problem, method, (y,))
+    build = stages.builder
+    k = [build.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)]
 
     def product(stage: Stage, name: str, points: list[Var]) -> Var:
         point = y if stage.start is None else points[stage.start]
         for row in stage.exponentials:
             x = stages.combination(f"x{name}", Kind.ALG, row, k)
-            point = do.do("act", f"Y{name}", do.do("exp", f"g{name}", x), point)
+            point = build.act(f"Y{name}", build.exp(f"g{name}", x), point)
         return point
 
     def images() -> list[Var]:
@@ -49,8 +62,7 @@ def lower(scene: Problem, method: Method) -> Program:
     stage_points: list[Var] = []
 
     def update() -> dict[str, Var]:
-        lower = method.embedded()
-        more = {} if lower is None else {EMBEDDED: product(lower.commutator_free().update, "", stage_points)}
+        more = {} if lower is None else {EMBEDDED: product(lower, "", stage_points)}
         return {"y": product(tableau.update, "", stage_points)} | more
 
     return stages.program(k, images, lambda: [stages.f("k0", y, None)] * tableau.s, update)

@@ -16,49 +16,68 @@ from __future__ import annotations
 
 from codegen.errors import MethodError
 from codegen.ir.number import Number
-from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
+from codegen.ir.operations import Bivector, Differential, Energy, Secant
+from codegen.ir.program import Program
+from codegen.ir.values import ONE, Coefficient, Kind, Var
+from codegen.lower.base import Objection
+from codegen.lower.field import FieldLowering
 from codegen.lower.stages import Stages
 from codegen.method import Method
 from codegen.scene.energy import ENERGY, bivector, differential, energy_of
-from codegen.scene.problem import Problem, orbit_of
+from codegen.scene.orbit import orbit_of
+from codegen.scene.problem import Problem
 
 HALF = Number.rational(1, 2)
 
 
-def lower(scene: Problem, method: Method) -> Program:
-    """Return the program of a discrete gradient method.
+class DiscreteGradient(FieldLowering):
+    """Discrete gradient methods."""
 
-    :class:`codegen.errors.MethodError` for a scene without an energy, one that depends on time, and one whose
-    energy does not change in any direction of the group at a point where the field does not vanish.
-    """
-    if not keeps_energy(scene):
-        found = "which depends on time" if not scene.autonomous else "which has no energy"
-        raise MethodError(
-            f"{method.label} on {scene.name}, {found}",
-            expected=f"a Hamiltonian scene without time, or a field with an invariant called {ENERGY}",
-        )
-    _check_bivector(scene, method)
+    family = "discrete_gradient"
+
+    def objection(self, scene: Problem) -> Objection | None:
+        """Return why the family does not take a scene: it needs an energy that the field keeps."""
+        expected = f"a Hamiltonian scene without time, or a field with an invariant called {ENERGY}"
+        if not scene.autonomous:
+            return Objection(", which depends on time", expected)
+        return Objection(", which has no energy", expected) if energy_of(scene) is None else None
+
+    def lower(self, problem: Problem, method: Method) -> Program:
+        """Return the program.
+
+        :class:`codegen.errors.MethodError` for a scene whose energy does not change in any direction of the
+        group at a point where the field does not vanish.
+        """
+        _check_bivector(problem, method)
+        return _program(problem, method)
+
+    def symplectic(self, scene: Problem, method: Method) -> bool:
+        """Return False: no method keeps both the energy and the symplectic form."""
+        return False
+
+
+def _program(scene: Problem, method: Method) -> Program:
     tableau = method.runge_kutta()
     y = Var("y", Kind.POINT)
     stages = Stages(scene, method, (y,))
-    do = stages.builder
-    xi = do.fresh("xi", Kind.ALG)
+    build = stages.builder
+    xi = build.fresh("xi", Kind.ALG)
     shared: dict[str, Var] = {}
 
     def moved(name: str, part: Number, velocity: Var) -> Var:
-        x = do.lin(f"x{name}", Kind.ALG, [(stages.times_h(part), velocity)])
-        return do.do("act", f"Y{name}", do.do("exp", f"g{name}", x), y)
+        x = build.lin(f"x{name}", Kind.ALG, [(stages.times_h(part), velocity)])
+        return build.act(f"Y{name}", build.exp(f"g{name}", x), y)
 
     def images() -> list[Var]:
         slopes = [
-            (Coefficient(stages.number(b)), do.do("differential", f"d{i + 1}", moved(f"{i + 1}", c, xi)))
+            (Coefficient(stages.number(b)), build.add(Differential(), f"d{i + 1}", moved(f"{i + 1}", c, xi)))
             for i, (b, c) in enumerate(zip(tableau.b, map(stages.number, tableau.c), strict=True))
         ]
         middle, end = moved("m", HALF, xi), moved("", ONE.value, xi)
-        energies = [do.do("energy", f"H{k}", point) for k, point in enumerate((y, end))]
-        eta = do.lin("eta", Kind.ALG, [(stages.times_h(ONE.value), xi)])
-        D = do.do("secant", "D", do.lin("g", Kind.DUAL, slopes), eta, *energies)
-        shared["f"] = do.do("bivector", "f", middle, D)
+        energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
+        eta = build.lin("eta", Kind.ALG, [(stages.times_h(ONE.value), xi)])
+        D = build.add(Secant(), "D", build.lin("g", Kind.DUAL, slopes), eta, *energies)
+        shared["f"] = build.add(Bivector(), "f", middle, D)
         return [shared["f"]]
 
     def update() -> dict[str, Var]:
@@ -66,11 +85,6 @@ def lower(scene: Problem, method: Method) -> Program:
         return {"y": moved("1", ONE.value, shared["f"])}
 
     return stages.program([xi], images, lambda: [stages.f("k0", y, None)], update)
-
-
-def keeps_energy(scene: Problem) -> bool:
-    """Whether a scene has an energy that its field keeps."""
-    return scene.autonomous and energy_of(scene) is not None
 
 
 def _check_bivector(scene: Problem, method: Method) -> None:

@@ -7,9 +7,10 @@ k_i = f(exp(u_i).y0), y1 = exp(u).y0, where u_i and u are combinations of stage 
 from __future__ import annotations
 
 from codegen.errors import MethodError
-from codegen.ir.program import Coefficient, Kind, Program, Var
+from codegen.ir.program import Program
+from codegen.ir.values import Coefficient, Kind, Var
 from codegen.lower.stages import Stages
-from codegen.method import FEWEST_UP_TO, Method
+from codegen.method import Method
 from codegen.scene.problem import Problem
 from orderconds.ring.protocol import Ring
 from orderconds.series.brackets import BracketProgram, Row
@@ -22,10 +23,10 @@ def bracket_program(method: Method) -> BracketProgram:
     """Return arguments with the fewest brackets for ``rkmk`` without a cut-off, keeping the tableau's order.
 
     :class:`codegen.errors.MethodError` for a tableau that is implicit, has ball coefficients, or an order
-    above :data:`codegen.method.FEWEST_UP_TO`.
+    above the family's ``minimal_brackets``.
     """
     from orderconds import families
-    from orderconds.check import family_order
+    from orderconds.checking import family_order
     from orderconds.series.bracket_rows import with_fewer_terms
     from orderconds.series.brackets import fewest_brackets
 
@@ -38,10 +39,11 @@ def bracket_program(method: Method) -> BracketProgram:
             hint=f"write rkmk(2):{name}",
         )
     order = family_order(method.tableau, families.get("rk")).order
-    if order > FEWEST_UP_TO:
+    highest = method.kind.minimal_brackets
+    if order > highest:
         raise MethodError(
             f"the fewest brackets of {name}, which has order {order}",
-            expected=f"an order up to {FEWEST_UP_TO}",
+            expected=f"an order up to {highest}",
             hint=f"write rkmk({order - 2}):{name}",
         )
     ring = method.ring
@@ -59,28 +61,28 @@ def lower(scene: Problem, method: Method) -> Program:
     tableau, written = method.runge_kutta(), bracket_program(method)
     y = Var("y", Kind.POINT)
     stages = Stages(scene, method, (y,))
-    do = stages.builder
-    values = {("k", i): do.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)}
+    build = stages.builder
+    values = {("k", i): build.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)}
 
     def combination(name: str, row: Row) -> Var:
         terms = [
             (stages.times_h(x) if key[0] == "k" else Coefficient(stages.number(x)), values[key])
             for key, x in row.items()
         ]
-        return do.lin(name, Kind.ALG, terms)
+        return build.lin(name, Kind.ALG, terms)
 
     def images() -> list[Var]:
         for r, (left, right) in enumerate(written.brackets):
             x, z = combination(f"x{r + 1}", left), combination(f"z{r + 1}", right)
-            values["B", r] = do.do("ad", f"B{r + 1}", x, z)
+            values["B", r] = build.bracket(f"B{r + 1}", x, z)
         result = []
         for i, row in enumerate(written.stages):
-            point = do.do("act", f"Y{i + 1}", do.do("exp", f"g{i + 1}", combination(f"u{i + 1}", row)), y)
+            point = build.act(f"Y{i + 1}", build.exp(f"g{i + 1}", combination(f"u{i + 1}", row)), y)
             result.append(stages.f(f"f{i + 1}", point, tableau.c[i]))
         return result
 
     def update() -> dict[str, Var]:
-        return {"y": do.do("act", "y1", do.do("exp", "g", combination("u", written.update)), y)}
+        return {"y": build.act("y1", build.exp("g", combination("u", written.update)), y)}
 
     unknowns = [values["k", i] for i in range(tableau.s)]
     return stages.program(unknowns, images, lambda: [stages.f("k0", y, None)] * tableau.s, update)

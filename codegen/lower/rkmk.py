@@ -1,44 +1,76 @@
 """Runge-Kutta-Munthe-Kaas methods on a field: one exponential a stage, brackets by dexp^{-1}_(r).
 
-Thesis eq. (3.14): u_i = h sum_j a_ij v_j, v_i = dexp^{-1}_{(r),u_i} f(exp(u_i).y0), y1 = exp(h sum_i b_i
-v_i).y0. The unknowns are the v_i. On R^n with r = 0 this is the Runge-Kutta method itself.
+Equation (3.14) of Marthinsen's thesis: u_i = h sum_j a_ij v_j, v_i = dexp^{-1}_{(r),u_i} f(exp(u_i).y0),
+y1 = exp(h sum_i b_i v_i).y0. The unknowns are the v_i. On R^n with r = 0 this is the Runge-Kutta method.
 """
 
 from __future__ import annotations
 
-from codegen.ir.program import EMBEDDED, Kind, Program, Var
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from codegen.ir.program import EMBEDDED, Program
+from codegen.ir.values import Kind, Var
 from codegen.lower import minimal_brackets
+from codegen.lower.field import FieldLowering
 from codegen.lower.stages import Stages
 from codegen.method import Method
 from codegen.scene.problem import Problem
 from orderconds.ring.protocol import Element
 
+if TYPE_CHECKING:
+    from orderconds.checking import FamilyOrder
+    from orderconds.families import Family
 
-def lower(scene: Problem, method: Method) -> Program:
-    """Return the program of an RKMK method with cut-off ``method.cutoff``; rk is the cut-off 0.
 
-    Without a cut-off it is written with the fewest brackets (:mod:`codegen.lower.minimal_brackets`).
-    """
-    if method.family == "rkmk" and method.cutoff is None:
-        return minimal_brackets.lower(scene, method)
+class MuntheKaas(FieldLowering):
+    """RKMK, with a cut-off or with the fewest brackets that keep the tableau's order."""
+
+    family = "rkmk"
+
+    def lower(self, problem: Problem, method: Method) -> Program:
+        """Return the program; without a cut-off see :mod:`codegen.lower.minimal_brackets`."""
+        if method.cutoff is None:
+            return minimal_brackets.lower(problem, method)
+        return with_cutoff(problem, method, method.cutoff)
+
+    def conditions(self, method: Method, scene: Problem | None = None) -> Family:
+        """Return the conditions; without a cut-off by the series of the very program that is compiled."""
+        if method.cutoff is not None:
+            return super().conditions(method, scene)
+        from orderconds.families.minimal_brackets import MinimalBrackets
+
+        return MinimalBrackets(minimal_brackets.bracket_program(method))
+
+    def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
+        """Return the order; without a cut-off the conditions that fail have no index sums to name them by."""
+        if method.cutoff is not None:
+            return super().order(method, scene)
+        from orderconds.checking import family_order
+
+        return replace(family_order(method.tableau, self.conditions(method, scene)), failing=())
+
+
+def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
+    """Return the program of an RKMK method whose dexp^{-1} has ``cutoff`` brackets."""
     tableau = method.runge_kutta()
     y = Var("y", Kind.POINT)
-    stages = Stages(scene, method, (y,))
-    do = stages.builder
-    v = [do.fresh(f"v{i + 1}", Kind.ALG) for i in range(tableau.s)]
+    stages = Stages(problem, method, (y,))
+    build = stages.builder
+    v = [build.fresh(f"v{i + 1}", Kind.ALG) for i in range(tableau.s)]
 
     def images() -> list[Var]:
         result = []
         for i, row in enumerate(tableau.A):
             u = stages.combination(f"u{i + 1}", Kind.ALG, row, v)
-            point = do.do("act", f"Y{i + 1}", do.do("exp", f"g{i + 1}", u), y)
+            point = build.act(f"Y{i + 1}", build.exp(f"g{i + 1}", u), y)
             k = stages.f(f"k{i + 1}", point, tableau.c[i])
-            result.append(do.do("dexpinv", f"w{i + 1}", u, k, order=method.cutoff or 0))
+            result.append(build.dexpinv(f"w{i + 1}", u, k, cutoff))
         return result
 
     def updated(weights: tuple[Element, ...]) -> Var:
         u = stages.combination("u", Kind.ALG, weights, v)
-        return do.do("act", "y1", do.do("exp", "g", u), y)
+        return build.act("y1", build.exp("g", u), y)
 
     def update() -> dict[str, Var]:
         lower = method.embedded()

@@ -6,7 +6,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from codegen.ir.number import Number
-from codegen.ir.program import Builder, Coefficient, Kind, Program, Solve, Statement, Var
+from codegen.ir.program import Builder, Program, Solve, Statement
+from codegen.ir.values import Coefficient, Kind, Var
 from codegen.ir.verify import verify
 from codegen.method import Method
 from codegen.scene.problem import Problem
@@ -51,7 +52,7 @@ class Stages:
     def f(self, target: str, y: Var, c: Element | None) -> Var:
         """Append target = f(y, t + c h)."""
         time = self.at(c)
-        return self.builder.do("fieldt" if time else "field", target, y, *time)
+        return self.builder.field_at(target, y, *time)
 
     def program(
         self,

@@ -21,12 +21,11 @@ from codegen.method import Method
 from orderconds.ring.protocol import Element
 from orderconds.tableau import Composition, RungeKutta
 
-FAMILIES = frozenset({"vcg", "vcf", "cg", "cf", "rk", "ambient"})
-"""Families in which a composition's tableau is the composition: none that expands dexp^{-1} over the step."""
-
 
 def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     """Return the method that a step repeats, and how long each of its steps is; None where there is none.
+
+    The family is one of those whose lowering has :attr:`codegen.lower.Lowering.repeats_substeps`.
 
     >>> from codegen.method import parse
     >>> base, steps = substeps(parse("vcg:suzuki4", ("vcg",)))
@@ -35,7 +34,7 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     >>> substeps(parse("vcg:gauss2", ("vcg",))) is None
     True
     """
-    if method.family not in FAMILIES or method.adaptive:
+    if method.adaptive:
         return None
     tableau = method.tableau
     found: tuple[RungeKutta, tuple[Number, ...]] | None

@@ -1,17 +1,39 @@
-"""What variational lowerings on T*G begin with: a Butcher tableau whose weights are not zero, q and mu."""
+"""Variational lowerings on T*G: they take Hamiltonian scenes, and their steps are symplectic."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
 
 from codegen.errors import MethodError
 from codegen.ir.number import Number
-from codegen.ir.program import Kind, Var
+from codegen.ir.program import Program
+from codegen.ir.values import MINUS_ONE, ONE, Kind, Var
+from codegen.lower.base import Lowering, Objection
 from codegen.lower.stages import Stages
 from codegen.method import Method
 from codegen.scene.problem import Problem
 from orderconds.errors import ZeroWeight
 from orderconds.tableau import RungeKutta
+
+
+class VariationalLowering(Lowering):
+    """A family that discretises Hamilton's principle on a group; it sees (q, mu) and the Hamiltonian."""
+
+    hamiltonian = True
+    preference = 1  # a Hamiltonian scene is usually integrated for long times, which needs symplectic steps
+
+    def objection(self, scene: Problem) -> Objection | None:
+        """Return why the family does not take a scene."""
+        return None if scene.is_hamiltonian else Objection("", "a Hamiltonian scene")
+
+    def problem(self, scene: Problem, method: Method) -> Problem:
+        """Return the scene itself."""
+        return scene
+
+    def symplectic(self, scene: Problem, method: Method) -> bool:
+        """Return True: discrete Hamiltonian flows are symplectic maps."""
+        return True
 
 
 def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list[Number]], list[Number]]:
@@ -43,3 +65,65 @@ def brackets(method: Method) -> int:
             f"{family}:{name} without a cut-off", expected=f"a number of brackets, as {family}(2):{name}"
         )
     return method.cutoff
+
+
+class ExpandedStep(ABC):
+    """A step that expands dexp^{-1}: Q_i = exp(X_i) q0 with X_i = h sum_j a_ij v_j, and q1 = exp(Y) q0.
+
+    Subclasses give the equations; X_i, exp(X_i), and the values at the end of the step are attributes that
+    :meth:`exponentiate` and :meth:`end` set.
+    """
+
+    unknowns: list[Var]
+    X: list[Var]
+    g: list[Var]
+    """exp(X_i)."""
+    minus: Var
+    """-Y, where Y = h sum_j b_j v_j."""
+    nu: list[Var]
+    """Ad*_{exp X_j} n_j."""
+    mubar: Var
+    """mu0 + h sum_j b_j nu_j."""
+
+    def __init__(self, problem: Problem, method: Method) -> None:
+        self.r = brackets(method)
+        self.stages, self.tableau, self.A, self.b = begin(problem, method)
+        self.build, self.s = self.stages.builder, self.tableau.s
+        self.q, self.mu = self.stages.inputs
+
+    @abstractmethod
+    def images(self) -> list[Var]:
+        """Append the equations and return the values that the unknowns must equal."""
+
+    @abstractmethod
+    def starts(self) -> list[Var]:
+        """Append and return first values of the unknowns."""
+
+    def exponentiate(self, v: Sequence[Var]) -> None:
+        """Append X_i and exp(X_i)."""
+        rows = enumerate(self.tableau.A, start=1)
+        self.X = [self.stages.combination(f"X{i}", Kind.ALG, row, v) for i, row in rows]
+        self.g = [self.build.exp(f"g{i}", x) for i, x in enumerate(self.X, start=1)]
+
+    def end(self, velocities: Sequence[Var], forces: Mapping[int, Var] | Sequence[Var]) -> None:
+        """Append Y, -Y, nu_j and mubar."""
+        build = self.build
+        self.Y = self.stages.combination("Y", Kind.ALG, self.tableau.b, velocities)
+        self.minus = build.lin("y", Kind.ALG, [(MINUS_ONE, self.Y)])
+        self.nu = [build.adjoint(f"nu{j + 1}", self.g[j], forces[j]) for j in range(self.s)]
+        terms = [(ONE, self.mu)] + [(self.stages.times_h(self.b[j]), self.nu[j]) for j in range(self.s)]
+        self.mubar = build.lin("mubar", Kind.DUAL, terms)
+
+    def time(self, i: int) -> tuple[Var, ...]:
+        """Return the time of a stage as arguments of the scene: () where the scene has none."""
+        return self.stages.at(self.tableau.c[i])
+
+    def update(self) -> dict[str, Var]:
+        """Append q1 = exp(Y) q0 and mu1 = Ad*_{exp(-Y)} mubar."""
+        g = self.build.exp("g", self.Y)
+        q = self.build.mul("q1", g, self.q)
+        return {"q": q, "mu": self.build.adjoint("mu1", g, self.mubar, inverse=True)}
+
+    def program(self) -> Program:
+        """Return the verified program."""
+        return self.stages.program(self.unknowns, self.images, self.starts, self.update)

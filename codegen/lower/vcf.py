@@ -16,12 +16,14 @@ exponentials before its own; shared prefixes are found by the passes.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from codegen.ir.number import Number
-from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
+from codegen.ir.program import Builder, Program
+from codegen.ir.values import ONE, Coefficient, Kind, Var
 from codegen.lower.stages import Stages
-from codegen.lower.variational import nonzero
+from codegen.lower.variational import VariationalLowering, nonzero
 from codegen.method import Method
 from codegen.scene.problem import Problem
 
@@ -37,34 +39,49 @@ class _Product:
     minus: tuple[Var, ...]
     partial: tuple[Var, ...]
 
+    @classmethod
+    def of(cls, stages: Stages, name: str, rows: Rows, xi: Sequence[Var]) -> _Product:
+        """Append a product of exponentials of combinations of the xi_j."""
+        build = stages.builder
 
-def lower(scene: Problem, method: Method) -> Program:
-    """Return the program of a VCF method; :class:`orderconds.errors.ZeroWeight` where some b_i = 0."""
+        def exponent(name: str, row: tuple[Number, ...], sign: int) -> Var:
+            scaled = (stages.times_h(x if sign > 0 else -x) for x in row)
+            return build.lin(name, Kind.ALG, list(zip(scaled, xi, strict=True)))
+
+        partial, minus = [build.identity(f"{name}0")], []
+        for J, row in enumerate(rows, start=1):
+            g = build.exp(f"g{name}{J}", exponent(f"x{name}{J}", row, 1))
+            partial.append(build.mul(f"{name}{J}", g, partial[-1]))
+            minus.append(exponent(f"y{name}{J}", row, -1))
+        return cls(rows, tuple(minus), tuple(partial))
+
+    def carried(self, build: Builder, i: int, J: int, m: Var) -> Var:
+        """Append dexp*_{-x_J} Ad*_{(e^J)^-1} m, where e^J is the product of the first J factors."""
+        moved = build.adjoint(f"m{i + 1}", self.partial[J], m, inverse=True)
+        return build.dual_dexp(f"p{i + 1}", self.minus[J], moved)
+
+
+class VariationalCommutatorFree(VariationalLowering):
+    """Variational commutator-free methods."""
+
+    family = "vcf"
+    repeats_substeps = True
+
+    def lower(self, problem: Problem, method: Method) -> Program:
+        """Return the program of a VCF method; :class:`orderconds.errors.ZeroWeight` where some b_i = 0."""
+        return _program(problem, method)
+
+
+def _program(scene: Problem, method: Method) -> Program:
     rows, update = _coefficients(method)
     s = len(rows)
     b = _weights(method, update, s)
     q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
     stages = Stages(scene, method, (q, mu))
-    do = stages.builder
-    xi = [do.fresh(f"xi{i + 1}", Kind.ALG) for i in range(s)]
-    n = [do.fresh(f"n{i + 1}", Kind.DUAL) for i in range(s)]
+    build = stages.builder
+    xi = [build.fresh(f"xi{i + 1}", Kind.ALG) for i in range(s)]
+    n = [build.fresh(f"n{i + 1}", Kind.DUAL) for i in range(s)]
     shared: dict[str, Var] = {}
-
-    def exponent(name: str, row: tuple[Number, ...], sign: int) -> Var:
-        scaled = (stages.times_h(x if sign > 0 else -x) for x in row)
-        return do.lin(name, Kind.ALG, list(zip(scaled, xi, strict=True)))
-
-    def product(name: str, rows: Rows) -> _Product:
-        partial, minus = [do.do("identity", f"{name}0")], []
-        for J, row in enumerate(rows, start=1):
-            g = do.do("exp", f"g{name}{J}", exponent(f"x{name}{J}", row, 1))
-            partial.append(do.do("mul", f"{name}{J}", g, partial[-1]))
-            minus.append(exponent(f"y{name}{J}", row, -1))
-        return _Product(rows, tuple(minus), tuple(partial))
-
-    def carried(i: int, along: _Product, J: int, m: Var) -> Var:
-        moved = do.do("Adtinv", f"m{i + 1}", along.partial[J], m)
-        return do.do("dexpt", f"p{i + 1}", along.minus[J], moved)
 
     def momentum(i: int, e: _Product, E: list[_Product], nu: list[Var]) -> Var:
         """Append M_i, one term a coefficient."""
@@ -72,35 +89,35 @@ def lower(scene: Problem, method: Method) -> Program:
         for J, row in enumerate(e.rows):
             if not row[i].is_zero:
                 share = row[i] / b[i]
-                terms.append((Coefficient(share), carried(i, e, J, mu)))
-                terms += [(stages.times_h(b[j] * share), carried(i, e, J, nu[j])) for j in range(s)]
+                terms.append((Coefficient(share), e.carried(build, i, J, mu)))
+                terms += [(stages.times_h(b[j] * share), e.carried(build, i, J, nu[j])) for j in range(s)]
         for j, stage in enumerate(E):
             for J, row in enumerate(stage.rows):
                 if not row[i].is_zero:
                     factor = stages.times_h(-(b[j] * (row[i] / b[i])))
-                    terms.append((factor, carried(i, stage, J, nu[j])))
-        return do.lin(f"M{i + 1}", Kind.DUAL, terms)
+                    terms.append((factor, stage.carried(build, i, J, nu[j])))
+        return build.lin(f"M{i + 1}", Kind.DUAL, terms)
 
     def images() -> list[Var]:
-        e = product("e", update)
-        E = [product(f"E{i + 1}_", r) for i, r in enumerate(rows)]
-        nu = [do.do("Adt", f"nu{j + 1}", E[j].partial[-1], n[j]) for j in range(s)]
+        e = _Product.of(stages, "e", update, xi)
+        E = [_Product.of(stages, f"E{i + 1}_", r, xi) for i, r in enumerate(rows)]
+        nu = [build.adjoint(f"nu{j + 1}", E[j].partial[-1], n[j]) for j in range(s)]
         found = []
         c = method.abscissae()
         for i in range(s):
-            Q = do.do("mul", f"Q{i + 1}", E[i].partial[-1], q)
-            found.append(do.hamilton(f"f{i + 1}", f"r{i + 1}", Q, momentum(i, e, E, nu), *stages.at(c[i])))
+            Q = build.mul(f"Q{i + 1}", E[i].partial[-1], q)
+            found.append(build.hamilton(f"f{i + 1}", f"r{i + 1}", Q, momentum(i, e, E, nu), *stages.at(c[i])))
         terms = [(ONE, mu)] + [(stages.times_h(b[j]), nu[j]) for j in range(s)]
-        shared.update(e=e.partial[-1], mubar=do.lin("mubar", Kind.DUAL, terms))
+        shared.update(e=e.partial[-1], mubar=build.lin("mubar", Kind.DUAL, terms))
         return [x for x, _ in found] + [r for _, r in found]
 
     def starts() -> list[Var]:
-        x, r = do.hamilton("xi0", "n0", q, mu, *stages.at(None))
+        x, r = build.hamilton("xi0", "n0", q, mu, *stages.at(None))
         return [x] * s + [r] * s
 
     def result() -> dict[str, Var]:
         e = shared["e"]
-        return {"q": do.do("mul", "q1", e, q), "mu": do.do("Adtinv", "mu1", e, shared["mubar"])}
+        return {"q": build.mul("q1", e, q), "mu": build.adjoint("mu1", e, shared["mubar"], inverse=True)}
 
     return stages.program(xi + n, images, starts, result)
 

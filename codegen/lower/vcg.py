@@ -14,28 +14,39 @@ terms are kept apart here, one a coefficient; where a_ji = b_i and E_j^{i-1} = e
 
 from __future__ import annotations
 
-from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
-from codegen.lower.variational import begin
+from codegen.ir.program import Program
+from codegen.ir.values import ONE, Coefficient, Kind, Var
+from codegen.lower.variational import VariationalLowering, begin
 from codegen.method import Method
 from codegen.scene.problem import Problem
 from orderconds.ring.protocol import Element
 
 
-def lower(scene: Problem, method: Method) -> Program:
-    """Return the program of a VCG method; :class:`orderconds.errors.ZeroWeight` where some b_i = 0."""
+class VariationalCrouchGrossman(VariationalLowering):
+    """Variational Crouch-Grossman methods."""
+
+    family = "vcg"
+    repeats_substeps = True
+
+    def lower(self, problem: Problem, method: Method) -> Program:
+        """Return the program of a VCG method; :class:`orderconds.errors.ZeroWeight` where some b_i = 0."""
+        return _program(problem, method)
+
+
+def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs
-    do, s = stages.builder, tableau.s
-    xi = [do.fresh(f"xi{i + 1}", Kind.ALG) for i in range(s)]
-    n = [do.fresh(f"n{i + 1}", Kind.DUAL) for i in range(s)]
+    build, s = stages.builder, tableau.s
+    xi = [build.fresh(f"xi{i + 1}", Kind.ALG) for i in range(s)]
+    n = [build.fresh(f"n{i + 1}", Kind.DUAL) for i in range(s)]
     shared: dict[str, list[Var]] = {}
 
     def partial_products(row: tuple[Element, ...], name: str) -> list[Var]:
         """Return the products after 0, 1, ..., s factors."""
-        products = [do.do("identity", f"{name}0")]
+        products = [build.identity(f"{name}0")]
         for j in range(s):
             x = stages.combination(f"x{name}{j + 1}", Kind.ALG, row[j : j + 1], xi[j : j + 1])
-            products.append(do.do("mul", f"{name}{j + 1}", do.do("exp", f"g{name}{j + 1}", x), products[-1]))
+            products.append(build.mul(f"{name}{j + 1}", build.exp(f"g{name}{j + 1}", x), products[-1]))
         return products
 
     def momentum(i: int, e: list[Var], E: list[list[Var]], nu: list[Var]) -> Var:
@@ -43,8 +54,8 @@ def lower(scene: Problem, method: Method) -> Program:
         minus = stages.builder.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-b[i]), xi[i])])
 
         def carried(m: Var) -> Var:
-            moved = do.do("Adtinv", f"m{i + 1}", e[i], m)
-            return do.do("dexpt", f"p{i + 1}", minus, moved)
+            moved = build.adjoint(f"m{i + 1}", e[i], m, inverse=True)
+            return build.dual_dexp(f"p{i + 1}", minus, moved)
 
         terms = [(ONE, carried(mu))]
         for j in range(s):
@@ -52,32 +63,32 @@ def lower(scene: Problem, method: Method) -> Program:
             a = A[j][i]
             if a.is_zero:
                 continue
-            x = do.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-a), xi[i])])
-            moved = do.do("Adtinv", f"m{i + 1}", E[j][i], nu[j])
+            x = build.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-a), xi[i])])
+            moved = build.adjoint(f"m{i + 1}", E[j][i], nu[j], inverse=True)
             factor = Coefficient(-(b[j] * (a / b[i])), 1)
-            terms.append((factor, do.do("dexpt", f"p{i + 1}", x, moved)))
-        return do.lin(f"M{i + 1}", Kind.DUAL, terms)
+            terms.append((factor, build.dual_dexp(f"p{i + 1}", x, moved)))
+        return build.lin(f"M{i + 1}", Kind.DUAL, terms)
 
     def images() -> list[Var]:
         e = partial_products(tableau.b, "e")
         E = [partial_products(row, f"E{i + 1}_") for i, row in enumerate(tableau.A)]
-        nu = [do.do("Adt", f"nu{j + 1}", E[j][s], n[j]) for j in range(s)]
+        nu = [build.adjoint(f"nu{j + 1}", E[j][s], n[j]) for j in range(s)]
         found = []
         for i in range(s):
-            Q = do.do("mul", f"Q{i + 1}", E[i][s], q)
-            pair = do.hamilton(f"f{i + 1}", f"r{i + 1}", Q, momentum(i, e, E, nu), *stages.at(tableau.c[i]))
-            found.append(pair)
+            Q = build.mul(f"Q{i + 1}", E[i][s], q)
+            M = momentum(i, e, E, nu)
+            found.append(build.hamilton(f"f{i + 1}", f"r{i + 1}", Q, M, *stages.at(tableau.c[i])))
         shared.update(e=e, nu=nu)
         return [x for x, _ in found] + [r for _, r in found]
 
     def starts() -> list[Var]:
-        x, r = do.hamilton("xi0", "n0", q, mu, *stages.at(None))
+        x, r = build.hamilton("xi0", "n0", q, mu, *stages.at(None))
         return [x] * s + [r] * s
 
     def update() -> dict[str, Var]:
         e, nu = shared["e"], shared["nu"]
         terms = [(ONE, mu)] + [(stages.times_h(b[j]), nu[j]) for j in range(s)]
-        total = do.lin("mubar", Kind.DUAL, terms)
-        return {"q": do.do("mul", "q1", e[s], q), "mu": do.do("Adtinv", "mu1", e[s], total)}
+        total = build.lin("mubar", Kind.DUAL, terms)
+        return {"q": build.mul("q1", e[s], q), "mu": build.adjoint("mu1", e[s], total, inverse=True)}
 
     return stages.program(xi + n, images, starts, update)

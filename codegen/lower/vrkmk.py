@@ -17,77 +17,90 @@ terms cancel that cancel on an abelian group.
 
 from __future__ import annotations
 
-from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
-from codegen.lower.variational import begin, brackets
+from codegen.ir.operations import InverseDexpSlope
+from codegen.ir.program import Program
+from codegen.ir.values import ONE, Coefficient, Kind, Var
+from codegen.lower.variational import ExpandedStep, VariationalLowering
 from codegen.method import Method
 from codegen.scene.problem import Problem
 
 
-def lower(scene: Problem, method: Method) -> Program:
-    """Return the program of a VRKMK method with cut-off ``method.cutoff``.
+class VariationalMuntheKaas(VariationalLowering):
+    """Variational Runge-Kutta-Munthe-Kaas methods."""
 
-    :class:`orderconds.errors.ZeroWeight` where some b_i = 0, :class:`codegen.errors.MethodError` without a
-    cut-off: a program has finitely many brackets.
-    """
-    r = brackets(method)
-    stages, tableau, A, b = begin(scene, method)
-    q, mu = stages.inputs
-    do, s = stages.builder, tableau.s
-    v = [do.fresh(f"v{i + 1}", Kind.ALG) for i in range(s)]
-    m = [do.fresh(f"m{i + 1}", Kind.DUAL) for i in range(s)]
-    transported = do.fresh("Lambda", Kind.DUAL)
-    later_only = [all(A[j][i].is_zero for j in range(i + 1)) for i in range(s)]
-    shared: dict[str, Var] = {}
+    family = "vrkmk"
 
-    def images() -> list[Var]:
-        X = [stages.combination(f"X{i + 1}", Kind.ALG, row, v) for i, row in enumerate(tableau.A)]
-        g = [do.do("exp", f"g{i + 1}", x) for i, x in enumerate(X)]
-        now, forces, slopes = list(m), dict[int, Var](), dict[int, Var]()
+    def lower(self, problem: Problem, method: Method) -> Program:
+        """Return the program of a VRKMK method with cut-off ``method.cutoff``.
+
+        :class:`orderconds.errors.ZeroWeight` where some b_i = 0, :class:`codegen.errors.MethodError` without
+        a cut-off: a program has finitely many brackets.
+        """
+        return _Step(problem, method).program()
+
+
+class _Step(ExpandedStep):
+    """The equations of one step."""
+
+    def __init__(self, problem: Problem, method: Method) -> None:
+        super().__init__(problem, method)
+        self.v = [self.build.fresh(f"v{i + 1}", Kind.ALG) for i in range(self.s)]
+        self.m = [self.build.fresh(f"m{i + 1}", Kind.DUAL) for i in range(self.s)]
+        self.transported = self.build.fresh("Lambda", Kind.DUAL)
+        self.unknowns = [*self.v, *self.m, self.transported]
+        # n_i and h P*_(r)(X_i, xi_i) m_i / h, by stage
+        self.forces: dict[int, Var] = {}
+        self.slopes: dict[int, Var] = {}
+
+    def images(self) -> list[Var]:
+        """Return v_i, m_i and Lambda computed from themselves."""
+        self.exponentiate(self.v)
+        velocities = self._evaluated()
+        self.end(velocities, self.forces)
+        image = self.build.dual_dexp("Lambda_new", self.minus, self.mubar)
+        return [*velocities, *(self._multiplier(i) for i in range(self.s)), image]
+
+    def _evaluated(self) -> list[Var]:
+        """Append the scene's evaluation in each stage, and return the v_i.
+
+        The last stage comes first, because m_i may follow from the lambda_j of later stages.
+        """
+        build, A, b = self.build, self.A, self.b
         lagrange, velocities = dict[int, Var](), dict[int, Var]()
-        for i in reversed(range(s)):
-            if later_only[i]:
-                terms = [(Coefficient(b[i]), transported)]
-                terms += [(Coefficient(A[j][i]), lagrange[j]) for j in range(i + 1, s)]
-                now[i] = do.lin(f"p{i + 1}", Kind.DUAL, terms)
-            weighted = do.lin(f"w{i + 1}", Kind.DUAL, [(Coefficient(ONE.value / b[i]), now[i])])
-            M = do.do("dexpinvt", f"M{i + 1}", X[i], weighted, order=r)
-            Q = do.do("mul", f"Q{i + 1}", g[i], q)
-            xi, n = do.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M, *stages.at(tableau.c[i]))
-            velocities[i] = do.do("dexpinv", f"u{i + 1}", X[i], xi, order=r)
-            forces[i] = n
-            slopes[i] = do.do("P", f"P{i + 1}", X[i], xi, now[i], order=r)
-            direct = do.do("dexpt", f"d{i + 1}", X[i], n)
-            lagrange[i] = do.lin(
-                f"lambda{i + 1}",
-                Kind.DUAL,
-                [(stages.times_h(-b[i]), direct), (stages.times_h(ONE.value), slopes[i])],
-            )
-        found = [velocities[i] for i in range(s)]
-        Y = stages.combination("Y", Kind.ALG, tableau.b, found)
-        minus = do.lin("y", Kind.ALG, [(Coefficient(-ONE.value), Y)])
-        nu = [do.do("Adt", f"nu{j + 1}", g[j], forces[j]) for j in range(s)]
-        momentum = do.lin("mubar", Kind.DUAL, [(ONE, mu)] + [(stages.times_h(b[j]), nu[j]) for j in range(s)])
-        shared.update(Y=Y, mubar=momentum)
+        for i in reversed(range(self.s)):
+            own = self.m[i]
+            if all(A[j][i].is_zero for j in range(i + 1)):
+                terms = [(Coefficient(b[i]), self.transported)]
+                terms += [(Coefficient(A[j][i]), lagrange[j]) for j in range(i + 1, self.s)]
+                own = build.lin(f"p{i + 1}", Kind.DUAL, terms)
+            weighted = build.lin(f"w{i + 1}", Kind.DUAL, [(Coefficient(ONE.value / b[i]), own)])
+            M = build.dexpinv(f"M{i + 1}", self.X[i], weighted, self.r)
+            Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
+            xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M, *self.time(i))
+            velocities[i] = build.dexpinv(f"u{i + 1}", self.X[i], xi, self.r)
+            slope = build.add(InverseDexpSlope(self.r), f"P{i + 1}", self.X[i], xi, own)
+            self.forces[i], self.slopes[i] = n, slope
+            direct = build.dual_dexp(f"d{i + 1}", self.X[i], n)
+            terms = [(self.stages.times_h(-b[i]), direct), (self.stages.times_h(ONE.value), slope)]
+            lagrange[i] = build.lin(f"lambda{i + 1}", Kind.DUAL, terms)
+        return [velocities[i] for i in range(self.s)]
 
-        def written_out(i: int) -> Var:
-            terms = [(Coefficient(b[i]), do.do("dexpt", "L", minus, mu))]
-            for j in range(s):
-                terms.append((stages.times_h(b[i] * b[j]), do.do("dexpt", "L", minus, nu[j])))
-                direct = do.do("dexpt", f"d{j + 1}", X[j], forces[j])
-                terms.append((stages.times_h(-(A[j][i] * b[j])), direct))
-                terms.append((stages.times_h(A[j][i]), slopes[j]))
-            return do.lin(f"p{i + 1}", Kind.DUAL, terms)
+    def _multiplier(self, i: int) -> Var:
+        """Append m_i as a sum in mu0, n_j and m_j, so that the terms cancel that cancel without brackets."""
+        build, A, b, times_h = self.build, self.A, self.b, self.stages.times_h
+        terms = [(Coefficient(b[i]), build.dual_dexp("L", self.minus, self.mu))]
+        for j in range(self.s):
+            terms.append((times_h(b[i] * b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
+            direct = build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])
+            terms.append((times_h(-(A[j][i] * b[j])), direct))
+            terms.append((times_h(A[j][i]), self.slopes[j]))
+        return build.lin(f"p{i + 1}", Kind.DUAL, terms)
 
-        image = do.do("dexpt", "Lambda_new", minus, momentum)
-        return [*found, *(written_out(i) for i in range(s)), image]
-
-    def starts() -> list[Var]:
-        xi, _ = do.hamilton("xi0", "n0", q, mu, *stages.at(None))
-        weighted = [do.lin(f"m0_{i + 1}", Kind.DUAL, [(Coefficient(b[i]), mu)]) for i in range(s)]
-        return [xi] * s + weighted + [mu]
-
-    def update() -> dict[str, Var]:
-        g = do.do("exp", "g", shared["Y"])
-        return {"q": do.do("mul", "q1", g, q), "mu": do.do("Adtinv", "mu1", g, shared["mubar"])}
-
-    return stages.program([*v, *m, transported], images, starts, update)
+    def starts(self) -> list[Var]:
+        """Return xi, b_i mu and mu at the beginning of the step."""
+        build = self.build
+        xi, _ = build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))
+        weighted = [
+            build.lin(f"m0_{i + 1}", Kind.DUAL, [(Coefficient(self.b[i]), self.mu)]) for i in range(self.s)
+        ]
+        return [xi] * self.s + weighted + [self.mu]

@@ -19,85 +19,97 @@ from fractions import Fraction
 from math import factorial
 
 from codegen.ir.number import Number
-from codegen.ir.program import ONE, Coefficient, Kind, Program, Var
-from codegen.lower.variational import begin, brackets
+from codegen.ir.program import Program
+from codegen.ir.values import ONE, Coefficient, Kind, Var
+from codegen.lower.variational import ExpandedStep, VariationalLowering
 from codegen.method import Method
 from codegen.scene.problem import Problem
 
 Terms = list[tuple[Coefficient, Var]]
 
 
-def lower(scene: Problem, method: Method) -> Program:
-    """Return the program with ``method.cutoff`` brackets in dexp.
+class VariationalMuntheKaasPade(VariationalLowering):
+    """VRKMK with the inverse of dexp cut off."""
 
-    :class:`orderconds.errors.ZeroWeight` where some b_i = 0, :class:`codegen.errors.MethodError` without a
-    cut-off: a program has finitely many brackets.
-    """
-    r = brackets(method)
-    stages, tableau, A, b = begin(scene, method)
-    q, mu = stages.inputs
-    do, s = stages.builder, tableau.s
-    v = [do.fresh(f"v{i + 1}", Kind.ALG) for i in range(s)]
-    M = [do.fresh(f"M{i + 1}", Kind.DUAL) for i in range(s)]
-    shared: dict[str, Var] = {}
+    family = "vrkmk_pade"
 
-    def powers(operation: str, x: Var, first: Var) -> list[Var]:
+    def lower(self, problem: Problem, method: Method) -> Program:
+        """Return the program with ``method.cutoff`` brackets in dexp.
+
+        :class:`orderconds.errors.ZeroWeight` where some b_i = 0, :class:`codegen.errors.MethodError` without
+        a cut-off: a program has finitely many brackets.
+        """
+        return _Step(problem, method).program()
+
+
+class _Step(ExpandedStep):
+    """The equations of one step."""
+
+    def __init__(self, problem: Problem, method: Method) -> None:
+        super().__init__(problem, method)
+        self.v = [self.build.fresh(f"v{i + 1}", Kind.ALG) for i in range(self.s)]
+        self.M = [self.build.fresh(f"M{i + 1}", Kind.DUAL) for i in range(self.s)]
+        self.unknowns = [*self.v, *self.M]
+        # n_i, R*_(r) M_i, and the terms of dexp*_(r) M_i after the first with opposite sign, by stage
+        self.forces: list[Var] = []
+        self.slopes: list[Var] = []
+        self.corrections: list[Terms] = []
+
+    def images(self) -> list[Var]:
+        """Return v_i and M_i computed from themselves."""
+        self.exponentiate(self.v)
+        velocities = [self._evaluated(i) for i in range(self.s)]
+        self.end(velocities, self.forces)
+        return [*velocities, *(self._momentum(i) for i in range(self.s))]
+
+    def _evaluated(self, i: int) -> Var:
+        """Append the scene's evaluation in a stage, and return v_i."""
+        build, X = self.build, self.X[i]
+        Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
+        xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, self.M[i], *self.time(i))
+        brackets, momenta = self._powers(X, self.v[i]), self._powers(X, self.M[i])
+        velocity = build.lin(f"u{i + 1}", Kind.ALG, [(ONE, xi), *_rest(brackets)])
+        self.forces.append(n)
+        self.slopes.append(self._slope(f"R{i + 1}", brackets, momenta))
+        self.corrections.append(_rest(momenta))
+        return velocity
+
+    def _powers(self, x: Var, first: Var) -> list[Var]:
         """Append ad_x^k first, or its dual, for k = 0..r."""
         found = [first]
-        for k in range(r):
-            found.append(do.do(operation, f"{first.name}_{k + 1}", x, found[-1]))
+        for k in range(self.r):
+            found.append(self.build.bracket(f"{first.name}_{k + 1}", x, found[-1]))
         return found
 
-    def rest(chain: list[Var]) -> Terms:
-        """Return -sum over k >= 1 of ad_x^k/(k+1)!, or of its dual."""
-        return [(_over_factorial(-1, k), power) for k, power in enumerate(chain) if k]
-
-    def slope(name: str, brackets: list[Var], momenta: list[Var]) -> Var:
+    def _slope(self, name: str, brackets: list[Var], momenta: list[Var]) -> Var:
         """Append R*_(r) M, the sum over i < r of ad*_z (ad*_x)^i M, z = -sum_k ad_x^{k-1-i} v/(k+1)!."""
         terms: Terms = []
-        for i in range(r):
-            inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, r + 1)]
-            subscript = do.lin("z", Kind.ALG, inner)
-            terms.append((ONE, do.do("adt", "R", subscript, momenta[i])))
-        return do.lin(name, Kind.DUAL, terms)
+        for i in range(self.r):
+            inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
+            subscript = self.build.lin("z", Kind.ALG, inner)
+            terms.append((ONE, self.build.bracket("R", subscript, momenta[i])))
+        return self.build.lin(name, Kind.DUAL, terms)
 
-    def images() -> list[Var]:
-        X = [stages.combination(f"X{i + 1}", Kind.ALG, row, v) for i, row in enumerate(tableau.A)]
-        g = [do.do("exp", f"g{i + 1}", x) for i, x in enumerate(X)]
-        velocities, forces, slopes, corrections = [], [], [], []
-        for i in range(s):
-            Q = do.do("mul", f"Q{i + 1}", g[i], q)
-            xi, n = do.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M[i], *stages.at(tableau.c[i]))
-            brackets, momenta = powers("ad", X[i], v[i]), powers("adt", X[i], M[i])
-            velocities.append(do.lin(f"u{i + 1}", Kind.ALG, [(ONE, xi), *rest(brackets)]))
-            forces.append(n)
-            slopes.append(slope(f"R{i + 1}", brackets, momenta))
-            corrections.append(rest(momenta))
-        Y = stages.combination("Y", Kind.ALG, tableau.b, velocities)
-        minus = do.lin("y", Kind.ALG, [(Coefficient(-ONE.value), Y)])
-        nu = [do.do("Adt", f"nu{j + 1}", g[j], forces[j]) for j in range(s)]
-        total = [(ONE, mu)] + [(stages.times_h(b[j]), nu[j]) for j in range(s)]
-        shared.update(Y=Y, mubar=do.lin("mubar", Kind.DUAL, total))
-        found = []
-        for i in range(s):
-            terms: Terms = [(ONE, do.do("dexpt", "L", minus, mu)), *corrections[i]]
-            for j in range(s):
-                factor = stages.times_h(-(b[j] * (A[j][i] / b[i])))
-                terms.append((stages.times_h(b[j]), do.do("dexpt", "L", minus, nu[j])))
-                terms.append((factor, do.do("dexpt", f"d{j + 1}", X[j], forces[j])))
-                terms.append((factor, slopes[j]))
-            found.append(do.lin(f"p{i + 1}", Kind.DUAL, terms))
-        return [*velocities, *found]
+    def _momentum(self, i: int) -> Var:
+        """Append M_i, one term a coefficient."""
+        build, times_h = self.build, self.stages.times_h
+        terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
+        for j in range(self.s):
+            factor = times_h(-(self.b[j] * (self.A[j][i] / self.b[i])))
+            terms.append((times_h(self.b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
+            terms.append((factor, build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])))
+            terms.append((factor, self.slopes[j]))
+        return build.lin(f"p{i + 1}", Kind.DUAL, terms)
 
-    def starts() -> list[Var]:
-        xi, _ = do.hamilton("xi0", "n0", q, mu, *stages.at(None))
-        return [xi] * s + [mu] * s
+    def starts(self) -> list[Var]:
+        """Return xi and mu at the beginning of the step."""
+        xi, _ = self.build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))
+        return [xi] * self.s + [self.mu] * self.s
 
-    def update() -> dict[str, Var]:
-        g = do.do("exp", "g", shared["Y"])
-        return {"q": do.do("mul", "q1", g, q), "mu": do.do("Adtinv", "mu1", g, shared["mubar"])}
 
-    return stages.program([*v, *M], images, starts, update)
+def _rest(powers: list[Var]) -> Terms:
+    """Return -sum over k >= 1 of ad_x^k/(k+1)!, or of its dual."""
+    return [(_over_factorial(-1, k), power) for k, power in enumerate(powers) if k]
 
 
 def _over_factorial(sign: int, k: int) -> Coefficient:

@@ -6,21 +6,28 @@ are zero; dexp^{-1}_(0) is the identity, and P_(0) zero, on any group.
 
 from __future__ import annotations
 
-from codegen.ir.program import Assign, Operation, Program, Var
+from codegen.ir.operations import Adjoint, Bracket, DualDexp, InverseDexp, InverseDexpSlope, Zero
+from codegen.ir.program import Assign, Program
+from codegen.ir.values import Var
 from codegen.passes.rewrite import Rewriter, rewrite
 
-TRIVIAL = frozenset({"Ad", "Adt", "Adtinv", "dexpinv", "dexpinvt", "dexpt"})
+IDENTITIES = (Adjoint, InverseDexp, DualDexp)
+"""Operations that return their last argument where all brackets vanish."""
+
+ZEROS = (Bracket, InverseDexpSlope)
+"""Operations that return zero there."""
 
 
 def run(program: Program, abelian: bool) -> Program:
     """Return the program without operations that do nothing."""
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-        name = assign.operation.name
-        if (abelian and name in TRIVIAL) or (name in ("dexpinv", "dexpinvt") and assign.operation.order == 0):
+        operation = assign.operation
+        uncut = isinstance(operation, InverseDexp | InverseDexpSlope) and operation.order == 0
+        if isinstance(operation, IDENTITIES) and (abelian or uncut):
             return assign.args[-1:]
-        if (abelian and name in ("ad", "adt", "P")) or (name == "P" and assign.operation.order == 0):
-            return rewriter.emit(Assign(assign.targets, Operation("zero"), ()))
+        if isinstance(operation, ZEROS) and (abelian or uncut):
+            return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
         return rewriter.emit(assign)
 
     return rewrite(program, rule)

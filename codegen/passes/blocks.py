@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from codegen.ir.program import Assign, Program, Solve, Statement, Var
+from codegen.ir.program import Assign, Program, Solve, Statement
+from codegen.ir.values import Var
 
 
 def run(program: Program) -> Program:

@@ -14,12 +14,38 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from codegen.ir.program import BODY, Assign, Builder, Kind, Program, Solve, Statement, Var
+from codegen.ir.operations import (
+    Adjoint,
+    Advance,
+    BodyForce,
+    BodyVelocity,
+    Bracket,
+    DualDexp,
+    Exp,
+    HamiltonianDerivatives,
+    Identity,
+    InverseDexp,
+    InverseDexpSlope,
+    Linear,
+    Multiply,
+    Zero,
+)
+from codegen.ir.program import BODY, Assign, Builder, Program, Solve, Statement
+from codegen.ir.values import Kind, Var
 from codegen.passes.rewrite import defined
 from codegen.scene.problem import Problem
 
-EQUIVARIANT = frozenset(
-    {"exp", "lin", "zero", "ad", "adt", "dexpinv", "dexpinvt", "P", "dexpt", "Ad", "Adinv", "Adt", "Adtinv"}
+EQUIVARIANT = (
+    Exp,
+    Linear,
+    Zero,
+    Bracket,
+    InverseDexp,
+    InverseDexpSlope,
+    DualDexp,
+    Adjoint,
+    Multiply,
+    Identity,
 )
 """Operations that commute with the adjoint action; group arguments are products of exponentials."""
 
@@ -48,7 +74,7 @@ class _Framing:
 
     def run(self) -> Program:
         program = self.program
-        self.do = Builder({v.name for v in defined(program)})
+        self.build = Builder({v.name for v in defined(program)})
         inputs = {v.name: v for v in program.inputs}
         self.q = inputs["q"]
         self.relative[self.q] = None
@@ -56,7 +82,7 @@ class _Framing:
         for statement in program.body:
             if isinstance(statement, Assign):
                 self._visit(statement)
-                body += self.do.take()
+                body += self.build.take()
                 continue
             if any(u.kind not in (Kind.ALG, Kind.DUAL) for u in statement.unknowns):
                 raise NotFramed
@@ -66,7 +92,7 @@ class _Framing:
             body.append(
                 Solve(
                     *(statement.label, statement.unknowns, starts),
-                    *(self.do.take(), self._now(statement.images)),
+                    *(self.build.take(), self._now(statement.images)),
                 )
             )
         outputs = dict(program.outputs)
@@ -74,9 +100,9 @@ class _Framing:
             raise NotFramed
         element, (momentum,) = outputs["q"], self._now((outputs["mu"],))
         E = self.relative[element]
-        m = momentum if E is None else self.do.do("Adt", "m", E, momentum)
+        m = momentum if E is None else self.build.adjoint("m", E, momentum)
         ends = {"q": self.names.get(element, element), "mu": m}
-        body += self.do.take()
+        body += self.build.take()
         named = tuple((name, ends[name]) for name, _ in program.outputs)
         return replace(program, body=tuple(body), outputs=named, frame=BODY)
 
@@ -86,34 +112,33 @@ class _Framing:
         return tuple(self.names.get(v, v) for v in variables)
 
     def _visit(self, assign: Assign) -> None:
-        name, args = assign.operation.name, assign.args
-        if name in ("hamilton", "hamiltont") and args[0] in self.relative:
+        operation, args = assign.operation, assign.args
+        if isinstance(operation, HamiltonianDerivatives) and args[0] in self.relative:
             self._field(assign)
-        elif name == "mul" and args[1] in self.relative:
+        elif isinstance(operation, Multiply) and args[1] in self.relative:
             left, right = args[0], self.relative[args[1]]
             if left in self.relative:
                 raise NotFramed
-            E = left if right is None else self.do.do("mul", f"r{assign.targets[0].name}", left, right)
+            E = left if right is None else self.build.mul(f"r{assign.targets[0].name}", left, right)
             self.relative[assign.targets[0]] = E
             self._emit(replace(assign, args=(self.q, E)))
-        elif name in EQUIVARIANT or name == "mul" or (name == "identity"):
+        elif isinstance(operation, EQUIVARIANT):
             self._emit(replace(assign, args=self._now(args)))
-        elif name == "advance":
+        elif isinstance(operation, Advance):
             self._emit(assign)
         else:
             raise NotFramed
 
     def _emit(self, assign: Assign) -> None:
-        self.do.body.append(assign)
+        self.build.body.append(assign)
 
     def _field(self, assign: Assign) -> None:
         """xi = Ad_E W, n = Ad*_{E^-1} N of (Q, Ad*_E M)."""
-        do, (xi, n), element = self.do, assign.targets, assign.args[0]
+        build, (xi, n), element = self.build, assign.targets, assign.args[0]
         E, time = self.relative[element], assign.args[2:]
         (M,) = self._now(assign.args[1:2])
-        P = M if E is None else do.do("Adt", f"P{xi.name}", E, M)
-        suffix = "t" if time else ""
-        W = do.do(f"velocity{suffix}", f"W{xi.name}", element, P, *time)
-        N = do.do(f"force{suffix}", f"N{n.name}", element, P, *time)
-        self.names[xi] = W if E is None else do.do("Ad", f"b{xi.name}", E, W)
-        self.names[n] = N if E is None else do.do("Adtinv", f"b{n.name}", E, N)
+        P = M if E is None else build.adjoint(f"P{xi.name}", E, M)
+        W = build.add(BodyVelocity(bool(time)), f"W{xi.name}", element, P, *time)
+        N = build.add(BodyForce(bool(time)), f"N{n.name}", element, P, *time)
+        self.names[xi] = W if E is None else build.adjoint(f"b{xi.name}", E, W)
+        self.names[n] = N if E is None else build.adjoint(f"b{n.name}", E, N, inverse=True)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from itertools import islice
-from typing import Any
 
 from codegen.errors import SceneError
-from codegen.ir.domain import FloatDomain, NotConverged
+from codegen.ir.domain import FloatDomain, NotConverged, Value
 from codegen.ir.expr import evaluate
 from codegen.ir.interpret import flatten, interpret
-from codegen.ir.program import Kind, Program, Var
+from codegen.ir.program import Program
+from codegen.ir.values import Kind, Var
 from codegen.scene.problem import Problem
 
 STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
@@ -24,7 +24,7 @@ REACH = 0.5
 FAILURES = (NotConverged, ArithmeticError, ValueError)
 """How an interpretation fails; ValueError for the root of a negative number."""
 
-Result = tuple[float, dict[str, Any], dict[str, Any], dict[Var, Any]]
+Result = tuple[float, dict[str, Value], dict[str, Value], dict[Var, Value]]
 """Step size, inputs, new state, and what solved the equations of the last program that was compared."""
 
 SWEEPS = 24
@@ -75,7 +75,7 @@ class Reference:
                 hint="look for roots of negative numbers, zero denominators and numbers above 1e308",
             )
 
-    def _some(self, program: Program, state: dict[str, Any]) -> Iterator[Result]:
+    def _some(self, program: Program, state: dict[str, Value]) -> Iterator[Result]:
         """Yield what happens in the largest step and in two smaller ones, for programs that settle later."""
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
@@ -87,7 +87,7 @@ class Reference:
             step = math.ldexp(moderate, -max(excess, 0))
             if found and step > last / APART:
                 continue
-            solutions: dict[Var, Any] = {}
+            solutions: dict[Var, Value] = {}
             try:
                 after = self._run(program, step, inputs, SWEEPS, solutions)
             except FAILURES:
@@ -98,8 +98,8 @@ class Reference:
                 break
 
     def _run(
-        self, program: Program, step: float, inputs: dict[str, Any], limit: int, solutions: dict[Var, Any]
-    ) -> dict[str, Any]:
+        self, program: Program, step: float, inputs: dict[str, Value], limit: int, solutions: dict[Var, Value]
+    ) -> dict[str, Value]:
         domain = FloatDomain(step)
         return interpret(program, self.scene, domain, inputs, limit=limit, newton=False, solutions=solutions)
 
@@ -125,7 +125,7 @@ class Reference:
                 return self._gap(before, after)
         return failure
 
-    def _gap(self, before: dict[str, Any], after: dict[str, Any]) -> str:
+    def _gap(self, before: dict[str, Value], after: dict[str, Value]) -> str:
         for name, kind in self.kinds.items():
             if name not in before:
                 continue
@@ -137,7 +137,7 @@ class Reference:
         return ""
 
 
-def _speed(scene: Problem, state: dict[str, Any]) -> float:
+def _speed(scene: Problem, state: dict[str, Value]) -> float:
     """Return the largest component of the field, or of the Hamiltonian's derivatives, at a state."""
     domain = FloatDomain(0.0)
     coordinates = tuple(x for block in scene.state for x in state[block.name])
@@ -148,7 +148,7 @@ def _speed(scene: Problem, state: dict[str, Any]) -> float:
     return max(map(abs, map(float, values)))
 
 
-def _states(scene: Problem) -> Iterator[dict[str, Any]]:
+def _states(scene: Problem) -> Iterator[dict[str, Value]]:
     """Yield the initial state, and one moved from it by the group along fixed directions."""
     domain = FloatDomain(0.0)
     start = scene.initial(domain)
@@ -156,7 +156,7 @@ def _states(scene: Problem) -> Iterator[dict[str, Any]]:
     x, covector = tuple(directions[: scene.group.dim]), directions[scene.group.dim :]
     time = float(scene.span[0])
     for moved in (False, True):
-        state: dict[str, Any] = {"t": time + moved / 8}
+        state: dict[str, Value] = {"t": time + moved / 8}
         first = 0
         for block in scene.state:
             value = start[first : first + len(block.symbols)]

@@ -6,7 +6,8 @@ nothing changes, so that nested maps come out one after the other.
 
 from __future__ import annotations
 
-from codegen.ir.program import LINEAR_LAST, ONE, Assign, Coefficient, Operation, Program, Var
+from codegen.ir.program import Assign, Program
+from codegen.ir.values import ONE, Coefficient, Var
 from codegen.passes import dead
 from codegen.passes.rewrite import Rewriter, rewrite
 
@@ -21,12 +22,12 @@ def run(program: Program) -> Program:
 
 
 def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-    if assign.operation.name != "lin":
+    if not assign.terms:
         return rewriter.emit(assign)
     groups: dict[object, list[tuple[Coefficient, Var]]] = {}
-    for k, (c, arg) in enumerate(zip(assign.operation.coefficients, assign.args, strict=True)):
+    for k, (c, arg) in enumerate(assign.terms):
         made = rewriter.definitions.get(arg)
-        single = made is not None and rewriter.uses.get(arg) == 1 and made.operation.name in LINEAR_LAST
+        single = made is not None and rewriter.uses.get(arg) == 1 and made.operation.linear_in_last
         key = (made.operation, made.args[:-1]) if made is not None and single else k
         groups.setdefault(key, []).append((c, arg))
     if all(len(terms) == 1 for terms in groups.values()):
@@ -42,11 +43,9 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         target = rewriter.builder.fresh(terms[0][1].name, terms[0][1].kind)
         moved = Assign((target,), made.operation, (*made.args[:-1], total))
         result.append((ONE, rewriter.emit(moved)[0]))
-    operation = Operation("lin", tuple(c for c, _ in result))
-    return rewriter.emit(Assign(assign.targets, operation, tuple(v for _, v in result)))
+    return rewriter.emit(Assign.of_terms(assign.targets[0], result))
 
 
 def _lin(rewriter: Rewriter, terms: list[tuple[Coefficient, Var]]) -> Var:
     target = rewriter.builder.fresh(f"s_{terms[0][1].name}", terms[0][1].kind)
-    operation = Operation("lin", tuple(c for c, _ in terms))
-    return rewriter.emit(Assign((target,), operation, tuple(v for _, v in terms)))[0]
+    return rewriter.emit(Assign.of_terms(target, terms))[0]

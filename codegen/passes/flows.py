@@ -11,10 +11,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import combinations
-from typing import Any
 
-from codegen.ir.program import FLOWS, Assign, Coefficient, Kind, Operation, Program, Var
-from codegen.scene.problem import Problem, orbit_of
+from codegen.ir.domain import Value
+from codegen.ir.operations import Advance, FlowOf
+from codegen.ir.program import Assign, Program
+from codegen.ir.values import Coefficient, Kind, Var
+from codegen.scene.orbit import orbit_of
+from codegen.scene.problem import Problem
 
 
 @dataclass(frozen=True)
@@ -58,29 +61,25 @@ def word(program: Program) -> list[Letter] | None:
     letters = []
     state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for statement in program.body:
-        if not isinstance(statement, Assign) or statement.operation.name not in {"advance", *FLOWS}:
+        if not isinstance(statement, Assign):
             return None
-        if statement.operation.name == "advance":
+        operation, args = statement.operation, statement.args
+        if isinstance(operation, Advance):
             continue
-        if statement.args[: len(state)] != state:
+        if not isinstance(operation, FlowOf) or args[: len(state)] != state:
             return None
-        letters.append(
-            Letter(
-                statement.operation.part, statement.operation.coefficients[0], statement.args[len(state) :]
-            )
-        )
+        letters.append(Letter(operation.part, operation.duration, args[len(state) :]))
         state = statement.targets
     return letters if state == tuple(var for _, var in program.outputs) else None
 
 
 def spelled(program: Program, letters: Sequence[Letter]) -> Program:
     """Return the program that makes these flows, with the times of the old one."""
-    body = [a for a in program.assigns() if a.operation.name == "advance"]
+    body = [a for a in program.assigns() if isinstance(a.operation, Advance)]
     first = state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for number, letter in enumerate(letters):
         targets = tuple(Var(f"{v.name}{number + 1}", v.kind) for v in first)
-        name = "flowt" if letter.time else "flow"
-        operation = Operation(name, (letter.duration,), part=letter.part)
+        operation = FlowOf(letter.part, letter.duration, bool(letter.time))
         body.append(Assign(targets, operation, (*state, *letter.time)))
         state = targets
     outputs = tuple((name, var) for (name, _), var in zip(program.outputs, state, strict=True))
@@ -92,7 +91,7 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
     orbit = orbit_of(scene)
     d = orbit.domain
 
-    def moved(point: dict[str, Any], parts: Sequence[tuple[str, Any]]) -> tuple[Any, ...]:
+    def moved(point: dict[str, Value], parts: Sequence[tuple[str, Value]]) -> tuple[Value, ...]:
         state = tuple(tuple(point[s] for s in block.symbols) for block in scene.state)
         for part, tau in parts:
             state = scene.flow(d, part, tau, (*state, point["t"]))

@@ -7,11 +7,27 @@ of the identity its other factor, a linear operation on zero is zero, dexp at ze
 
 from __future__ import annotations
 
-from codegen.ir.program import LINEAR_LAST, Assign, Coefficient, Operation, Program, Var
+from codegen.ir.operations import (
+    Act,
+    Adjoint,
+    Advance,
+    Bracket,
+    DualDexp,
+    Exp,
+    Identity,
+    InverseDexp,
+    Multiply,
+    Zero,
+)
+from codegen.ir.program import Assign, Program
+from codegen.ir.values import Coefficient, Var
 from codegen.passes.rewrite import Rewriter, rewrite
 
-AT_ZERO = frozenset({"dexpinv", "dexpinvt", "dexpt"})
-AT_IDENTITY = frozenset({"act", "Ad", "Adt", "Adtinv"})
+AT_ZERO = (InverseDexp, DualDexp)
+"""Operations that return their last argument where the first is zero."""
+
+AT_IDENTITY = (Act, Adjoint)
+"""Operations that return their last argument where the first is the identity."""
 
 
 def run(program: Program) -> Program:
@@ -20,39 +36,37 @@ def run(program: Program) -> Program:
 
 
 def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-    name = assign.operation.name
-    if name == "lin":
+    operation = assign.operation
+    if assign.terms:
         return _sum(rewriter, assign)
-    made = [rewriter.definitions.get(a) for a in assign.args]
-    made_by = [m.operation.name if m else "" for m in made]
-    if name == "exp" and made_by[0] == "zero":
-        return rewriter.emit(Assign(assign.targets, Operation("identity"), ()))
-    if name == "mul" and "identity" in made_by:
-        return (assign.args[1 - made_by.index("identity")],)
-    if name in AT_IDENTITY and made_by[0] == "identity":
-        return (assign.args[1],)
-    if name in AT_ZERO and made_by[0] == "zero":
-        return (assign.args[1],)
-    if name in LINEAR_LAST and (made_by[-1] == "zero" or (name in ("ad", "adt") and made_by[0] == "zero")):
-        return rewriter.emit(Assign(assign.targets, Operation("zero"), ()))
-    if name == "advance" and assign.operation.coefficients[0].is_zero:
+    if isinstance(operation, Advance) and operation.coefficient.is_zero:
         return assign.args
+    sources = [rewriter.definitions[a].operation if a in rewriter.definitions else None for a in assign.args]
+    zero = [isinstance(source, Zero) for source in sources]
+    identity = [isinstance(source, Identity) for source in sources]
+    if isinstance(operation, Exp) and zero[0]:
+        return rewriter.emit(Assign(assign.targets, Identity(), ()))
+    if isinstance(operation, Multiply) and any(identity):
+        return (assign.args[1 - identity.index(True)],)
+    if (isinstance(operation, AT_IDENTITY) and identity[0]) or (isinstance(operation, AT_ZERO) and zero[0]):
+        return (assign.args[1],)
+    if operation.linear_in_last and (zero[-1] or (isinstance(operation, Bracket) and zero[0])):
+        return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
     return rewriter.emit(assign)
 
 
 def _sum(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     """Simplify one linear combination."""
     total: dict[tuple[Var, int], Coefficient] = {}
-    for c, arg in zip(assign.operation.coefficients, assign.args, strict=True):
-        made = rewriter.definitions.get(arg)
-        if made is not None and made.operation.name == "zero":
+    for c, arg in assign.terms:
+        source = rewriter.definitions.get(arg)
+        if source is not None and isinstance(source.operation, Zero):
             continue
         old = total.get((arg, c.power))
         total[arg, c.power] = c if old is None else Coefficient(old.value + c.value, c.power)
     terms = [(c, arg) for (arg, _), c in total.items() if not c.is_zero]
     if not terms:
-        return rewriter.emit(Assign(assign.targets, Operation("zero"), ()))
+        return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
     if len(terms) == 1 and terms[0][0].is_one:
         return (terms[0][1],)
-    operation = Operation("lin", tuple(c for c, _ in terms))
-    return rewriter.emit(Assign(assign.targets, operation, tuple(a for _, a in terms)))
+    return rewriter.emit(Assign.of_terms(assign.targets[0], terms))

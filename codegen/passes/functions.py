@@ -11,22 +11,30 @@ from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 
+from codegen.groups.capabilities import ClosedFormSeries
+from codegen.ir.ad_series import UNIT, Factor, Word, simplified
 from codegen.ir.expr import walk
 from codegen.ir.number import Number
-from codegen.ir.program import Assign, Factor, Kind, Operation, Program, Var
+from codegen.ir.operations import (
+    Adjoint,
+    AdSeries,
+    BodyForce,
+    BodyVelocity,
+    DualDexp,
+    Exp,
+    InverseDexp,
+    Multiply,
+    MultiplyExp,
+)
+from codegen.ir.program import Assign, Program
+from codegen.ir.values import Kind, Var
 from codegen.passes.rewrite import Rewriter, rewrite
 from codegen.scene.problem import Problem
-
-ONE = Fraction(1)
-ADJOINT = {"Ad": ONE, "Adinv": -ONE, "Adt": ONE, "Adtinv": -ONE}
-"""Ad_{exp x} is exp(s t) with this s; t is ad_x, or ad*_x on duals."""
-
-DUAL = frozenset({"Adt", "Adtinv", "dexpt", "dexpinvt", "seriest"})
 
 
 def run(program: Program, scene: Problem) -> Program:
     """Return the program with functions of ad combined, where the group knows them in closed form."""
-    return rewrite(program, _rule) if hasattr(scene.group, "series") else program
+    return program if scene.group.offers(ClosedFormSeries) is None else rewrite(program, _rule)
 
 
 def rows(program: Program, scene: Problem) -> Program:
@@ -34,24 +42,22 @@ def rows(program: Program, scene: Problem) -> Program:
 
     Then exp(x) need not be formed for it.
     """
-    if scene.body is None or not hasattr(scene.group, "mulexp"):
+    if scene.body is None:
         return program
     names = scene.state[0].symbols
     read = {n.payload for n in walk([*scene.body.velocity, *scene.body.force]) if n.op == "sym"}
     side = round(len(names) ** 0.5)
     if len({k // side for k, name in enumerate(names) if name in read}) > 1:
         return program
-    fields = {a.args[0] for a in program.assigns() if a.operation.name.startswith(("velocity", "force"))}
+    fields = {a.args[0] for a in program.assigns() if isinstance(a.operation, BodyVelocity | BodyForce)}
     kept = {var for _, var in program.outputs}
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-        made = rewriter.definitions.get(assign.args[-1]) if assign.operation.name == "mul" else None
+        made = rewriter.definitions.get(assign.args[-1]) if isinstance(assign.operation, Multiply) else None
         own = assign.targets[0] in fields and assign.targets[0] not in kept
-        if made is None or made.operation.name != "exp" or not own:
+        if made is None or not isinstance(made.operation, Exp) or not own:
             return rewriter.emit(assign)
-        return rewriter.emit(
-            replace(assign, operation=Operation("mulexp"), args=(assign.args[0], made.args[0]))
-        )
+        return rewriter.emit(replace(assign, operation=MultiplyExp(), args=(assign.args[0], made.args[0])))
 
     return rewrite(program, rule)
 
@@ -67,98 +73,64 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if made is not None and inner is not None:
         scale = ratio(rewriter.definitions, x, inner[0])
         if scale is not None:
-            x, word, v = (
-                inner[0],
-                (*inner[1], *(replace(f, scale=f.scale * scale) for f in word)),
-                made.args[-1],
-            )
-            return _emit(rewriter, assign, x, word, v)
-    if made is not None and made.operation.name == "lin" and assign.operation.name in ADJOINT:
+            joined = (*inner[1], *(f.scaled(scale) for f in word))
+            return _emit(rewriter, assign, inner[0], joined, made.args[-1])
+    adjoint = isinstance(assign.operation, Adjoint)
+    if adjoint and made is not None and made.terms:
         parts = [_function_of(rewriter, arg, x) for arg in made.args]
         if len(parts) > 1 and all(part is not None for part in parts):
             return _distributed(rewriter, made, [p for p in parts if p is not None], word)
-    if assign.operation.name in ADJOINT and rewriter.uses.get(assign.args[0], 0) > 1:
+    if adjoint and rewriter.uses.get(assign.args[0], 0) > 1:
         return rewriter.emit(assign)
     return _emit(rewriter, assign, x, word, v)
 
 
-def _emit(rewriter: Rewriter, assign: Assign, x: Var, word: tuple[Factor, ...], v: Var) -> tuple[Var, ...]:
+def _emit(rewriter: Rewriter, assign: Assign, x: Var, word: Word, v: Var) -> tuple[Var, ...]:
     word = simplified(word)
     if not word:
         return (v,)
-    name = "seriest" if assign.operation.name in DUAL else "series"
-    return rewriter.emit(Assign(assign.targets, Operation(name, word=word), (x, v)))
+    return rewriter.emit(Assign(assign.targets, AdSeries(word, v.kind is Kind.DUAL), (x, v)))
 
 
-Part = tuple[Var, tuple[Factor, ...], Var]
+Part = tuple[Var, Word, Var]
 """x, a function of ad_x, and what it is applied to."""
 
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
     """Return s and the function of y that var is, where x = s y and var has no other use."""
     made = rewriter.definitions.get(var)
-    if made is None or not made.operation.word or rewriter.uses.get(var, 0) > 1:
+    if made is None or not isinstance(made.operation, AdSeries) or rewriter.uses.get(var, 0) > 1:
         return None
     scale = ratio(rewriter.definitions, x, made.args[0])
     return None if scale is None else (scale, (made.args[0], made.operation.word, made.args[1]))
 
 
 def _distributed(
-    rewriter: Rewriter, total: Assign, parts: list[tuple[Fraction, Part]], word: tuple[Factor, ...]
+    rewriter: Rewriter, total: Assign, parts: list[tuple[Fraction, Part]], word: Word
 ) -> tuple[Var, ...]:
     """Append a function of ad_x applied to each term of a sum of such functions."""
     terms = []
     for scale, (y, inner, v) in parts:
-        joined = simplified((*inner, *(replace(f, scale=f.scale * scale) for f in word)))
+        joined = simplified((*inner, *(f.scaled(scale) for f in word)))
         target = rewriter.builder.fresh(v.name, v.kind)
-        name = "seriest" if v.kind is Kind.DUAL else "series"
-        made = Assign((target,), Operation(name, word=joined), (y, v))
+        made = Assign((target,), AdSeries(joined, v.kind is Kind.DUAL), (y, v))
         terms.append(rewriter.emit(made)[0] if joined else v)
     target = rewriter.builder.fresh(total.targets[0].name, total.targets[0].kind)
     return rewriter.emit(Assign((target,), total.operation, tuple(terms)))
 
 
-def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, tuple[Factor, ...]] | None:
+def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
     """Return x and the function of ad_x that an assignment applies to its last argument."""
     operation, args = assign.operation, assign.args
-    if operation.name in ADJOINT:
+    if isinstance(operation, Adjoint):
         made = rewriter.definitions.get(args[0])
-        if made is None or made.operation.name != "exp":
+        if made is None or not isinstance(made.operation, Exp):
             return None
-        return made.args[0], (Factor("exp", ADJOINT[operation.name]),)
-    if operation.name in ("dexpinv", "dexpinvt"):
-        assert operation.order is not None
-        return args[0], (Factor("dexpinv", ONE, operation.order),)
-    if operation.name == "dexpt":
-        return args[0], (Factor("dexp", ONE),)
-    return (args[0], operation.word) if operation.word else None
-
-
-def simplified(word: tuple[Factor, ...]) -> tuple[Factor, ...]:
-    """Return a word with its exponentials joined and without factors that cancel.
-
-    exp(-s t) dexp(s t) = dexp(-s t).
-
-    >>> simplified((Factor("dexp", ONE), Factor("exp", -ONE)))[0].text()
-    'dexp(-t)'
-    """
-    powers: dict[tuple[str, Fraction, int], int] = {}
-    rate = Fraction(0)
-    for f in word:
-        if f.function == "exp":
-            rate += f.scale * f.power
-        else:
-            key = (f.function, f.scale, f.order)
-            powers[key] = powers.get(key, 0) + f.power
-    for (function, scale, order), n in list(powers.items()):
-        if function == "dexp" and n > 0 and rate == -scale:
-            powers[function, scale, order] -= 1
-            powers[function, -scale, order] = powers.get((function, -scale, order), 0) + 1
-            rate = Fraction(0)
-    found = [Factor("exp", rate)] if rate else []
-    for (function, scale, order), n in sorted(powers.items()):
-        found += [Factor(function, scale, order, 1 if n > 0 else -1)] * abs(n)
-    return tuple(found)
+        # Ad_{exp x} = exp(ad_x), and its inverse is exp(-ad_x); the same holds on the dual.
+        return made.args[0], (Factor("exp", -UNIT if operation.inverse else UNIT),)
+    if isinstance(operation, InverseDexp | DualDexp | AdSeries):
+        return args[0], operation.word
+    return None
 
 
 def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
@@ -178,8 +150,8 @@ def _terms(definitions: Mapping[Var, Assign], x: Var) -> dict[tuple[str, int], N
     while waiting:
         c, power, var = waiting.pop()
         made = definitions.get(var)
-        if made is not None and made.operation.name == "lin":
-            for k, arg in zip(made.operation.coefficients, made.args, strict=True):
+        if made is not None and made.terms:
+            for k, arg in made.terms:
                 waiting.append((c * k.value, power + k.power, arg))
             continue
         old = total.get((var.name, power))

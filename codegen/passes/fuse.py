@@ -5,7 +5,9 @@ Exact. exp(x).y needs no group element: Rodrigues' formula applied to a vector c
 
 from __future__ import annotations
 
-from codegen.ir.program import Assign, Operation, Program, Var
+from codegen.ir.operations import Act, ActExp, Exp
+from codegen.ir.program import Assign, Program
+from codegen.ir.values import Var
 from codegen.passes.rewrite import Rewriter, rewrite
 
 
@@ -13,10 +15,10 @@ def run(program: Program) -> Program:
     """Return the program with act(exp(x), y) fused into actexp(x, y); exp is left for dead code."""
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-        if assign.operation.name == "act":
+        if isinstance(assign.operation, Act):
             made = rewriter.definitions.get(assign.args[0])
-            if made is not None and made.operation.name == "exp" and rewriter.uses[assign.args[0]] == 1:
-                fused = Assign(assign.targets, Operation("actexp"), (made.args[0], assign.args[1]))
+            if made is not None and isinstance(made.operation, Exp) and rewriter.uses[assign.args[0]] == 1:
+                fused = Assign(assign.targets, ActExp(), (made.args[0], assign.args[1]))
                 return rewriter.emit(fused)
         return rewriter.emit(assign)
 

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from codegen.ir.program import LINEAR_LAST, Assign, Builder, Coefficient, Operation, Program, Solve, Var
+from codegen.ir.program import Assign, Builder, Program, Solve
+from codegen.ir.values import Coefficient, Var
 from codegen.passes import dead
 from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
@@ -28,10 +29,10 @@ def run(program: Program) -> Program:
 
 def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     operation = assign.operation
-    if operation.name == "lin":
+    if assign.terms:
         return _flat(rewriter, assign)
     made = rewriter.definitions.get(assign.args[-1]) if assign.args else None
-    if operation.name not in LINEAR_LAST or made is None or not _single(made):
+    if not operation.linear_in_last or made is None or not made.is_multiple:
         return rewriter.emit(assign)
     (target,) = assign.targets
     mapped = rewriter.builder.fresh(target.name, target.kind)
@@ -39,20 +40,14 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     return rewriter.emit(Assign((target,), made.operation, (mapped,)))
 
 
-def _single(assign: Assign) -> bool:
-    return assign.operation.name == "lin" and len(assign.args) == 1
-
-
 def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     """Append a sum with single multiples, and sums that nothing else reads, replaced by their terms."""
     total: dict[tuple[Var, int], Coefficient] = {}
-    for c, arg in zip(assign.operation.coefficients, assign.args, strict=True):
+    for c, arg in assign.terms:
         made = rewriter.definitions.get(arg)
-        inner = made is not None and made.operation.name == "lin"
         terms = [(c, arg)]
-        if inner and made is not None and (len(made.args) == 1 or rewriter.uses.get(arg) == 1):
-            pairs = zip(made.operation.coefficients, made.args, strict=True)
-            terms = [(Coefficient(c.value * k.value, c.power + k.power), v) for k, v in pairs]
+        if made is not None and made.terms and (made.is_multiple or rewriter.uses.get(arg) == 1):
+            terms = [(Coefficient(c.value * k.value, c.power + k.power), v) for k, v in made.terms]
         for k, v in terms:
             old = total.get((v, k.power))
             total[v, k.power] = k if old is None else Coefficient(old.value + k.value, k.power)
@@ -61,8 +56,7 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         return rewriter.emit(assign)
     if len(kept) == 1 and kept[0][0].is_one:
         return (kept[0][1],)
-    operation = Operation("lin", tuple(c for c, _ in kept))
-    return rewriter.emit(Assign(assign.targets, operation, tuple(v for _, v in kept)))
+    return rewriter.emit(Assign.of_terms(assign.targets[0], kept))
 
 
 def _added(program: Program) -> Program:
@@ -73,11 +67,10 @@ def _added(program: Program) -> Program:
 
 
 def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
-    sums = {k: a for k, a in enumerate(body) if a.operation.name == "lin" and len(a.args) > 1}
+    sums = {k: a for k, a in enumerate(body) if len(a.terms) > 1}
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
-        pairs = [(k, list(zip(a.operation.coefficients, a.args, strict=True))) for k, a in sums.items()]
-        found = [(k, c) for k, terms in pairs for c, x in terms if x == v]
+        found = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
         unit = found[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in found)
         once = len({k for k, _ in found}) == len(found)
@@ -93,11 +86,9 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
         made += builder.take()
         gone = {v for v, _ in members}
         for k, share in relative:
-            own = zip(sums[k].operation.coefficients, sums[k].args, strict=True)
-            kept = [(c, v) for c, v in own if v not in gone]
+            kept = [(c, v) for c, v in sums[k].terms if v not in gone]
             kept.append((Coefficient(share.value * unit.value, share.power + unit.power), total))
-            operation = Operation("lin", tuple(c for c, _ in kept))
-            sums[k] = replace(sums[k], operation=operation, args=tuple(v for _, v in kept))
+            sums[k] = Assign.of_terms(sums[k].targets[0], kept)
     result = ordered((*(sums.get(k, a) for k, a in enumerate(body)), *made))
     assert result is not None
     return result

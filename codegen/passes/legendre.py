@@ -12,30 +12,16 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from codegen.ir.number import Number
-from codegen.ir.program import (
-    ONE,
-    Assign,
-    Builder,
-    Coefficient,
-    Factor,
-    Kind,
-    Operation,
-    Program,
-    Solve,
-    Statement,
-    Var,
-)
-from codegen.passes.functions import ONE as UNIT
+from codegen.ir.operations import Adjoint, AdSeries, BodyVelocity, Exp, InverseDexp, Legendre
+from codegen.ir.program import Assign, Builder, Program, Solve, Statement
+from codegen.ir.values import MINUS_ONE, ONE, Coefficient, Kind, Var
 from codegen.passes.functions import ratio
-from codegen.passes.opposites import OPPOSITE
 from codegen.passes.rewrite import defined
 from codegen.passes.tearing import ordered
 from codegen.scene.problem import Problem
 
-FUNCTIONS = frozenset({"dexpinv", "dexpinvt", "series", "seriest"})
-"""Functions of ad that have an inverse near the identity."""
-
-MINUS = Coefficient(Number.rational(-1))
+INVERTIBLE = (Adjoint, InverseDexp, AdSeries)
+"""Maps that have an inverse; functions of ad have one near the identity."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +46,7 @@ def run(program: Program, scene: Problem) -> Program:
     """Return the program with momenta and forces computed from velocities."""
     if scene.body is None or scene.body.inverse is None:
         return program
-    do = Builder({v.name for v in defined(program)})
+    build = Builder({v.name for v in defined(program)})
     body: list[Statement] = []
     names: dict[Var, Var] = {}
     for statement in program.body:
@@ -70,7 +56,7 @@ def run(program: Program, scene: Problem) -> Program:
         block = replace(statement, starts=tuple(names.get(a, a) for a in statement.starts))
         paths = [p for p in (path(block, u) for u in block.unknowns) if p is not None]
         for found in paths:
-            block = _turned(block, found, do)
+            block = _turned(block, found, build)
         image = dict(zip(block.unknowns, block.images, strict=True))
         names |= {image[p.unknown]: p.unknown for p in paths}
         body.append(block)
@@ -82,14 +68,14 @@ def residuals(program: Program, scene: Problem) -> Program:
     """Return the program with residuals in the blocks all of whose unknowns follow from velocities."""
     if scene.body is None or scene.body.inverse is None:
         return program
-    do = Builder({v.name for v in defined(program)})
+    build = Builder({v.name for v in defined(program)})
     body: list[Statement] = []
     for statement in program.body:
         if isinstance(statement, Solve):
             paths = [path(statement, u) for u in statement.unknowns]
             if all(p is not None for p in paths):
-                found = [_residual(statement, p, do) for p in paths if p is not None]
-                statement = replace(statement, body=(*statement.body, *do.take()), residuals=tuple(found))
+                found = [_residual(statement, p, build) for p in paths if p is not None]
+                statement = replace(statement, body=(*statement.body, *build.take()), residuals=tuple(found))
         body.append(statement)
     return replace(program, body=tuple(body))
 
@@ -99,7 +85,7 @@ def path(block: Solve, unknown: Var) -> Path | None:
     maker = {target: assign for assign in block.body for target in assign.targets}
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
     outward, velocity = _chain(maker, image)
-    if velocity is None or not velocity.operation.name.startswith("velocity"):
+    if velocity is None or not isinstance(velocity.operation, BodyVelocity):
         return None
     inward, _ = _chain(maker, velocity.args[1])
     return Path(unknown, outward, velocity, inward)
@@ -117,73 +103,69 @@ def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assi
 
 
 def _invertible(assign: Assign) -> bool:
-    operation = assign.operation
-    single = operation.name == "lin" and len(assign.args) == 1 and operation.coefficients[0].power == 0
-    return (
-        single or operation.name in OPPOSITE or operation.name in ("dexpinv", "dexpinvt", "series", "seriest")
-    )
+    number = assign.is_multiple and assign.terms[0][0].power == 0
+    return number or isinstance(assign.operation, INVERTIBLE)
 
 
-def _undone(do: Builder, assign: Assign, value: Var) -> Var:
+def _undone(build: Builder, assign: Assign, value: Var) -> Var:
     """Append what gives the argument of an invertible map from its value."""
-    operation, kind = assign.operation, value.kind
-    if operation.name == "lin":
-        c = operation.coefficients[0]
-        return do.lin("s", kind, [(Coefficient(Number.rational(1) / c.value), value)])
-    if operation.name in OPPOSITE:
-        return do.do(OPPOSITE[operation.name], "a", assign.args[0], value)
-    word = operation.word or (Factor("dexpinv", UNIT, operation.order or 0),)
-    opposite = tuple(replace(f, power=-f.power) for f in word)
-    target = do.fresh("a", kind)
-    name = "seriest" if kind is Kind.DUAL else "series"
-    do.body.append(Assign((target,), Operation(name, word=opposite), (assign.args[0], value)))
-    return target
+    operation = assign.operation
+    if isinstance(operation, Adjoint):
+        return build.add(operation.opposite(), "a", assign.args[0], value)
+    if isinstance(operation, InverseDexp | AdSeries):
+        opposite = tuple(factor.inverse() for factor in operation.word)
+        return build.add(AdSeries(opposite, value.kind is Kind.DUAL), "a", assign.args[0], value)
+    ((c, _),) = assign.terms
+    return build.lin("s", value.kind, [(Coefficient(Number.rational(1) / c.value), value)])
 
 
-def _values(do: Builder, found: Path) -> tuple[dict[Var, Var], Var]:
+def _values(build: Builder, found: Path) -> tuple[dict[Var, Var], Var]:
     """Append everything on a path computed from its unknown: what stands for each value, and for the base."""
     stands: dict[Var, Var] = {}
     value = found.unknown
     stands[(found.outward[-1] if found.outward else found.velocity).targets[0]] = value
     for assign in reversed(found.outward):
-        value = _undone(do, assign, value)
+        value = _undone(build, assign, value)
         stands[assign.args[-1]] = value
-    value = do.do("legendre", "p", value)
+    value = build.add(Legendre(), "p", value)
     stands[found.velocity.args[1]] = value
     for assign in reversed(found.inward):
-        value = _undone(do, assign, value)
+        value = _undone(build, assign, value)
         stands[assign.args[-1]] = value
     return stands, value
 
 
-def _residual(block: Solve, found: Path, do: Builder) -> Var:
+def _residual(block: Solve, found: Path, build: Builder) -> Var:
     """Append what the momentum from the unknown exceeds the other by, in the frame where that costs less."""
-    stands, computed = _values(do, found)
+    stands, computed = _values(build, found)
     given = found.base
     if _function_of_one(block, found):
         given = found.velocity.args[1]
-    elif found.inward and found.inward[0].operation.name == "lin":
+    elif found.inward and found.inward[0].terms:
         given = found.inward[0].targets[0]
-    return do.lin("residual", Kind.DUAL, [(ONE, given), (MINUS, stands.get(given, computed))])
+    return build.lin("residual", Kind.DUAL, [(ONE, given), (MINUS_ONE, stands.get(given, computed))])
 
 
 def _function_of_one(block: Solve, found: Path) -> bool:
     """Whether P is Ad*_{exp x} of a sum of functions of multiples of ad*_x."""
     maker = {target: assign for assign in block.body for target in assign.targets}
-    if len(found.inward) != 1 or found.inward[0].operation.name != "Adt":
+    if len(found.inward) != 1 or found.inward[0].operation != Adjoint(dual=True):
         return False
     element, total = (maker.get(v) for v in found.inward[0].args)
-    if element is None or total is None or (element.operation.name, total.operation.name) != ("exp", "lin"):
+    if element is None or total is None or not (isinstance(element.operation, Exp) and total.terms):
         return False
     terms = [maker.get(v) for v in total.args]
     x = element.args[0]
-    return all(t is not None and t.operation.word and ratio(maker, x, t.args[0]) is not None for t in terms)
+    return all(
+        t is not None and isinstance(t.operation, AdSeries) and ratio(maker, x, t.args[0]) is not None
+        for t in terms
+    )
 
 
-def _turned(block: Solve, found: Path, do: Builder) -> Solve:
+def _turned(block: Solve, found: Path, build: Builder) -> Solve:
     """Return the block with the values on a path taken from its unknown wherever else they are used."""
-    stands, _ = _values(do, found)
-    fresh = do.take()
+    stands, _ = _values(build, found)
+    fresh = build.take()
     if found.inward and found.base not in block.unknowns:
         del stands[found.base]  # a sum of many terms, which no other operation needs from the velocity
     own = {a.targets[0] for a in (*found.outward, found.velocity, *found.inward)}

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 
-from codegen.ir.program import Assign, Builder, Program, Solve, Statement, Var
+from codegen.ir.program import Assign, Builder, Program, Solve, Statement
+from codegen.ir.values import Var
 
 
 @dataclass

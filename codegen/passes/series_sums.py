@@ -10,19 +10,28 @@ wait for them.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Any
+from dataclasses import dataclass, field
 
-from codegen.ir.domain import Domain
-from codegen.ir.interpret import coefficient
+from codegen.groups.capabilities import ClosedFormSeries
+from codegen.ir.domain import Domain, Value
 from codegen.ir.number import Number
-from codegen.ir.program import ONE, Assign, Coefficient, Factor, Program, Var
+from codegen.ir.operations import AdSeries
+from codegen.ir.program import Assign, Program
+from codegen.ir.values import ONE, Coefficient, Var
 from codegen.passes.functions import ratio
 from codegen.passes.rewrite import uses
 from codegen.scene.problem import Problem
 
-Term = tuple[Coefficient, Assign]
-"""A multiple of a function of ad."""
+
+@dataclass(frozen=True)
+class Term:
+    """A multiple c W(ad_x) v of a function of ad."""
+
+    target: Var
+    coefficient: Coefficient
+    series: AdSeries
+    x: Var
+    v: Var
 
 
 @dataclass
@@ -37,25 +46,22 @@ class SeriesSums:
     def __post_init__(self) -> None:
         self.uses = uses(self.program)
 
-    def value(self, domain: Domain, assign: Assign, env: Mapping[Var, Any]) -> tuple[Any, ...] | None:
+    def value(self, domain: Domain, assign: Assign, env: Mapping[Var, Value]) -> tuple[Value, ...] | None:
         """Return the value of a sum with its functions of ad nested; None where nothing is saved by that.
 
         Assignments are taken note of, so that all of them have to pass here in order.
         """
         for target in assign.targets:
             self.definitions[target] = assign
-        if assign.operation.name != "lin" or not hasattr(self.scene.group, "series_sum"):
+        group = self.scene.group.offers(ClosedFormSeries)
+        if not assign.terms or group is None:
             return None
-        groups = self._groups(assign)
-        if not groups:
+        sums = self._groups(assign)
+        if not sums:
             return None
-        inner = {made.targets[0] for group in groups for _, made in group}
-        total = [
-            (coefficient(domain, c), env[v])
-            for c, v in zip(assign.operation.coefficients, assign.args, strict=True)
-            if v not in inner
-        ]
-        values = [self._nested(domain, group, env) for group in groups]
+        inner = {term.target for terms in sums for term in terms}
+        total = [(c.evaluate(domain), env[v]) for c, v in assign.terms if v not in inner]
+        values = [self._nested(domain, group, terms, env) for terms in sums]
         result = values[0]
         for other in values[1:]:
             result = tuple(a + b for a, b in zip(result, other, strict=True))
@@ -66,36 +72,36 @@ class SeriesSums:
     def _groups(self, assign: Assign) -> list[list[Term]]:
         """Return the terms that are functions of ad of multiples of one x, where there are two or more."""
         groups: list[list[Term]] = []
-        for c, v in zip(assign.operation.coefficients, assign.args, strict=True):
+        for c, v in assign.terms:
             made = self.definitions.get(v)
-            if made is None or not made.operation.word or self.uses.get(v) != 1:
+            if made is None or not isinstance(made.operation, AdSeries) or self.uses.get(v) != 1:
                 continue
+            term = Term(v, c, made.operation, *made.args)
             for group in groups:
-                if ratio(self.definitions, made.args[0], group[0][1].args[0]) is not None:
-                    group.append((c, made))
+                if ratio(self.definitions, term.x, group[0].x) is not None:
+                    group.append(term)
                     break
             else:
-                groups.append([(c, made)])
+                groups.append([term])
         return [group for group in groups if len(group) > 1]
 
-    def _nested(self, domain: Domain, group: list[Term], env: Mapping[Var, Any]) -> tuple[Any, ...]:
-        """Return the value of one group, all in terms of the last x."""
-        x, operation = group[-1][1].args[0], group[-1][1].operation
+    def _nested(
+        self, domain: Domain, group: ClosedFormSeries, members: list[Term], env: Mapping[Var, Value]
+    ) -> tuple[Value, ...]:
+        """Return the value of one sum, all in terms of the last x."""
+        x, dual = members[-1].x, members[-1].series.dual
         terms = []
-        for c, made in group:
-            scale = ratio(self.definitions, made.args[0], x)
+        for term in members:
+            scale = ratio(self.definitions, term.x, x)
             assert scale is not None
-            word: tuple[Factor, ...] = tuple(replace(f, scale=f.scale * scale) for f in made.operation.word)
-            terms.append((signed(domain, c), word, env[made.args[1]]))
+            word = tuple(f.scaled(scale) for f in term.series.word)
+            terms.append((signed(domain, term.coefficient), word, env[term.v]))
 
-        def total(numbers: tuple[int, ...]) -> tuple[Any, ...]:
-            flat = self._flat([(group[k][0], group[k][1].args[1]) for k in numbers])
+        def total(numbers: tuple[int, ...]) -> tuple[Value, ...]:
+            flat = self._flat([(members[k].coefficient, members[k].v) for k in numbers])
             return combined(domain, [(c, env[v]) for c, v in flat])
 
-        nested: tuple[Any, ...] = self.scene.group.series_sum(
-            domain, terms, operation.name == "seriest", env[x], total
-        )
-        return nested
+        return group.series_sum(domain, terms, dual, env[x], total)
 
     def _flat(self, terms: list[tuple[Coefficient, Var]]) -> list[tuple[Coefficient, Var]]:
         """Return a sum in terms of what its terms are sums of, where that is no longer."""
@@ -103,8 +109,8 @@ class SeriesSums:
         for c, v in terms:
             made = self.definitions.get(v)
             inner = [(ONE, v)]
-            if made is not None and made.operation.name == "lin":
-                inner = list(zip(made.operation.coefficients, made.args, strict=True))
+            if made is not None and made.terms:
+                inner = list(made.terms)
             for d, u in inner:
                 key, more = (u, c.power + d.power), c.value * d.value
                 total[key] = total[key] + more if key in total else more
@@ -112,16 +118,16 @@ class SeriesSums:
         return flat if 0 < len(flat) <= len(terms) else terms
 
 
-def signed(domain: Domain, c: Coefficient) -> Any:
+def signed(domain: Domain, c: Coefficient) -> Value:
     """Return a coefficient with its sign in front, so that products with it and its negative are shared."""
     if c.value.is_rational and c.value.fraction() < 0:
-        return -coefficient(domain, Coefficient(-c.value, c.power))
-    return coefficient(domain, c)
+        return -Coefficient(-c.value, c.power).evaluate(domain)
+    return c.evaluate(domain)
 
 
-def combined(domain: Domain, terms: Sequence[tuple[Coefficient, tuple[Any, ...]]]) -> tuple[Any, ...]:
+def combined(domain: Domain, terms: Sequence[tuple[Coefficient, tuple[Value, ...]]]) -> tuple[Value, ...]:
     """Return a sum of multiples, those that need no product first."""
-    total: tuple[Any, ...] | None = None
+    total: tuple[Value, ...] | None = None
     for c, v in sorted(terms, key=lambda term: not term[0].is_one):
         own = v if c.is_one else tuple(signed(domain, c) * a for a in v)
         total = own if total is None else tuple(a + b for a, b in zip(total, own, strict=True))

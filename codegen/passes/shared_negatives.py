@@ -8,10 +8,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from codegen.ir.number import Number
-from codegen.ir.program import Assign, Coefficient, Operation, Program, Solve, Var
-
-MINUS = Coefficient(Number.rational(-1))
+from codegen.ir.program import Assign, Program, Solve
+from codegen.ir.values import MINUS_ONE, Coefficient, Var
 
 Terms = frozenset[tuple[Coefficient, Var]]
 
@@ -29,13 +27,11 @@ def run(program: Program) -> Program:
 def _signed(body: tuple[Assign, ...], known: dict[Terms, Var]) -> tuple[Assign, ...]:
     found = []
     for assign in body:
-        operation = assign.operation
-        if operation.name == "lin":
-            pairs = list(zip(operation.coefficients, assign.args, strict=True))
-            opposite = frozenset((Coefficient(-c.value, c.power), v) for c, v in pairs)
+        if assign.terms:
+            opposite = frozenset((Coefficient(-c.value, c.power), v) for c, v in assign.terms)
             if opposite in known:
-                assign = replace(assign, operation=Operation("lin", (MINUS,)), args=(known[opposite],))
+                assign = Assign.of_terms(assign.targets[0], [(MINUS_ONE, known[opposite])])
             else:
-                known.setdefault(frozenset(pairs), assign.targets[0])
+                known.setdefault(frozenset(assign.terms), assign.targets[0])
         found.append(assign)
     return tuple(found)

@@ -8,7 +8,9 @@ it repeats until nothing changes.
 
 from __future__ import annotations
 
-from codegen.ir.program import LINEAR_LAST, Assign, Coefficient, Operation, Program, Solve, Var
+from codegen.ir.operations import Operation
+from codegen.ir.program import Assign, Program, Solve
+from codegen.ir.values import Coefficient, Var
 from codegen.passes import dead
 from codegen.passes.rewrite import Rewriter, rewrite
 
@@ -36,9 +38,9 @@ def run(program: Program) -> Program:
 
 
 def _rule(rewriter: Rewriter, assign: Assign, wanted: set[Share], made: dict[Share, Var]) -> tuple[Var, ...]:
-    if assign.operation.name != "lin":
+    if not assign.terms:
         return rewriter.emit(assign)
-    pairs = list(zip(assign.operation.coefficients, assign.args, strict=True))
+    pairs = list(assign.terms)
     for share, factor in _shares(assign, rewriter.definitions).items():
         if share not in wanted:
             continue
@@ -47,13 +49,11 @@ def _rule(rewriter: Rewriter, assign: Assign, wanted: set[Share], made: dict[Sha
             first = rewriter.definitions[share[0][0]]
             inner = [(c, rewriter.definitions[v].args[-1]) for v, c in share]
             total = rewriter.builder.fresh(f"s_{first.targets[0].name}", share[0][0].kind)
-            operation = Operation("lin", tuple(c for c, _ in inner))
-            rewriter.emit(Assign((total,), operation, tuple(v for _, v in inner)))
+            rewriter.emit(Assign.of_terms(total, inner))
             target = rewriter.builder.fresh(first.targets[0].name, share[0][0].kind)
             made[share] = rewriter.emit(Assign((target,), first.operation, (*first.args[:-1], total)))[0]
         pairs = [(c, v) for c, v in pairs if v not in members] + [(factor, made[share])]
-    operation = Operation("lin", tuple(c for c, _ in pairs))
-    return rewriter.emit(Assign(assign.targets, operation, tuple(v for _, v in pairs)))
+    return rewriter.emit(Assign.of_terms(assign.targets[0], pairs))
 
 
 def _worthwhile(program: Program) -> set[Share]:
@@ -64,10 +64,9 @@ def _worthwhile(program: Program) -> set[Share]:
         definitions = {target: a for a in body for target in a.targets}
         shares: dict[Key, dict[Share, None]] = {}
         for assign in body:
-            if assign.operation.name == "lin":
-                for share in _shares(assign, definitions):
-                    first = definitions[share[0][0]]
-                    shares.setdefault((first.operation, first.args[:-1]), {})[share] = None
+            for share in _shares(assign, definitions):
+                first = definitions[share[0][0]]
+                shares.setdefault((first.operation, first.args[:-1]), {})[share] = None
         for combinations in shares.values():
             values = {v for share in combinations for v, _ in share}
             if len(combinations) < len(values):
@@ -78,9 +77,9 @@ def _worthwhile(program: Program) -> set[Share]:
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
     """Return the combination of each map's values in a sum, and the factor that it has there."""
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
-    for c, arg in zip(assign.operation.coefficients, assign.args, strict=True):
+    for c, arg in assign.terms:
         made = definitions.get(arg)
-        if made is not None and made.operation.name in LINEAR_LAST:
+        if made is not None and made.operation.linear_in_last:
             groups.setdefault((made.operation, made.args[:-1]), []).append((arg, c))
     found: dict[Share, Coefficient] = {}
     for terms in groups.values():

@@ -6,7 +6,9 @@ order of their values' first appearance, so that equal sums are seen as equal.
 
 from __future__ import annotations
 
-from codegen.ir.program import Assign, Operation, Program, Var
+from codegen.ir.operations import Operation
+from codegen.ir.program import Assign, Program
+from codegen.ir.values import Var
 from codegen.passes.rewrite import Rewriter, rewrite
 
 
@@ -21,12 +23,10 @@ def run(program: Program) -> Program:
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         for arg in assign.args:
             ranked(arg)
-        if assign.operation.name == "lin":
-            terms = sorted(
-                zip(assign.operation.coefficients, assign.args, strict=True), key=lambda term: ranked(term[1])
+        if assign.terms:
+            assign = Assign.of_terms(
+                assign.targets[0], sorted(assign.terms, key=lambda term: ranked(term[1]))
             )
-            operation = Operation("lin", tuple(c for c, _ in terms))
-            assign = Assign(assign.targets, operation, tuple(a for _, a in terms))
         key = (assign.operation, assign.args, assign.targets[0].kind.value)
         if key not in known:
             known[key] = rewriter.emit(assign)

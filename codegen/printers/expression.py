@@ -65,7 +65,7 @@ def spell(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[st
                 text = style.constant(node.payload)
                 made[node.id] = Spelling((text.removeprefix("-"),), ATOM, text.startswith("-"))
             case "sym":
-                made[node.id] = Spelling((names.get(node.payload, node.payload),), ATOM)
+                made[node.id] = Spelling((names.get(node.payload, str(node.payload)),), ATOM)
             case "neg":
                 (x,) = args
                 made[node.id] = Spelling(x.pieces, x.precedence, not x.negative)

@@ -1,4 +1,4 @@
-"""What a user writes (scenes) and what the compiler sees of it (problems).
+"""Scenes, which a user writes, and problems, which the compiler evaluates.
 
 A scene file imports its names from this package:
 ``from codegen.scene import FieldScene, HamiltonianScene, param, signal``.
@@ -11,13 +11,20 @@ from typing import TYPE_CHECKING
 from orderconds.lazy import lazy
 
 if TYPE_CHECKING:
+    from codegen.scene.field_scene import FieldScene as FieldScene
+    from codegen.scene.hamiltonian_scene import HamiltonianScene as HamiltonianScene
     from codegen.scene.parameters import Parameter as Parameter
     from codegen.scene.parameters import Signal as Signal
-    from codegen.scene.scene import FieldScene as FieldScene
-    from codegen.scene.scene import HamiltonianScene as HamiltonianScene
-    from codegen.scene.scene import param as param
-    from codegen.scene.scene import signal as signal
+    from codegen.scene.parameters import param as param
+    from codegen.scene.parameters import signal as signal
+    from codegen.scene.problem import Problem as Problem
 
-__all__ = ["FieldScene", "HamiltonianScene", "param", "signal"]
+__all__ = ["FieldScene", "HamiltonianScene", "Problem", "param", "signal"]
 
-lazy(__name__, scene=("FieldScene", "HamiltonianScene", "param", "signal"))
+lazy(
+    __name__,
+    field_scene=("FieldScene",),
+    hamiltonian_scene=("HamiltonianScene",),
+    parameters=("Parameter", "Signal", "param", "signal"),
+    problem=("Problem",),
+)

@@ -1,39 +1,47 @@
 """Hamilton's equations on T*G in right trivialisation, from the partial derivatives of a Hamiltonian.
 
-xi = D_2 H and n = -(D_1 H).q^-1, that is n_a = -d/deps H(exp(eps e_a) q, mu) (thesis eq. 3.4); q' = xi.q and
-mu' = n - ad*_xi mu (2.27).
+xi = D_2 H and n = -(D_1 H).q^-1, that is n_a = -d/deps H(exp(eps e_a) q, mu) (eq. 3.4 of H. Marthinsen's
+thesis); q' = xi.q and mu' = n - ad*_xi mu (2.27).
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
+from codegen.groups.base import LieGroup
 from codegen.groups.cotangent import Cotangent
+from codegen.groups.linear_algebra import units
 from codegen.ir.differentiate import gradient
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, Space
 
 
-def force(space: Space, group: Any, qs: Sequence[str], slope: Sequence[Expr]) -> tuple[Expr, ...]:
-    """Return n_a = -<dH, e_a.q> from the partial derivatives of H by the coordinates of q."""
+def force(space: Space, group: LieGroup, qs: Sequence[str], slope: Sequence[Expr]) -> tuple[Expr, ...]:
+    """Return n_a = -<dH, e_a.q>, given the partial derivatives of H with respect to the coordinates of q."""
     domain = ExprDomain(space)
     q = tuple(space.sym(s) for s in qs)
+    basis: tuple[tuple[Expr, ...], ...] = units(domain, group.dim)
     result = []
-    for a in range(group.dim):
-        unit = tuple(domain.rational(int(a == b)) for b in range(group.dim))
-        velocity = group.velocity(domain, unit, q)
+    for unit in basis:
         total = space.zero
-        for d, v in zip(slope, velocity, strict=True):
+        for d, v in zip(slope, group.velocity(domain, unit, q), strict=True):
             total = total - d * v
         result.append(total)
     return tuple(result)
 
 
-def velocity(group: Any, qs: Sequence[str], mus: Sequence[str], H: Expr) -> tuple[Expr, ...]:
+def velocity(group: LieGroup, qs: Sequence[str], mus: Sequence[str], H: Expr) -> tuple[Expr, ...]:
     """Return the time derivatives of the coordinates of (q, mu), named ``qs`` and ``mus``, along H."""
     space, names = H.space, (*qs, *mus)
     slopes = gradient(H, names)
     field = (*slopes[len(qs) :], *force(space, group, qs, slopes[: len(qs)]))
     state = tuple(space.sym(name) for name in names)
     return Cotangent(group).velocity(ExprDomain(space), field, state)
+
+
+def poisson_bracket(group: LieGroup, qs: Sequence[str], mus: Sequence[str], F: Expr, H: Expr) -> Expr:
+    """Return {F, H}: the derivative of F along the flow of H on T*G."""
+    total = F.space.zero
+    for slope, rate in zip(gradient(F, (*qs, *mus)), velocity(group, qs, mus, H), strict=True):
+        total = total + slope * rate
+    return total

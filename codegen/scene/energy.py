@@ -1,39 +1,42 @@
-"""What discrete gradients see of a scene: its energy H, the trivialised differential of H, and the bivector.
+"""The operations of discrete gradients: energy, its trivialised differential, and the bivector.
 
-Thesis section 2.6: a field that keeps H is x' = f(x).x with f = i_{dH} omega for a bivector omega on g*. The
-differential is gamma(x) = R*_x dH in g*, paired with e what dH is with e.x. On T*G the bivector is the
-canonical one; elsewhere it is made of f and gamma, which is taken for an element of g by the Euclidean inner
-product of the algebra's coordinates: omega = (gamma wedge f)/|gamma|^2, and f = 0 wherever gamma = 0.
+H. Marthinsen's thesis, section 2.6: a field that keeps H is x' = f(x).x with f = i_{dH} omega for a bivector
+omega on g*. The differential is gamma(x) = R*_x dH in g*: <gamma, e> is the derivative of H along e.x. On T*G
+the bivector is the canonical one. Elsewhere it is omega = (gamma wedge f)/|gamma|^2, where the Euclidean
+inner product of coordinates turns gamma into an element of g; f must vanish where gamma does.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from typing import Any, Protocol
+from typing import Protocol
 
-from codegen.groups.base import Scalars, dot
-from codegen.groups.cotangent import Cotangent
+from codegen.groups.actions import Action
+from codegen.groups.base import LieGroup
+from codegen.groups.capabilities import CotangentBundle
+from codegen.groups.linear_algebra import S, Vector, dot, units
 from codegen.ir.differentiate import gradient
-from codegen.ir.domain import Domain
+from codegen.ir.domain import Domain, Value, Values
 from codegen.ir.expr import Expr, evaluate
+from codegen.scene.values import Bindings
 
 ENERGY = "energy"
-"""The invariant of a field scene that is kept."""
+"""The invariant of a field scene that discrete gradients keep."""
 
 OPERATIONS = frozenset({"energy", "differential", "secant", "bivector"})
-"""The operations of step programs that this module carries out."""
+"""The operations of step programs that :func:`apply` carries out."""
 
 
 class Conservative(Protocol):
-    """The parts of a scene that are read here."""
+    """The parts of a problem that this module reads."""
 
     @property
-    def group(self) -> Any:
+    def group(self) -> LieGroup:
         """The group."""
 
     @property
-    def action(self) -> Any:
+    def action(self) -> Action:
         """Its action."""
 
     @property
@@ -42,7 +45,7 @@ class Conservative(Protocol):
 
     @property
     def hamiltonian(self) -> Expr | None:
-        """H, where there is one."""
+        """H, None for a field scene."""
 
     @property
     def invariants(self) -> Mapping[str, Expr]:
@@ -52,36 +55,31 @@ class Conservative(Protocol):
     def symbols(self) -> tuple[str, ...]:
         """All coordinates of the state in order."""
 
-    def values(self, domain: Domain, state: Any, t: Any = None) -> dict[str, Any]:
+    def values(self, domain: Domain, state: Sequence[S], t: S | None = None) -> Bindings:
         """Return the values of all symbols."""
 
 
-def energy_of(scene: Conservative) -> Expr | None:
-    """Return the Hamiltonian, or the invariant called ``energy``; None where there is neither."""
-    return scene.hamiltonian if scene.hamiltonian is not None else scene.invariants.get(ENERGY)
+def energy_of(problem: Conservative) -> Expr | None:
+    """Return the Hamiltonian, or the invariant called ``energy``; None if there is neither."""
+    return problem.hamiltonian if problem.hamiltonian is not None else problem.invariants.get(ENERGY)
 
 
-def apply(scene: Conservative, d: Domain, name: str, args: tuple[Any, ...]) -> Any:
-    """Return the value of one of :data:`OPERATIONS`; a scene without an energy is a KeyError."""
+def apply(problem: Conservative, d: Domain, name: str, args: Values) -> Value:
+    """Return the value of one of :data:`OPERATIONS`; KeyError if the problem has no energy."""
     match name:
         case "energy":
-            return _energy(scene, d, *args)
+            return evaluate([_root(problem)], d, problem.values(d, *args))[0]
         case "differential":
-            return differential(scene, d, *args)
+            return differential(problem, d, *args)
         case "bivector":
-            return bivector(scene, d, *args)
+            return bivector(problem, d, *args)
         case _:
             return secant(d, *args)
 
 
-def _root(scene: Conservative) -> Expr:
-    root = energy_of(scene)
-    return scene.invariants[ENERGY] if root is None else root
-
-
-def _energy(scene: Conservative, d: Domain, y: Scalars) -> Any:
-    """Return H(y)."""
-    return evaluate([_root(scene)], d, scene.values(d, y))[0]
+def _root(problem: Conservative) -> Expr:
+    root = energy_of(problem)
+    return problem.invariants[ENERGY] if root is None else root
 
 
 @lru_cache(maxsize=64)
@@ -89,29 +87,29 @@ def _slopes(root: Expr, symbols: tuple[str, ...]) -> tuple[Expr, ...]:
     return tuple(gradient(root, symbols))
 
 
-def differential(scene: Conservative, d: Domain, y: Scalars) -> Scalars:
-    """Return gamma(y): its pairing with e is the derivative of H(exp(eps e).y) at eps = 0."""
-    slopes = evaluate(_slopes(_root(scene), scene.symbols), d, scene.values(d, y))
-    n = scene.group.dim
-    units = (tuple(d.rational(int(i == j)) for j in range(n)) for i in range(n))
-    return tuple(dot(tuple(slopes), scene.action.velocity(d, scene.group, e, y)) for e in units)
+def differential(problem: Conservative, d: Domain, y: Vector[S]) -> Vector[S]:
+    """Return gamma(y): <gamma, e> is the derivative of H(exp(eps e).y) at eps = 0."""
+    slopes: Vector[S] = tuple(evaluate(_slopes(_root(problem), problem.symbols), d, problem.values(d, y)))
+    basis: tuple[Vector[S], ...] = units(d, problem.group.dim)
+    return tuple(dot(slopes, problem.action.velocity(d, problem.group, e, y)) for e in basis)
 
 
-def bivector(scene: Conservative, d: Domain, y: Scalars, alpha: Scalars) -> Scalars:
-    """Return omega_y(alpha, .) in the algebra, for a covector alpha; f(y) where alpha is gamma(y)."""
-    if isinstance(scene.group, Cotangent) and scene.hamiltonian is not None:
-        return tuple(scene.group.canonical(d, y, alpha))
-    gamma = differential(scene, d, y)
-    f = evaluate(scene.roots, d, scene.values(d, y))
+def bivector(problem: Conservative, d: Domain, y: Vector[S], alpha: Vector[S]) -> Vector[S]:
+    """Return omega_y(alpha, .) in the algebra, for a covector alpha; it is f(y) if alpha is gamma(y)."""
+    bundle = problem.group.offers(CotangentBundle)
+    if bundle is not None and problem.hamiltonian is not None:
+        return bundle.canonical(d, y, alpha)
+    gamma = differential(problem, d, y)
+    f: Vector[S] = tuple(evaluate(problem.roots, d, problem.values(d, y)))
     size = dot(gamma, gamma)
-    along, across = (d.call("quotient", dot(x, alpha), size) for x in (gamma, tuple(f)))
+    along, across = (d.call("quotient", dot(x, alpha), size) for x in (gamma, f))
     return tuple(along * a - across * b for a, b in zip(f, gamma, strict=True))
 
 
-def secant(d: Domain, g: Scalars, x: Scalars, before: Any, after: Any) -> Scalars:
-    """Return the covector nearest to g whose pairing with x is ``after - before`` (thesis eq. 2.31).
+def secant(d: Domain, g: Vector[S], x: Vector[S], before: S, after: S) -> Vector[S]:
+    """Return the covector nearest to g whose pairing with x is ``after - before`` (thesis, eq. 2.31).
 
-    Nearest in the Euclidean norm: g plus a multiple of x, which vanishes with x.
+    Nearest in the Euclidean norm: g plus a multiple of x. The multiple is zero if x is.
     """
-    factor = d.call("quotient", after - before - dot(g, x), dot(x, x))
+    factor: S = d.call("quotient", after - before - dot(g, x), dot(x, x))
     return tuple(a + factor * b for a, b in zip(g, x, strict=True))

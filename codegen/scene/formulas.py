@@ -1,39 +1,42 @@
-"""Reading formulas: from sympy into one space of expressions, with the parameters and signals that occur."""
+"""Formulas of a scene: read from sympy into one space of expressions, with parameters and signals."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, Space, evaluate, walk
 from codegen.ir.from_sympy import read
 from codegen.ir.number import Number
+from codegen.scene.parameters import Parameter, Signal
 from codegen.scene.problem import TIME
+
+if TYPE_CHECKING:
+    import sympy
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 RESERVED = {
-    "t": "t is the time; it may stand in formulas, but it is no coordinate and no parameter",
+    "t": "t is the time; it may occur in formulas, but it is no coordinate and no parameter",
     "h": "h is the step size",
 }
 """Names that programs use themselves, and why."""
 
 
 class Reader:
-    """Reads a scene's formulas into one space and remembers which parameters occur."""
+    """Reads the formulas of one scene into one space and records the parameters and signals in them."""
 
-    def __init__(self, name: str, coordinates: Sequence[Any]) -> None:
+    def __init__(self, name: str, coordinates: Sequence[sympy.Symbol]) -> None:
         self.name = name
         self.coordinates = [str(getattr(symbol, "name", "")) for symbol in coordinates]
-        for symbol, spelled in zip(coordinates, self.coordinates, strict=True):
-            if not spelled:
+        for symbol, text in zip(coordinates, self.coordinates, strict=True):
+            if not text:
                 raise SceneError(f"the coordinate {symbol}", where=name, expected="symbols")
-            self._allow(spelled)
+            self._allow(text)
         if len(set(self.coordinates)) != len(self.coordinates):
             raise SceneError("a coordinate symbol twice", where=name, expected="distinct symbols")
-        self.more: tuple[str, ...] = ()
         self.space = Space()
         self.defaults: dict[str, Number] = {}
         self.signals: dict[str, Expr] = {}
@@ -49,11 +52,11 @@ class Reader:
             )
 
     def parameters(self) -> dict[str, Number]:
-        """Return the defaults of the parameters that occur, by name."""
+        """Return the defaults of the parameters read so far, by name."""
         return dict(sorted(self.defaults.items()))
 
-    def _admit(self, symbol: Any) -> None:
-        """Note a parameter's default."""
+    def _admit(self, symbol: Parameter) -> None:
+        """Record a parameter's default."""
         self._allow(symbol.name)
         value = Number.rational(*symbol.default)
         if symbol.name in self.coordinates or self.defaults.setdefault(symbol.name, value) != value:
@@ -63,12 +66,12 @@ class Reader:
                 expected="one meaning for each name",
             )
 
-    def _admit_signal(self, symbol: Any) -> None:
-        """Note a signal's formula, which holds the time and parameters and no coordinate."""
+    def _admit_signal(self, symbol: Signal) -> None:
+        """Record a signal's formula; it may contain the time and parameters only."""
         self._allow(symbol.name)
         what = f"signal {symbol.name}"
-        for inner in getattr(symbol.formula, "free_symbols", ()):
-            if inner.name != TIME and not hasattr(inner, "default"):
+        for inner in _free_symbols(symbol.formula):
+            if inner.name != TIME and not isinstance(inner, Parameter):
                 raise SceneError(f"{what} holds {inner.name}", where=self.name, expected="t and parameters")
         formula = self.scalar(symbol.formula, what)
         taken = symbol.name in self.coordinates or symbol.name in self.defaults
@@ -80,25 +83,31 @@ class Reader:
             )
 
     def closed(self, roots: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return formulas with every signal replaced by its own."""
+        """Return formulas with the formula of each signal in place of its symbol."""
         if not self.signals:
             return tuple(roots)
         names = {n.payload for n in walk(roots) if n.op == "sym"}
         values = {name: self.space.sym(name) for name in sorted(names)} | self.signals
         return tuple(evaluate(list(roots), ExprDomain(self.space), values))
 
-    def scalar(self, formula: Any, what: str, constant: bool = False) -> Expr:
-        """Return one formula; its symbols must be coordinates, t, parameters or signals."""
-        if getattr(formula, "shape", None) == (1, 1):
+    def scalar(
+        self, formula: sympy.Expr, what: str, constant: bool = False, more: Sequence[str] = ()
+    ) -> Expr:
+        """Return one formula; its symbols must be coordinates, t, parameters or signals, or in ``more``.
+
+        A ``constant`` may contain parameters only. ``what`` names the formula in messages.
+        """
+        shape = getattr(formula, "shape", None)
+        if shape == (1, 1):
             formula = formula[0]
-        if hasattr(formula, "shape"):
-            raise SceneError(f"{what} has shape {formula.shape}", where=self.name, expected="a scalar")
+        elif shape is not None:
+            raise SceneError(f"{what} has shape {shape}", where=self.name, expected="a scalar")
         root = read(self.space, formula, f"{self.name}, {what}")
-        known = () if constant else (*self.coordinates, *self.more, TIME)
-        for symbol in sorted(getattr(formula, "free_symbols", ()), key=lambda s: str(s.name)):
-            if hasattr(symbol, "default"):
+        known = () if constant else (*self.coordinates, *more, TIME)
+        for symbol in sorted(_free_symbols(formula), key=lambda s: str(s.name)):
+            if isinstance(symbol, Parameter):
                 self._admit(symbol)
-            elif hasattr(symbol, "formula") and not constant:
+            elif isinstance(symbol, Signal) and not constant:
                 self._admit_signal(symbol)
             elif symbol.name not in known:
                 raise SceneError(
@@ -109,7 +118,14 @@ class Reader:
                 )
         return root
 
-    def column(self, formulas: Any, n: int, what: str, constant: bool = False) -> tuple[Expr, ...]:
+    def column(
+        self,
+        formulas: Iterable[sympy.Expr],
+        n: int,
+        what: str,
+        constant: bool = False,
+        more: Sequence[str] = (),
+    ) -> tuple[Expr, ...]:
         """Return n formulas."""
         try:
             entries = list(formulas)
@@ -119,4 +135,10 @@ class Reader:
             ) from None
         if len(entries) != n:
             raise SceneError(f"{what} has {len(entries)} components", where=self.name, expected=str(n))
-        return tuple(self.scalar(e, f"{what}[{k}]", constant) for k, e in enumerate(entries))
+        return tuple(self.scalar(e, f"{what}[{k}]", constant, more) for k, e in enumerate(entries))
+
+
+def _free_symbols(formula: sympy.Expr) -> Iterable[sympy.Symbol]:
+    """Return the symbols of a sympy formula, none of a Python number."""
+    symbols: Iterable[sympy.Symbol] = getattr(formula, "free_symbols", ())
+    return symbols

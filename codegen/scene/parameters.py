@@ -1,13 +1,16 @@
-"""Parameters and signals of scenes: sympy symbols that carry a rational default, or a formula in time."""
+"""Parameters and signals of scenes: sympy symbols with a rational default, or with a formula in time."""
 
 from __future__ import annotations
 
-from typing import Any
+from fractions import Fraction
 
-from sympy import Symbol
+import sympy
+
+from codegen.errors import SceneError
+from codegen.ir.number import is_normal
 
 
-class Parameter(Symbol):  # type: ignore[misc]
+class Parameter(sympy.Symbol):  # type: ignore[misc]
     """A real symbol with the default p/q; parameters of one name and two defaults are different symbols.
 
     >>> Parameter("beta", 1) == Parameter("beta", 1), Parameter("beta", 1) == Parameter("beta", 2)
@@ -18,30 +21,65 @@ class Parameter(Symbol):  # type: ignore[misc]
 
     def __new__(cls, name: str, p: int, q: int = 1) -> Parameter:
         """Return the symbol; sympy makes equal symbols in ``__new__``."""
-        symbol: Parameter = Symbol.__xnew__(cls, name, real=True)
+        symbol: Parameter = sympy.Symbol.__xnew__(cls, name, real=True)
         symbol.default = (p, q)
         return symbol
 
-    def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]:
+    def __getnewargs_ex__(self) -> tuple[tuple[object, ...], dict[str, object]]:
         return (self.name, *self.default), {}
 
-    def _hashable_content(self) -> tuple[Any, ...]:
+    def _hashable_content(self) -> tuple[object, ...]:
         return (*super()._hashable_content(), self.default)
 
 
-class Signal(Symbol):  # type: ignore[misc]
-    """A real symbol for a function of time: ``formula`` in ``t`` and parameters is what it is by default."""
+class Signal(sympy.Symbol):  # type: ignore[misc]
+    """A real symbol for a function of time, with a default ``formula`` in ``t`` and parameters."""
 
     __slots__ = ("formula",)
 
-    def __new__(cls, name: str, formula: Any) -> Signal:
+    def __new__(cls, name: str, formula: sympy.Expr) -> Signal:
         """Return the symbol; sympy makes equal symbols in ``__new__``."""
-        symbol: Signal = Symbol.__xnew__(cls, name, real=True)
+        symbol: Signal = sympy.Symbol.__xnew__(cls, name, real=True)
         symbol.formula = formula
         return symbol
 
-    def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]:
+    def __getnewargs_ex__(self) -> tuple[tuple[object, ...], dict[str, object]]:
         return (self.name, self.formula), {}
 
-    def _hashable_content(self) -> tuple[Any, ...]:
+    def _hashable_content(self) -> tuple[object, ...]:
         return (*super()._hashable_content(), self.formula)
+
+
+def param(name: str, default: object) -> Parameter:
+    """Return a sympy symbol for a parameter with a rational default.
+
+    The default is folded into emitted code unless the parameter is requested at run time.
+    :class:`SceneError` for a default that is not rational.
+    """
+    try:
+        value = sympy.Rational(default)
+    except TypeError:
+        value = None
+    if value is None or not value.is_Rational:
+        raise SceneError(f"the default {default}", where=f"parameter {name}", expected="a rational number")
+    if not is_normal(Fraction(int(value.p), int(value.q))):
+        raise SceneError(
+            f"the default {sympy.N(value, 3)}",
+            where=f"parameter {name}",
+            expected="0, or between 1e-307 and 1e308 in size",
+        )
+    return Parameter(name, int(value.p), int(value.q))
+
+
+def signal(name: str, formula: object = 0) -> Signal:
+    """Return a sympy symbol for a function of time: a control, a measured load.
+
+    Its ``formula``, in t and parameters, is folded into emitted code unless the signal is requested as a
+    run-time input (``emit --input NAME``). :class:`SceneError` for a formula that sympy cannot read.
+    """
+    try:
+        return Signal(name, sympy.sympify(formula, strict=True))
+    except sympy.SympifyError:
+        raise SceneError(
+            f"the formula {formula!r}", where=f"signal {name}", expected="a sympy formula in t"
+        ) from None

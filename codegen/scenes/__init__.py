@@ -1,4 +1,4 @@
-"""The gallery: one file a scene; and loading a scene by name or from a user's file."""
+"""The gallery, one file a scene; registered scenes; and loading a scene by name or from a user's file."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from codegen.errors import SceneError
 from codegen.scene.extended_phase_space import extended
 from codegen.scene.problem import Problem
 from orderconds.errors import InputError, UnknownName
+from orderconds.input_file import read_bytes
 
 GALLERY = (
     "actuated_rigid_body",
@@ -37,15 +38,44 @@ GALLERY = (
 )
 
 EXTENDED = "+u"
-"""What asks for the extended scene."""
+"""The suffix of a name that requests the extended scene."""
+
+_REGISTERED: dict[str, tuple[Problem, str]] = {}
+"""Scenes defined elsewhere, by name, and their descriptions."""
+
+
+def register(name: str, scene: Problem, about: str = "") -> Problem:
+    """Make a scene known under a name, to every command of this process, and return it under that name.
+
+    ``about`` describes it in reports. A second scene of the same name replaces the first. :class:`SceneError`
+    for an object that is no scene, for a name of the gallery, and for one that is no identifier. A scene in a
+    Python file needs no registration: its path is its name.
+    """
+    if not isinstance(scene, Problem):
+        raise SceneError(f"cannot register {scene!r}", where=name, expected="a scene")
+    if name in GALLERY or not name.isidentifier():
+        raise SceneError(f"the name {name!r}", expected="an identifier that is no scene of the gallery")
+    named = replace(scene, name=name)
+    _REGISTERED[name] = (named, about)
+    return named
+
+
+def unregister(name: str) -> None:
+    """Forget a scene that :func:`register` added; other names are ignored."""
+    _REGISTERED.pop(name, None)
+
+
+def names() -> tuple[str, ...]:
+    """Return the names of the gallery and of registered scenes."""
+    return (*GALLERY, *_REGISTERED)
 
 
 def load(name: str) -> Problem:
-    """Return a scene of the gallery, or the ``scene`` of the Python file at path ``name``.
+    """Return a scene of the gallery, a registered one, or the ``scene`` of the Python file at path ``name``.
 
     ``NAME+u`` is a Hamiltonian scene extended by the time and its momentum
-    (:mod:`codegen.scene.extended_phase_space`). A file
-    that raises, or defines no scene, is a :class:`SceneError` that names file and line.
+    (:mod:`codegen.scene.extended_phase_space`). :class:`SceneError` with file and line for a file that raises
+    or defines no scene.
     """
     if name.endswith(EXTENDED):
         scene = load(name.removesuffix(EXTENDED))
@@ -57,32 +87,38 @@ def _load(name: str) -> Problem:
     if name in GALLERY:
         scene: Problem = import_module(f"codegen.scenes.{name}").scene
         return replace(scene, name=name)
+    if name in _REGISTERED:
+        return _REGISTERED[name][0]
     path = Path(name)
     if path.suffix != ".py":
         raise UnknownName(
             f"unknown scene {name!r}",
-            expected=f"one of {', '.join(GALLERY)}, or the path of a Python file that defines `scene`",
-            hint=f"did you mean {close[0]}?" if (close := get_close_matches(name, GALLERY, n=1)) else "",
+            expected=f"one of {', '.join(names())}, or the path of a Python file that defines `scene`",
+            hint=f"did you mean {close[0]}?" if (close := get_close_matches(name, names(), n=1)) else "",
         )
-    if not path.is_file():
-        raise SceneError("no such file", where=name, expected="a Python file that defines `scene`")
+    return _run(name, path)
+
+
+def _run(name: str, path: Path) -> Problem:
+    """Return the scene that a Python file defines."""
+    read_bytes(path, "a Python file that defines `scene`", error=SceneError)  # regular and of bounded size
     try:
-        # What a scene prints is for its author; stdout is for what the command was asked for.
+        # A scene may print for its author; stdout belongs to the result of the command.
         with redirect_stdout(sys.stderr):
-            found = runpy.run_path(str(path)).get("scene")
+            scene = runpy.run_path(str(path)).get("scene")
     except InputError as error:
         at = f"{_line(name, path, error)}: {error.where}"
         raise SceneError(error.found, where=at, expected=error.expected, hint=error.hint) from error
     except KeyboardInterrupt:
         raise
-    except BaseException as error:  # also what a scene derives from BaseException, and sys.exit
+    except BaseException as error:  # a scene may also raise SystemExit, or its own BaseException
         at = _line(name, path, error)
         raise SceneError(f"the scene raises {type(error).__name__}: {error}", where=at) from error
-    if not isinstance(found, Problem):
+    if not isinstance(scene, Problem):
         raise SceneError(
             "no scene is defined", where=name, expected="scene = FieldScene(...) or HamiltonianScene(...)"
         )
-    return replace(found, name=path.stem)
+    return replace(scene, name=path.stem)
 
 
 def _line(name: str, path: Path, error: BaseException) -> str:
@@ -94,16 +130,18 @@ def _line(name: str, path: Path, error: BaseException) -> str:
 
 
 def about(name: str) -> str:
-    """Return what the file of a scene says of it: its docstring.
+    """Return the description of a scene: the docstring of its file, '' without one.
 
-    ``name`` is one that :func:`load` takes; a file without a docstring gives ''.
+    ``name`` is one that :func:`load` takes. A registered scene has the description that it was given.
     """
     name = name.removesuffix(EXTENDED)
+    if name in _REGISTERED:
+        return _REGISTERED[name][1]
     spec = find_spec(f"codegen.scenes.{name}") if name in GALLERY else None
     path = Path(spec.origin) if spec is not None and spec.origin else Path(name)
-    return ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+    return ast.get_docstring(ast.parse(read_bytes(path, error=SceneError))) or ""
 
 
 def listing() -> list[dict[str, str]]:
-    """Return name and title of every scene of the gallery, for ``orderconds list scenes``."""
-    return [{"name": n, "about": load(n).title} for n in GALLERY]
+    """Return name and title of every scene, for ``orderconds list scenes``."""
+    return [{"name": n, "about": load(n).title} for n in names()]

@@ -5,16 +5,14 @@ dissipative, and its generator has a component along m, so that faults hide nowh
 the same equation with fast rates.
 """
 
-from typing import Any
-
-from sympy import Matrix, Rational, Symbol, cos, sin
+from sympy import Expr, Matrix, Rational, Symbol, cos, sin
 
 from codegen.groups import SO3, Rotation
 from codegen.scene import FieldScene, param
 from codegen.scene.problem import Problem
 
 
-def driven_spin(title: str, anisotropy: Any, damping: Any, drive: Any, end: Any) -> Problem:
+def driven_spin(title: str, anisotropy: Expr, damping: Expr, drive: Expr, end: Expr) -> Problem:
     """Return the scene with the constants K, alpha and a as parameters, from 0 to ``end``."""
     G, t = SO3(), Symbol("t")
     m = G.dual("m")

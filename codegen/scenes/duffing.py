@@ -1,16 +1,16 @@
 """Duffing's equation on the plane, in the first of three frames: translations.
 
-Thesis section 2.2: x' = y, y' = -a x - b x^3 with a = b = 1. The frame decides what a Lie group method
-freezes in a step: here the whole field, so that every family is its classical method; ``duffing_sl2`` freezes
-the spring's stiffness, ``duffing_se2`` its cubic part. Errors of Lie-Euler with 50 steps to t = 2 are 9.2e-2,
-1.1e-2 and 1.6e-2.
+H. Marthinsen's thesis, section 2.2: x' = y, y' = -a x - b x^3 with a = b = 1. The frame decides what a Lie
+group method freezes in a step: here the whole field, so that every family is its classical method;
+``duffing_sl2`` freezes the spring's stiffness, ``duffing_se2`` its cubic part. Errors of Lie-Euler with 50
+steps to t = 2 are 9.2e-2, 1.1e-2 and 1.6e-2.
 """
 
-from typing import Any
+from collections.abc import Sequence
 
-from sympy import Matrix, Rational
+from sympy import Expr, Matrix, Rational
 
-from codegen.groups import LeftMultiplication, Rn
+from codegen.groups import Action, LeftMultiplication, LieGroup, Rn
 from codegen.scene import FieldScene
 from codegen.scene.problem import Problem
 
@@ -19,7 +19,7 @@ x, y = z
 field = Matrix([y, -x - x**3])
 
 
-def duffing(frame: str, group: Any, action: Any, f: Any) -> Problem:
+def duffing(frame: str, group: LieGroup, action: Action, f: Sequence[Expr]) -> Problem:
     """Return the scene with f(z) in the algebra of a group that acts on the plane."""
     return FieldScene(
         title=f"Duffing's equation, {frame} (thesis section 2.2)",

@@ -1,7 +1,7 @@
 """Free rigid body: the angular momentum on its sphere, SO(3) acting by rotation.
 
-Thesis section 2.8: m' = f(m) x m with f = -I^-1 m; adding alpha m to f (isotropy, eq. 2.19) leaves the field
-as it is but makes another method.
+H. Marthinsen's thesis, section 2.8: m' = f(m) x m with f = -I^-1 m; adding alpha m to f (isotropy, eq. 2.19)
+leaves the field as it is but makes another method.
 """
 
 from sympy import Matrix, Rational, cos, diag, sin

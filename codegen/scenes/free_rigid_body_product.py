@@ -5,8 +5,6 @@ attitude stays a rotation, but the product knows nothing of |P| or the energy: a
 order, where the coadjoint action and T*SO(3) keep the momentum.
 """
 
-from typing import Any
-
 from sympy import Matrix, Rational, diag, eye
 
 from codegen.groups import SO3, LeftMultiplication, Product, Rn
@@ -20,7 +18,7 @@ W = I.inv() * P
 space = g * P
 
 
-def hat(w: Any) -> Any:
+def hat(w: Matrix) -> Matrix:
     """The matrix of the cross product with w."""
     return Matrix([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
 

@@ -1,13 +1,11 @@
 """Free rigid body: its attitude as a unit quaternion, on S^3 acting on itself.
 
-Thesis section 2.6: q' = f(q) q with f(q) = q v q^c, v = I^-1 E(q^c) m0/2, E the Euler-Rodrigues map and m0
-the momentum in space. The moments of inertia are far apart, so the energy is steep on the group. The initial
-angular velocity I^-1 m0 is (1, 1/2, -1); in print the inverse is missing.
+H. Marthinsen's thesis, section 2.6: q' = f(q) q with f(q) = q v q^c, v = I^-1 E(q^c) m0/2, E the
+Euler-Rodrigues map and m0 the momentum in space. The moments of inertia are far apart, so the energy is steep
+on the group. The initial angular velocity I^-1 m0 is (1, 1/2, -1); in print the inverse is missing.
 """
 
-from typing import Any
-
-from sympy import Matrix, Rational, diag
+from sympy import Expr, Matrix, Rational, diag
 
 from codegen.groups import S3, LeftMultiplication
 from codegen.scene import FieldScene
@@ -19,7 +17,7 @@ m0 = I * Matrix([1, Rational(1, 2), -1])
 axis = Matrix(q[1:])
 
 
-def turned(real: Any, v: Any) -> Any:
+def turned(real: Expr, v: Matrix) -> Matrix:
     """The vector v turned by the quaternion with this real part and the imaginary part of q."""
     c = 2 * axis.cross(v)
     return v + real * c + axis.cross(c)

@@ -14,12 +14,15 @@ from typing import TYPE_CHECKING
 import click
 from msgspec import Struct
 
+from orderconds.checking.limits import MAX_CONDITIONS, Limits
 from orderconds.commands import screen
-from orderconds.commands.processes import in_processes
 from orderconds.errors import InputError, TableauError
+from orderconds.input_file import read_text
+from orderconds.processes import in_processes
 
 if TYPE_CHECKING:
-    from orderconds.check import FamilyOrder, Report
+    from orderconds.checking import FamilyOrder, Report
+    from orderconds.checking.report import EmbeddedOrder
     from orderconds.proof.certificate import Certificate
     from orderconds.tableau.work import Work
 
@@ -34,11 +37,22 @@ WIDTH = 200
 @click.argument("tableaux", nargs=-1, required=True, metavar="FILE|DIR|NAME...")
 @click.option("--family", "-f", help="This family alone (vcg, 'rkmk(1)'), claimed or not.")
 @click.option("--order", "-p", type=click.IntRange(1, 20), help="Require at least this order.")
-@click.option("--complete", is_flag=True, help="Demand a claim for every family that a tableau can serve.")
+@click.option("--complete", is_flag=True, help="Require a claim for every family that a tableau can claim.")
 @click.option(
     "--certified",
     is_flag=True,
-    help="Demand certificates exact or ball, but of those that DIR/DECIMAL names.",
+    help="Require an exact or ball certificate for every file not listed in DIR/DECIMAL.",
+)
+@click.option(
+    "--max-conditions",
+    type=click.IntRange(1),
+    help="Stop before more conditions of one order than this; 50000 where left out.",
+)
+@click.option(
+    "--max-seconds", type=click.FloatRange(0, min_open=True), help="Stop each tableau after this time."
+)
+@click.option(
+    "--max-memory", type=click.IntRange(1), help="Stop each tableau above this many megabytes of memory."
 )
 @click.option("--json", "as_json", is_flag=True, help="One list of records on stdout, nothing else.")
 def command(
@@ -47,10 +61,13 @@ def command(
     order: int | None,
     complete: bool,
     certified: bool,
+    max_conditions: int | None,
+    max_seconds: float | None,
+    max_memory: int | None,
     as_json: bool,
 ) -> int:
     """Find the exact order and the properties of each tableau: a file, every file below a directory, or a
-    name from the library. A claim is an equality.
+    name from the library. A claim is an equality. Where a limit ends the search the order is a lower bound.
 
     Exits with 0 if all holds, 1 if a claim fails or is undecided, 2 if something could not be read.
     """
@@ -59,6 +76,7 @@ def command(
     if family is not None:
         get(family)  # an unknown family is one error, not one a file
     excused = _excused(tableaux)
+    limits = Limits(max_conditions or MAX_CONDITIONS, max_seconds, max_memory)
     paths = list(_files(tableaux))
     detailed = len(tableaux) == 1 and not os.path.isdir(tableaux[0])
     jobs = [
@@ -68,6 +86,7 @@ def command(
             order=order,
             complete=complete,
             certified=certified and Path(path).stem not in excused,
+            limits=limits,
             as_json=as_json,
             detailed=detailed,
             one_of_many=len(paths) > 1,
@@ -75,8 +94,8 @@ def command(
         for path in paths
     ]
     outcomes: list[_Outcome] = []
-    told = paths[0] if len(paths) == 1 else f"{len(paths)} tableaux"
-    with screen.working(f"checking {told}"), _without_collection(paths):
+    subject = paths[0] if len(paths) == 1 else f"{len(paths)} tableaux"
+    with screen.working(f"checking {subject}"), _without_collection(paths):
         for outcome in in_processes(_checked, jobs):
             outcomes.append(outcome)
             if outcome.verdict is None:
@@ -97,7 +116,7 @@ def command(
 
 @contextmanager
 def _without_collection(paths: Sequence[str]) -> Iterator[None]:
-    """Let the garbage of one file lie: a check makes many small objects and ends before they matter."""
+    """Switch garbage collection off for one file: a check makes many small objects and then ends."""
     collects = gc.isenabled()
     if len(paths) == 1:
         gc.disable()
@@ -109,32 +128,38 @@ def _without_collection(paths: Sequence[str]) -> Iterator[None]:
 
 
 class _Job(Struct, frozen=True):
-    """What to check, and how."""
+    """A file and the options of its check."""
 
     path: str
     family: str | None
     order: int | None
     complete: bool
     certified: bool
+    limits: Limits
     as_json: bool
     detailed: bool
     one_of_many: bool
 
 
 class _Outcome(Struct, frozen=True):
-    """A verdict with what to print of it; None with the message where a file could not be read."""
+    """A verdict with the text to print; the verdict is None where the file could not be read."""
 
     verdict: str | None
     text: str
 
 
 def _checked(job: _Job) -> _Outcome:
-    """Check one tableau. What cannot be read is told: the other files are still worth checking."""
-    from orderconds.check import check
+    """Check one tableau. Report an unreadable file and continue with the others."""
+    from orderconds.checking import check
 
     try:
         report = check(
-            job.path, family=job.family, order=job.order, complete=job.complete, certified=job.certified
+            job.path,
+            family=job.family,
+            order=job.order,
+            complete=job.complete,
+            certified=job.certified,
+            limits=job.limits,
         )
     except InputError as error:
         message = str(error)
@@ -156,8 +181,8 @@ def _excused(arguments: Sequence[str]) -> set[str]:
     names = set[str]()
     for argument in arguments:
         listed = Path(argument) / "DECIMAL"
-        if os.path.isdir(argument) and listed.is_file():
-            lines = listed.read_text(encoding="utf-8").splitlines()
+        if os.path.isdir(argument) and listed.exists():
+            lines = read_text(listed, 'lines "NAME: reason"').splitlines()
             names |= {line.partition(":")[0].strip() for line in lines if not line.startswith("#")}
     return names
 
@@ -182,7 +207,7 @@ def _files(arguments: Sequence[str]) -> Iterator[str]:
 
 
 def _print_report(report: Report, *, detailed: bool) -> None:
-    """Print one tableau: its orders as a table, then what fails, then its properties."""
+    """Print one tableau: its orders as a table, then failing conditions, then its properties."""
     heading = f"{report.name}: {report.verdict}"
     click.secho(heading + (f"  ({report.file})" if report.file else ""), bold=True)
     screen.print_table(
@@ -196,8 +221,7 @@ def _print_report(report: Report, *, detailed: bool) -> None:
     for broken in report.broken_claims:
         click.echo(f"  claim fails: {broken}")
     if report.embedded is not None:
-        told = ", ".join(f"{order} ({label})" for label, order in report.embedded.orders.items())
-        click.echo(f"  embedded row: order {told}")
+        click.echo(f"  embedded row: order {_embedded(report.embedded)}")
     if report.proof is not None:
         click.echo(f"  proof: {_proof(report.proof)}")
     if report.work:
@@ -210,15 +234,23 @@ def _print_report(report: Report, *, detailed: bool) -> None:
     click.echo()
 
 
+def _embedded(embedded: EmbeddedOrder) -> str:
+    """Return the orders of an embedded row and their certificates, each certificate once."""
+    groups: dict[str, list[str]] = {}
+    for label, order in embedded.orders.items():
+        groups.setdefault(embedded.certificates[label], []).append(f"{order} ({label})")
+    return "; ".join(f"{', '.join(orders)}, certificate: {name}" for name, orders in groups.items())
+
+
 def _work(work: dict[str, Work]) -> str:
-    """Say what a step costs, in one line: evaluations, then what is told apart by family."""
+    """Return the cost of a step in one line: evaluations, then exponentials and brackets by family."""
     evaluations = max(cost.evaluations for cost in work.values())
-    told = [_count(evaluations, "evaluation")]
+    counts = [_count(evaluations, "evaluation")]
     for label, cost in work.items():
         if cost.exponentials is not None:
             brackets = f" and {_count(cost.brackets, 'bracket')}" if cost.brackets else ""
-            told.append(f"{label} {_count(cost.exponentials, 'exponential')}{brackets}")
-    return "; ".join(told)
+            counts.append(f"{label} {_count(cost.exponentials, 'exponential')}{brackets}")
+    return "; ".join(counts)
 
 
 def _count(n: int, what: str) -> str:
@@ -226,12 +258,12 @@ def _count(n: int, what: str) -> str:
 
 
 def _proof(proof: Certificate) -> str:
-    """Say what was proved of the decimals, in one line."""
-    told = f"one solution of {proof.equations} equations within {proof.radius} of the decimals"
+    """Return the proof about the decimals in one line."""
+    text = f"one solution of {proof.equations} equations within {proof.radius} of the decimals"
     if not proof.printed:
-        return told
+        return text
     furthest = max(proof.printed.values(), key=float)
-    return f"{told}; the source's digits are off by up to {furthest}"
+    return f"{text}; the source's digits are off by up to {furthest}"
 
 
 def _row(family: FamilyOrder) -> tuple[str, ...]:
@@ -249,14 +281,21 @@ def _print_failing(family: FamilyOrder) -> None:
     """Name the conditions that end a family's order, with their residuals."""
     n = family.order + 1
     if family.limit is not None:
-        click.echo(f"  {family.family}: no condition fails up to order {family.limit}, the end of the search")
+        reached = f"{family.family}: no condition fails up to order {family.limit}"
+        if family.stopped is None:
+            click.echo(f"  {reached}, the end of the search")
+        else:
+            click.echo(f"  {reached}; stopped by a limit after {family.stopped} conditions")
         return
     if not family.decided:
         click.echo(f"  {family.family}: the coefficients have too few digits to decide order {n}")
         return
     count = len(family.failing)
-    told = "1 condition" if count == 1 else f"{count} conditions"
-    click.echo(f"  {family.family}: {told} of order {n} not met")
+    if not count:
+        click.echo(f"  {family.family}: no method of this family has order {n}")
+        return
+    text = "1 condition" if count == 1 else f"{count} conditions"
+    click.echo(f"  {family.family}: {text} of order {n} not met")
     shown = 1 if family.verdict == "holds" else SHOWN
     for failure in family.failing[:shown]:
         decimal = "" if failure.decimal == failure.residual else f" = {failure.decimal}"
@@ -270,6 +309,8 @@ def _print_failing(family: FamilyOrder) -> None:
 
 
 def _print_summary(verdicts: Sequence[str | None]) -> None:
-    told = [f"{n} {verdict}" for verdict in ("holds", "fails", "undecided") if (n := verdicts.count(verdict))]
-    told += [f"{n} not read"] if (n := verdicts.count(None)) else []
-    click.echo(f"{len(verdicts)} tableaux: {', '.join(told)}")
+    counts = [
+        f"{n} {verdict}" for verdict in ("holds", "fails", "undecided") if (n := verdicts.count(verdict))
+    ]
+    counts += [f"{n} not read"] if (n := verdicts.count(None)) else []
+    click.echo(f"{len(verdicts)} tableaux: {', '.join(counts)}")

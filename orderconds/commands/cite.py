@@ -19,7 +19,7 @@ def command(name: str, as_json: bool) -> int:
     source = ""
     key = name
     if name not in entries:
-        from orderconds.check import read
+        from orderconds.checking import read
 
         try:
             tableau = read(name)

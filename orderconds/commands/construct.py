@@ -16,7 +16,7 @@ from orderconds.commands.place import FILE, put
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write here instead of stdout.")
 @click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
 def command(kind: str, stages: int, output: str | None, as_json: bool) -> int:
-    """Write the tableau of KIND with so many stages, its coefficients exact. KIND is gauss, radau1a, radau2a,
+    """Write the tableau of KIND with S stages and exact coefficients. KIND is gauss, radau1a, radau2a,
     lobatto3a, lobatto3b, lobatto3c, lobatto3c_star, lobatto3d or lobatto3e.
     """
     from orderconds.tableau import dumps

@@ -9,7 +9,7 @@ import click
 from orderconds.commands import screen
 
 if TYPE_CHECKING:
-    from orderconds.derive import Derivation
+    from orderconds.derivation import Derivation
 
 FORMATS = ("text", "latex", "sympy", "json")
 
@@ -39,7 +39,7 @@ def command(
     as_json: bool,
 ) -> int:
     """Print the independent order conditions of FAMILY (rk, vcg, "rkmk(1)", ...) up to an order."""
-    from orderconds.derive import derive
+    from orderconds.derivation import derive
 
     if explicit and stages is None:
         raise click.UsageError("--explicit says how the tableau of --stages S is filled; give --stages too")
@@ -48,9 +48,9 @@ def command(
     with screen.working(f"deriving {family} to order {order}"):
         derivation = derive(family, order, every=every)
         if stages is not None:
-            from orderconds.written_out import write_out
+            from orderconds.stage_expansion import expand_stages
 
-            derivation = write_out(derivation, stages, explicit=explicit)
+            derivation = expand_stages(derivation, stages, explicit=explicit)
     match "json" if as_json else form:
         case "json":
             _print_json(derivation, explain)
@@ -78,6 +78,8 @@ def _print_text(derivation: Derivation, explain: bool) -> None:
             columns += ("equals",)
             rows = [(*row, c.relation or "") for row, c in zip(rows, conditions, strict=True)]
         screen.print_table(columns, rows, indent=2)
+    if derivation.remark:
+        click.echo(f"\n{derivation.remark}")
 
 
 def _print_entries(derivation: Derivation, order: int) -> None:
@@ -100,8 +102,7 @@ def _print_json(derivation: Derivation, explain: bool) -> None:
     if explain:
         from orderconds.explain.kinds import named_by
 
-        for entry, condition in zip(record["conditions"], derivation.conditions, strict=True):
-            entry["names"] = named_by(condition)
+        record["conditions"] = [{**c.as_json(), "names": named_by(c)} for c in derivation.conditions]
     screen.print_json(record)
 
 
@@ -109,7 +110,7 @@ def _print_latex(derivation: Derivation, explain: bool) -> None:
     r"""Print one ``align*`` environment (package amsmath), trees and relations as comments."""
     from orderconds.explain.kinds import named_by
     from orderconds.formula.equations import aligned
-    from orderconds.formula.spelling import fraction_latex
+    from orderconds.formula.rendering import latex_fraction
 
     rows = []
     for condition in derivation.conditions:
@@ -118,5 +119,5 @@ def _print_latex(derivation: Derivation, explain: bool) -> None:
             comment += f"\nnames {named_by(condition)}"
         if condition.relation is not None:
             comment += f"\nequals {condition.relation}"
-        rows.append((comment, condition.latex, fraction_latex(condition.rhs)))
+        rows.append((comment, condition.latex, latex_fraction(condition.rhs)))
     click.echo(aligned(rows))

@@ -25,7 +25,7 @@ Records = Iterable[dict[str, str]]
 @click.argument("kind", required=False)
 @click.option("--json", "as_json", is_flag=True, help="Names and descriptions on stdout as JSON.")
 def command(kind: str | None, as_json: bool) -> int:
-    """List what there is of one KIND (families, tableaux, groups, scenes), or of all."""
+    """List one KIND (families, tableaux, groups, scenes), or all kinds."""
     kinds = [kind] if kind is not None else kinds_offered()
     listings = {name: list(listing(name)()) for name in kinds}
     if as_json:
@@ -74,14 +74,10 @@ def listing(kind: str) -> Callable[[], Records]:
 
 
 def _families() -> Records:
-    from importlib import import_module
-    from inspect import getdoc
-
     from orderconds import families
 
-    for name in families.names():
-        told = getdoc(import_module(families.MODULES[name])) or ""
-        yield {"name": name, "about": told.partition("\n")[0]}
+    for name in families.installed_names():
+        yield {"name": name, "about": families.family_class(name).description}
 
 
 def _tableaux() -> Records:

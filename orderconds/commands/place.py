@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 from pathlib import Path
 
 import click
 
 from orderconds.errors import InputError
+from orderconds.input_file import reason
+from orderconds.output_file import write_files
 
 
 class Place(click.ParamType[str]):
@@ -44,21 +44,6 @@ def put(path: str, content: bytes) -> None:
         if target.exists() and not target.is_file():
             target.write_bytes(content)
             return
-        handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name[:40]}.")
-        try:
-            with os.fdopen(handle, "wb") as stream:
-                stream.write(content)
-            os.chmod(temporary, target.stat().st_mode & 0o7777 if target.exists() else 0o666 & ~_umask())
-            os.replace(temporary, target)
-        except BaseException:
-            Path(temporary).unlink(missing_ok=True)
-            raise
+        write_files({target: content})
     except OSError as problem:
-        reason = (problem.strerror or "unwritable").lower()
-        raise InputError(reason, where=path, expected="a file that can be written") from None
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
+        raise InputError(reason(problem), where=path, expected="a file that can be written") from None

@@ -5,9 +5,11 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
+
+from orderconds.exit_status import current_run
 
 if TYPE_CHECKING:
     from orderconds.explain.lines import Style
@@ -81,7 +83,7 @@ def counting(message: str) -> Iterator[Callable[[str], object]]:
         yield lambda text: progress.update(task, advance=1, description=text)
 
 
-def print_json(value: Any) -> None:
+def print_json(value: object) -> None:
     """Print one JSON document: indented, in the order given, ASCII only.
 
     >>> print_json({"order": 4})
@@ -89,9 +91,7 @@ def print_json(value: Any) -> None:
       "order": 4
     }
     """
-    import json
-
-    click.echo(json.dumps(value, indent=2, allow_nan=False))
+    current_run().print_document(value)
 
 
 def print_table(columns: Sequence[str], rows: Sequence[Sequence[str]], indent: int = 0) -> None:

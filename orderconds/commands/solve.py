@@ -38,24 +38,24 @@ if TYPE_CHECKING:
 )
 @click.option("--rkn", is_flag=True, help="splitting: the parts are T and V with [V,[V,[V,T]]] = 0.")
 @click.option(
-    "--minimise", type=click.Choice(["error"]), help="Go through all starts for the least principal error."
+    "--minimise", type=click.Choice(["error"]), help="Try all starts and take the least principal error."
 )
 @click.option("--starts", type=click.IntRange(1, 10**7), help="Random starts.  [4096; minimising 1024]")
 @click.option("--seed", type=click.IntRange(0, 2**31), default=0, show_default=True)
 @click.option("--processes", type=click.IntRange(1, 256), help="Local processes.  [one a processor]")
-@click.option("--dask", metavar="ADDRESS", help="Let the dask cluster at tcp://host:port work.")
+@click.option("--dask", metavar="ADDRESS", help="Run on the dask cluster at tcp://host:port.")
 @click.option("--name", default="found", show_default=True, help="The tableau's name.")
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write here instead of stdout.")
 @click.option(
-    "--checkpoint", type=FILE, metavar="FILE", help="Keep what is finished.  [FILE.search with -o FILE]"
+    "--checkpoint", type=FILE, metavar="FILE", help="Keep finished batches.  [FILE.search with -o FILE]"
 )
 @click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
 def command(family: str, output: str | None, as_json: bool, **options: Any) -> int:
-    """Find a method of FAMILY with so many stages and an order, prove it, and write its tableau.
+    """Find a method of FAMILY with S stages and order P, prove its order, and write its tableau.
 
-    Exits with 0 if a method was found and proved, 1 if none was, or none exists, 2 for wishes that make no
-    sense. The same seed gives the same file, however many processes there are. What is finished when the
-    search is interrupted is kept in the checkpoint, and the same command goes on from there.
+    Exits with 0 if a method was found and proved, 1 if none was, or none exists, 2 for contradictory
+    options. The same seed gives the same file, however many processes there are. An interrupted
+    search keeps its finished batches in the checkpoint, and the same command continues from there.
     """
     # One thread a process: results then do not depend on how many there are.
     for library in ("OPENBLAS", "OMP", "MKL"):
@@ -66,11 +66,11 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
     try:
         with screen.working(f"searching {family}") as report:
             outcome = solve(order, report)
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as interrupt:
         path = order.checkpoint
-        kept = f"; what is finished is kept in {path}" if path is not None and path.exists() else ""
-        click.echo(f"orderconds: interrupted{kept}", err=True)
-        return 130
+        if path is not None and path.exists():
+            interrupt.add_note(f"finished starts are kept in {path}; the same command goes on from there")
+        raise
     if outcome.found is not None and output is not None:
         put(output, outcome.found.text.encode())
     if as_json:
@@ -82,9 +82,9 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
 
 def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
     from orderconds.solve.solver import Order
-    from orderconds.solve.wishes import Wishes
+    from orderconds.solve.spec import Spec
 
-    wishes = Wishes(
+    spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},
         **{key: options[key] for key in ("fix", "positive", "exponentials", "inner")},
         size=_size(options["size"]),
@@ -99,7 +99,7 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
     return Order(
         family,
         options["order"],
-        wishes,
+        spec,
         seed=options["seed"],
         minimised=options["minimise"] is not None,
         starts=options["starts"],
@@ -123,10 +123,10 @@ def _size(text: str | None) -> Fraction | None:
     return size
 
 
-def _record(order: Order, outcome: Outcome, output: str | None) -> dict[str, Any]:
+def _record(order: Order, outcome: Outcome, output: str | None) -> dict[str, object]:
     verdict = "found" if outcome.found else "infeasible" if outcome.none else "nothing found"
-    record: dict[str, Any] = {"verdict": verdict, "family": order.family, "order": order.order}
-    record |= {"stages": order.wishes.stages, "seed": order.seed, "command": order.command()}
+    record: dict[str, object] = {"verdict": verdict, "family": order.family, "order": order.order}
+    record |= {"stages": order.spec.stages, "seed": order.seed, "command": order.command()}
     if outcome.none is not None:
         return {**record, "proof": outcome.none.as_json()}
     record |= {"tried": outcome.tried, "best_residual": outcome.best}
@@ -159,7 +159,7 @@ def _print(order: Order, outcome: Outcome, output: str | None) -> None:
 
 
 def _stages(order: Order) -> str:
-    return f"{order.wishes.stages} stage" + ("" if order.wishes.stages == 1 else "s")
+    return f"{order.spec.stages} stage" + ("" if order.spec.stages == 1 else "s")
 
 
 def _print_proof(order: Order, proof: Infeasible) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -11,12 +10,12 @@ import click
 from orderconds.commands import screen
 from orderconds.commands.place import put
 from orderconds.errors import InputError
+from orderconds.input_file import read_text
 
 if TYPE_CHECKING:
     from orderconds.tableau import OrderClaim
 
 BEGIN, END = "<!-- begin: orderconds table -->", "<!-- end: orderconds table -->"
-ON_GROUPS = ("cf", "cg", "rkmk", "vcg", "vcf", "vrkmk")
 COLUMNS = ("tableau", "format", "orders claimed", "stages", "exponentials", "error norm", "certificate")
 
 
@@ -80,14 +79,14 @@ def row(name: str) -> tuple[str, ...]:
     >>> row("cf4")
     ('cf4', 'cf', 'cf 4, rk 4, vcf 4', '4', '5', '5.68e-02', 'exact')
     """
-    from orderconds.check import check
+    from orderconds.checking import check
     from orderconds.tableau import Tableau, find
 
     tableau = Tableau.load(find(name))
     best: dict[str, int] = {}
     for claim in tableau.claims.orders:
         best[claim.family] = max(best.get(claim.family, 0), claim.order)
-    main = min(tableau.claims.orders, key=_least_said, default=None)
+    main = min(tableau.claims.orders, key=_first, default=None)
     report = check(tableau, family=main.label if main else None)
     found = report.orders[0]
     cost = report.work.get(found.family)
@@ -103,22 +102,18 @@ def row(name: str) -> tuple[str, ...]:
     )
 
 
-def _least_said(claim: OrderClaim) -> tuple[int, int, int]:
+def _first(claim: OrderClaim) -> tuple[int, bool, int, int]:
     """Sort the highest order first, and among equals a family on groups, whose exponentials count."""
-    rank = ON_GROUPS.index(claim.family) if claim.family in ON_GROUPS else len(ON_GROUPS)
-    return -claim.order, rank, claim.cutoff or 0
+    from orderconds import families
+
+    family = families.get(claim.label)
+    place = families.position(family.name) if family.on_groups else 0
+    return -claim.order, not family.on_groups, place, claim.cutoff or 0
 
 
 def _around(path: str) -> tuple[str, str, str]:
     """Return the text of a file, and what stands in it before and behind the place of the table."""
-    try:
-        text = Path(path).read_text(encoding="utf-8")
-    except OSError as problem:
-        raise InputError(
-            (problem.strerror or "unreadable").lower(), where=path, expected="a text file"
-        ) from None
-    except UnicodeDecodeError:
-        raise InputError("bytes that are no UTF-8", where=path, expected="a text file") from None
+    text = read_text(path)
     start, end = text.find(BEGIN), text.find(END)
     if not 0 <= start < end:
         raise InputError("no place for the table", where=path, expected=f"{BEGIN} and {END}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 def command(
     kind: str, order: int, count: bool, draw: bool, explain: bool, plain: bool, svg: str | None, as_json: bool
 ) -> int:
-    """Enumerate the trees of one KIND with so many vertices.
+    """Enumerate the trees of one KIND with P vertices.
 
     \b
     rooted       rooted trees, unordered                       rk
@@ -66,10 +66,10 @@ def command(
 
 def _record(
     name: str, kind: Kind, order: int, count: bool, draw: bool, explain: bool, plain: bool
-) -> dict[str, Any]:
+) -> dict[str, object]:
     from orderconds.explain import lines
 
-    record: dict[str, Any] = {"kind": name, "order": order, "count": kind.count(order)}
+    record: dict[str, object] = {"kind": name, "order": order, "count": kind.count(order)}
     if count:
         return record
     members = list(kind.members(order))

@@ -1,27 +1,23 @@
-"""Tableaux to and from other programs' formats: JSON, CSV, NumPy, SymPy, LaTeX, C arrays.
+"""Tableaux to and from the formats of other programs: JSON, CSV, NumPy, SymPy, LaTeX, C arrays.
 
-Everything passes through the keys of a tableau file (:func:`orderconds.tableau.file.from_data`), so an
-imported tableau is held to the same grammar, and nothing that is read is run as code. What is written
-reads back as exactly the same method, rounded decimals with their digits; TOML and JSON hold all of a file,
-the others no proof (:func:`left_out`). Foreign decimals with 12 significant digits or more are taken as
-rounded (``~``), shorter ones at their word.
+Every import and export passes through the keys of a tableau file (:func:`orderconds.tableau.file.from_data`).
+So an imported tableau obeys the same grammar, and no input is ever executed. An exported method reads back as
+exactly the same method, rounded decimals with all their digits. TOML and JSON hold everything in a file; the
+other formats hold no proof (:func:`left_out`). Foreign decimals with 12 significant digits or more count as
+rounded (``~``), shorter ones as exact.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import Protocol, cast
 
 from orderconds.errors import InputError
 from orderconds.tableau import Tableau
 from orderconds.tableau.file import MAX_NAME, bytes_of, from_data
-from orderconds.tableau.write import as_data
-
-Data = Mapping[str, Any]
-"""The keys and values of a tableau file."""
+from orderconds.tableau.write import Data
 
 FORMATS = {
     "toml": ("orderconds.exchange.toml_file", ".toml"),
@@ -32,32 +28,31 @@ FORMATS = {
     "latex": ("orderconds.exchange.latex_array", ".tex"),
     "c": ("orderconds.exchange.c_arrays", ".c"),
 }
-"""Format to its suffix and its module: ``write(data) -> bytes``, ``read(content, where) -> data``."""
+"""Name of a format to its module, which has ``write`` and ``read``, and its suffix."""
 
 
 def export(data: Data, to: str) -> bytes:
     """Return the content of a file in the format ``to``.
 
-    Raises :class:`~orderconds.errors.InputError` for an unknown format, or one that this method has no
-    place in.
+    Raises :class:`~orderconds.errors.InputError` for an unknown format, and for a method that the format
+    cannot hold.
 
     >>> export({"name": "euler", "family": "rk", "A": [["0"]], "b": ["1"]}, "csv").decode().split()
     ['name,euler', 'family,rk', 'A,0', 'b,1']
     """
-    write: Callable[[Data], bytes] = _module(to).write
-    return write(data)
+    return _module(to).write(data)
 
 
-def read_data(content: bytes, of: str, where: str, name: str = "imported") -> dict[str, Any]:
-    """Return the keys and values that a file in the format ``of`` holds; ``name`` serves where it gives none.
+def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Data:
+    """Return the keys and values of a file in the format ``of``; ``name`` is used if the file has no name.
 
-    Tables as people have them state no order for embedded weights: it is computed. Raises
+    Tables of other programs give no order for embedded weights, so it is computed. Raises
     :class:`~orderconds.errors.InputError` naming ``where``.
 
     >>> read_data(b"0,0\\n,1\\n", "csv", "euler.csv", name="euler")
     {'name': 'euler', 'family': 'rk', 'A': [['0']], 'b': ['1'], 'c': ['0']}
     """
-    data: dict[str, Any] = _module(of).read(content, where)
+    data = _module(of).read(content, where)
     if of == "toml":
         return data
     data = {"name": name, **data}
@@ -69,8 +64,8 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> di
 
 
 def _computed_order(tableau: Tableau) -> int:
-    """Return the order of the embedded weights on vector spaces, the least that a file can state if none."""
-    from orderconds.check import family_order
+    """Return the order of the embedded weights on vector spaces, at least 1 as files require."""
+    from orderconds.checking import family_order
     from orderconds.families import get
 
     lower = tableau.lower()
@@ -80,7 +75,7 @@ def _computed_order(tableau: Tableau) -> int:
 def load_foreign(path: str | Path) -> Tableau | None:
     """Return the tableau of a file whose suffix names a format other than TOML, None for other suffixes.
 
-    Its name is the file's, where the file gives none.
+    The tableau is named after the file if it has no name of its own.
 
     >>> load_foreign("rk4.toml") is None
     True
@@ -93,7 +88,7 @@ def load_foreign(path: str | Path) -> Tableau | None:
 
 
 def name_of(path: str | Path) -> str:
-    """Return a name for the tableau of a file that gives none.
+    """Return a name, made from the path, for the tableau of a file that has no name in it.
 
     >>> name_of("my files/my method (2).csv")
     'my_method_2'
@@ -101,18 +96,8 @@ def name_of(path: str | Path) -> str:
     return re.sub(r"[^A-Za-z0-9.+-]+", "_", Path(path).stem).strip("_.+-")[:MAX_NAME] or "imported"
 
 
-def convert(tableau: Tableau) -> dict[str, Any]:
-    """Return a tableau as the keys and values of its file, in which nothing is lost.
-
-    >>> from orderconds.check import read
-    >>> convert(read("heun"))["b"]
-    ['1/2', '1/2']
-    """
-    return as_data(tableau)
-
-
 def left_out(data: Data, to: str) -> tuple[str, ...]:
-    """Return the keys that a file in the format ``to`` has no place for.
+    """Return the keys that a file in the format ``to`` cannot hold.
 
     >>> left_out({"name": "m", "proof": {"conditions": "cg"}}, "csv")
     ('proof',)
@@ -142,7 +127,15 @@ def _format_of(path: str) -> str | None:
     return None
 
 
-def _module(name: str) -> Any:
+class _Format(Protocol):
+    """A module that reads and writes one format."""
+
+    def write(self, data: Data) -> bytes: ...
+
+    def read(self, content: bytes, where: str) -> Data: ...
+
+
+def _module(name: str) -> _Format:
     if name not in FORMATS:
         raise InputError(f"unknown format {name!r}", expected=f"one of {', '.join(FORMATS)}")
-    return import_module(FORMATS[name][0])
+    return cast("_Format", import_module(FORMATS[name][0]))

@@ -1,6 +1,6 @@
-"""A tableau as named arrays of spelled coefficients, what tables, matrices and C arrays can hold.
+"""A tableau as named arrays of coefficients in text form: the content of tables, matrices and C arrays.
 
-What is left out is the proof of rounded decimals, which refers to the names in the file.
+The proof of rounded decimals is left out, because it refers to names in the file.
 ``rk`` gives A, b and embedded_b with embedded_order; ``prk`` A, b, A_hat, b_hat; ``composition`` gamma, or
 alpha and beta. ``cf`` gives the exponentials of all stages and of the update as rows of ``exponentials``;
 ``count`` says how many belong to each stage and, last, to the update, ``start`` which stage each starts
@@ -11,80 +11,82 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 from orderconds.errors import TableauError
-from orderconds.exchange.expressions import TooLong, without_names
+from orderconds.exchange.unevaluated import CoefficientTooLong, with_names_inlined
 from orderconds.ring import Balls
 from orderconds.tableau import Tableau
 from orderconds.tableau.file import from_data
-from orderconds.tableau.write import written_out
+from orderconds.tableau.write import Data, written_out
 
 Row = list[str]
-Arrays = dict[str, Any]
+Arrays = Data
 """Name to text (name, family, ...), to a row, or to rows of one length."""
 
 TABLES = ("numbers", "claims")
-"""Tables of a file that stand in a text as JSON; numbers only where coefficients have no spelling without."""
+"""Tables of a file that become JSON texts; ``numbers`` only where coefficients need their names."""
 TEXTS = ("name", "family", "source", "bibtex", "base", "embedded_order", *TABLES)
 ROWS = ("b", "b_hat", "gamma", "alpha", "beta", "embedded_b", "count", "start", "c")
 MATRICES = ("A", "A_hat", "exponentials")
 ROUNDED = 12
-"""A foreign decimal of so many significant digits is a rounded number."""
+"""A foreign decimal with at least this many significant digits counts as rounded."""
 
 
-def arrays(data: Mapping[str, Any], what: str) -> Arrays:
-    """Return the arrays of a file's keys; :class:`TableauError` for a format that has none.
+def to_arrays(data: Data, target: str) -> Arrays:
+    """Return the arrays of a file's keys; ``target`` names the format to be written in messages.
 
-    >>> arrays({"name": "heun", "family": "rk", "A": [[], [1]], "b": ["1/2", "1/2"]}, "a table")["A"]
+    Raises :class:`TableauError` for a family that arrays cannot hold.
+
+    >>> to_arrays({"name": "heun", "family": "rk", "A": [[], [1]], "b": ["1/2", "1/2"]}, "a table")["A"]
     [['0', '0'], ['1', '0']]
     """
     family = data.get("family")
     if family not in ("rk", "prk", "composition", "cf"):
         raise TableauError(
-            f"a tableau of format {family} in {what}",
+            f"a tableau of format {family} in {target}",
             where=str(data.get("name")),
             expected="format json, which holds everything",
         )
     if data.get("numbers") or "low_storage" in data:
         try:
-            data = spelled_out(from_data(data))
-        except TooLong:
+            data = data_without_names(from_data(data))
+        except CoefficientTooLong:
             if "low_storage" in data:
                 raise
-    found: Arrays = {key: data[key] for key in TEXTS if data.get(key)}
-    found |= {key: json.dumps(data[key]) for key in TABLES if data.get(key)}
+    entries: Arrays = {key: data[key] for key in TEXTS if data.get(key)}
+    entries |= {key: json.dumps(data[key]) for key in TABLES if data.get(key)}
     if family == "cf":
-        return {**found, **_products(data)}
+        return {**entries, **_products(data)}
     width = len(data["b"]) if "b" in data else 0
     for key in MATRICES + ROWS:
         if key in data:
-            found[key] = _filled(data[key], width) if key in MATRICES else [str(x) for x in data[key]]
+            entries[key] = _filled(data[key], width) if key in MATRICES else [str(x) for x in data[key]]
     if embedded := data.get("embedded"):
-        found["embedded_b"] = _filled([embedded["b"]], width)[0]
-        found["embedded_order"] = str(embedded["order"])
-    return found
+        entries["embedded_b"] = _filled([embedded["b"]], width)[0]
+        entries["embedded_order"] = str(embedded["order"])
+    return entries
 
 
-def spelled_out(tableau: Tableau) -> dict[str, Any]:
-    """Return the keys of a tableau's file, each coefficient spelled without names but those of roots.
+def data_without_names(tableau: Tableau) -> Data:
+    """Return the keys of a tableau's file, no coefficient using a name other than that of a root.
 
-    Exact ones stand in lowest terms, rounded ones as the file spells them.
+    Exact coefficients are in lowest terms; rounded ones keep the digits of the file.
 
-    >>> spelled_out(from_data({"name": "t", "family": "rk", "A": [[]], "b": ["g"], "numbers": {"g": "2/4"}}))
+    >>> data = {"name": "t", "family": "rk", "A": [[]], "b": ["g"], "numbers": {"g": "2/4"}}
+    >>> data_without_names(from_data(data))
     {'name': 't', 'family': 'rk', 'A': [[]], 'b': ['1/2']}
     """
     if isinstance(tableau.ring, Balls) and tableau.file is not None:
-        tableau = without_names(tableau, tableau.file)
+        tableau = with_names_inlined(tableau, tableau.file)
     return written_out(tableau, name_radicals=False)
 
 
-def _filled(rows: Sequence[Sequence[Any]], width: int) -> list[Row]:
+def _filled(rows: Sequence[Sequence[str | int]], width: int) -> list[Row]:
     return [[*map(str, row), *["0"] * (width - len(row))] for row in rows]
 
 
-def _products(data: Mapping[str, Any]) -> Arrays:
+def _products(data: Data) -> Arrays:
     embedded = data.get("embedded")
     products = [*data["stage"], data["update"], *([embedded] if embedded else [])]
     width = len(data["stage"])
@@ -96,75 +98,78 @@ def _products(data: Mapping[str, Any]) -> Arrays:
     }
 
 
-def data_of(found: Arrays, where: str) -> dict[str, Any]:
-    """Return the keys of a tableau file; what is no array of a known name is refused.
+def from_arrays(entries: Arrays, where: str) -> Data:
+    """Return the keys of a tableau file; arrays with unknown names are refused.
 
-    >>> data_of({"gamma": ["1"]}, "a table")
+    >>> from_arrays({"gamma": ["1"]}, "a table")
     {'family': 'composition', 'gamma': ['1'], 'base': 'symmetric-2'}
     """
     known = {*TEXTS, *ROWS, *MATRICES}
-    if not found.keys() - set(TEXTS):
+    if not entries.keys() - set(TEXTS):
         raise TableauError(
             "no array of coefficients", where=where, expected=f"one of {', '.join((*MATRICES, *ROWS))}"
         )
-    for name in found:
+    for name in entries:
         if name not in known:
             raise TableauError(
                 f"the array {name!r}", where=where, expected=f"one of {', '.join(sorted(known))}"
             )
-    tables = {key: table(found[key], f"{where}: {key}") for key in TABLES if key in found}
-    family = found.get("family") or next(
-        (f for key, f in (("A_hat", "prk"), ("A", "rk"), ("exponentials", "cf")) if key in found),
+    tables = {key: json_table(entries[key], f"{where}: {key}") for key in TABLES if key in entries}
+    family = entries.get("family") or next(
+        (f for key, f in (("A_hat", "prk"), ("A", "rk"), ("exponentials", "cf")) if key in entries),
         "composition",
     )
-    data = {key: found[key] for key in ("name", "source", "bibtex", "base") if key in found} | {
+    data = {key: entries[key] for key in ("name", "source", "bibtex", "base") if key in entries} | {
         "family": family,
         **tables,
     }
     if family == "cf":
-        return data | _stages(found, where)
+        return data | _stages(entries, where)
     data |= {
-        key: found[key] for key in ("A", "b", "A_hat", "b_hat", "gamma", "alpha", "beta", "c") if key in found
+        key: entries[key]
+        for key in ("A", "b", "A_hat", "b_hat", "gamma", "alpha", "beta", "c")
+        if key in entries
     }
     if family == "composition":
-        data.setdefault("base", "symmetric-2" if "gamma" in found else "adjoint-pair")
-    if "embedded_b" in found:
-        stated = found.get("embedded_order")
+        data.setdefault("base", "symmetric-2" if "gamma" in entries else "adjoint-pair")
+    if "embedded_b" in entries:
+        stated = entries.get("embedded_order")
         order = {} if stated is None else {"order": _integer(stated, where)}
-        data["embedded"] = {"b": found["embedded_b"], **order}
+        data["embedded"] = {"b": entries["embedded_b"], **order}
     return data
 
 
-def table(text: str, where: str) -> dict[str, Any]:
+def json_table(text: str, where: str) -> Data:
     """Return one of the :data:`TABLES` from its JSON.
 
-    >>> table('{"rk": 4}', "claims")
+    >>> json_table('{"rk": 4}', "claims")
     {'rk': 4}
     """
     try:
-        found = json.loads(text)
+        parsed = json.loads(text)
     except (ValueError, RecursionError):
-        found = None
-    if not isinstance(found, dict):
+        parsed = None
+    if not isinstance(parsed, dict):
         raise TableauError(f"{text[:60]!r}", where=where, expected="an object in JSON")
-    return found
+    return parsed
 
 
-def _stages(found: Arrays, where: str) -> dict[str, Any]:
-    missing = [key for key in ("count", "start", "exponentials") if key not in found]
+def _stages(entries: Arrays, where: str) -> Data:
+    missing = [key for key in ("count", "start", "exponentials") if key not in entries]
     if missing:
         raise TableauError(f"no array {missing[0]}", where=where, expected="count, start and exponentials")
-    rows, products = list(found["exponentials"]), []
-    for count, start in zip(found["count"], found["start"], strict=False):
-        many, begin = _integer(count, where), _integer(start, where)
-        product: dict[str, Any] = {"exp": rows[:many]} if many else {}
-        rows = rows[many:]
-        products.append(product | ({"from": begin} if begin else {}))
-    pair = "embedded_order" in found
-    if rows or len(products) <= pair:
+    rows, products = list(entries["exponentials"]), []
+    counts, starts = ([_integer(x, where) for x in entries[key]] for key in ("count", "start"))
+    pair = "embedded_order" in entries
+    sound = len(counts) == len(starts) > pair and min(counts) >= 0 and sum(counts) == len(rows)
+    if not sound:
         raise TableauError("count that does not add up", where=where, expected="one row for each exponential")
+    for count, start in zip(counts, starts, strict=True):
+        product: Data = {"exp": rows[:count]} if count else {}
+        rows = rows[count:]
+        products.append(product | ({"from": start} if start else {}))
     if pair:
-        lower = products.pop() | {"order": _integer(found["embedded_order"], where)}
+        lower = products.pop() | {"order": _integer(entries["embedded_order"], where)}
         return {"stage": products[:-1], "update": products[-1], "embedded": lower}
     return {"stage": products[:-1], "update": products[-1]}
 
@@ -172,15 +177,15 @@ def _stages(found: Arrays, where: str) -> dict[str, Any]:
 def butcher(stages: Sequence[Row], weights: Sequence[Row]) -> Arrays:
     """Return the arrays of a plain Butcher tableau: rows c, a_1, ..., a_s, then b and perhaps embedded b.
 
-    As in print a cell left blank is zero; blank ones beyond the last stage are none.
+    As in printed tableaux, a blank cell is zero; blank cells beyond the last stage are ignored.
 
     >>> butcher([["0", "", ""], ["1", "1", ""]], [["", "1"]])["A"]
     [['0', '0'], ['1', '0']]
     """
     width = len(stages)
     names = ("b", "embedded_b")
-    found: Arrays = {name: _unblanked(row, width) for name, row in zip(names, weights, strict=False)}
-    return {"c": [row[0] for row in stages], "A": [_unblanked(row[1:], width) for row in stages], **found}
+    entries: Arrays = {name: _unblanked(row, width) for name, row in zip(names, weights, strict=False)}
+    return {"c": [row[0] for row in stages], "A": [_unblanked(row[1:], width) for row in stages], **entries}
 
 
 def _unblanked(row: Row, width: int) -> Row:
@@ -197,16 +202,16 @@ def _integer(text: str, where: str) -> int:
 
 
 def coefficient(text: str) -> str:
-    """Return a foreign number as a coefficient: exponents written out, long decimals taken as rounded.
+    """Return a foreign number as a coefficient: without exponent; long decimals count as rounded.
 
     >>> [coefficient(x) for x in ("5.0e-1", "0.3333333333333333", "1.0/6.0", "-2.5f", "1/3 - sqrt(3)/6")]
     ['0.50', '0.3333333333333333~', '1.0/6.0', '-2.5', '1/3 - sqrt(3)/6']
     """
-    spelled = text.strip()
-    number = re.fullmatch(r"([+-]?)(\d*)\.?(\d*)(?:[eE]([+-]?\d{1,3}))?[fFlL]?", spelled, re.ASCII)
-    if number is None or not (number[2] or number[3]):
-        return spelled
-    sign, whole, part, exponent = number[1], number[2] or "0", number[3], int(number[4] or 0)
+    number = text.strip()
+    parts = re.fullmatch(r"([+-]?)(\d*)\.?(\d*)(?:[eE]([+-]?\d{1,3}))?[fFlL]?", number, re.ASCII)
+    if parts is None or not (parts[2] or parts[3]):
+        return number
+    sign, whole, part, exponent = parts[1], parts[2] or "0", parts[3], int(parts[4] or 0)
     if exponent < 0:
         whole = whole.rjust(1 - exponent, "0")
         whole, part = whole[:exponent], whole[exponent:] + part

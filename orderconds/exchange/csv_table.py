@@ -1,20 +1,29 @@
-"""CSV: one array a line, or a line a row of a matrix, its name first; a plain Butcher tableau reads as well.
+"""CSV: each line holds a name and then an array, or a name and then one row of a matrix.
 
-A plain one has c and a row of A in each line, then b after an empty cell, and after another the embedded
-weights; a blank cell elsewhere is a zero.
+A plain Butcher tableau can be read as well. Each of its lines holds c_i and a row of A; a line that begins
+with an empty cell holds b, a second one the embedded weights. Blank cells elsewhere are zeros.
 """
 
 from __future__ import annotations
 
 import csv
 import io
-from typing import Any
 
 from orderconds.errors import TableauError
-from orderconds.exchange.arrays import MATRICES, ROWS, TEXTS, Arrays, arrays, butcher, coefficient, data_of
+from orderconds.exchange.arrays import (
+    MATRICES,
+    ROWS,
+    TEXTS,
+    Arrays,
+    butcher,
+    coefficient,
+    from_arrays,
+    to_arrays,
+)
+from orderconds.tableau.write import Data
 
 
-def write(data: Any) -> bytes:
+def write(data: Data) -> bytes:
     """Return CSV text with exact coefficients.
 
     >>> write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode().splitlines()
@@ -22,13 +31,13 @@ def write(data: Any) -> bytes:
     """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    for name, value in arrays(data, "CSV").items():
+    for name, value in to_arrays(data, "CSV").items():
         for row in value if name in MATRICES else [value] if name in ROWS else [[value]]:
             writer.writerow([name, *row])
     return text.getvalue().encode()
 
 
-def read(content: bytes, where: str) -> dict[str, Any]:
+def read(content: bytes, where: str) -> Data:
     """Return the keys of a tableau file.
 
     >>> read(b"A,1/2\\nb,1\\n", "m.csv")
@@ -43,20 +52,20 @@ def read(content: bytes, where: str) -> dict[str, Any]:
     known = {*TEXTS, *ROWS, *MATRICES}
     if rows and not any(row[0].strip() in known for row in rows):
         return _plain(rows, where)
-    found: Arrays = {}
+    entries: Arrays = {}
     for name, *cells in ([cell.strip() for cell in row] for row in rows):
         if name in TEXTS:
-            found[name] = cells[0] if cells else ""
+            entries[name] = cells[0] if cells else ""
         elif name in MATRICES:
-            found.setdefault(name, []).append([coefficient(x) for x in cells])
-        elif name in found:
+            entries.setdefault(name, []).append([coefficient(x) for x in cells])
+        elif name in entries:
             raise TableauError(f"{name} twice", where=where, expected="it once")
         else:
-            found[name] = [coefficient(x) for x in cells]
-    return data_of(found, where)
+            entries[name] = [coefficient(x) for x in cells]
+    return from_arrays(entries, where)
 
 
-def _plain(rows: list[list[str]], where: str) -> dict[str, Any]:
+def _plain(rows: list[list[str]], where: str) -> Data:
     """Read c | A over b."""
     stages = [[coefficient(x) for x in row] for row in rows if row[0].strip()]
     weights = [[coefficient(x) for x in row[1:]] for row in rows if not row[0].strip()]
@@ -66,4 +75,4 @@ def _plain(rows: list[list[str]], where: str) -> dict[str, Any]:
             where=where,
             expected="lines c, a_1, ..., a_s, then one or two that begin with an empty cell: b, embedded b",
         )
-    return data_of(butcher(stages, weights), where)
+    return from_arrays(butcher(stages, weights), where)

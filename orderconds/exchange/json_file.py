@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-from typing import Any
 
 from orderconds.errors import TableauError
+from orderconds.tableau.write import Data
 
 
-def write(data: Any) -> bytes:
+def write(data: Data) -> bytes:
     """Return JSON text.
 
     >>> write({"name": "m"})
@@ -17,14 +17,14 @@ def write(data: Any) -> bytes:
     return (json.dumps(data, indent=2) + "\n").encode()
 
 
-def read(content: bytes, where: str) -> dict[str, Any]:
+def read(content: bytes, where: str) -> Data:
     """Return the object; its numbers must be strings or integers, as in a tableau file.
 
     >>> read(b'{"name": "m"}', "m.json")
     {'name': 'm'}
     """
     try:
-        data = json.loads(content, object_pairs_hook=_once)
+        data = json.loads(content, object_pairs_hook=_unique)
     except (ValueError, RecursionError) as problem:
         raise TableauError(str(problem) or "nested too deep", where=where, expected="JSON") from None
     if not isinstance(data, dict):
@@ -34,11 +34,11 @@ def read(content: bytes, where: str) -> dict[str, Any]:
     return data
 
 
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Return an object in which no name stands twice; Python's reader would take the last."""
-    found: dict[str, Any] = {}
+def _unique(pairs: list[tuple[str, object]]) -> Data:
+    """Return an object and refuse repeated names, of which Python's reader would take the last."""
+    members: Data = {}
     for name, value in pairs:
-        if name in found:
+        if name in members:
             raise ValueError(f"{name!r} twice in one object")
-        found[name] = value
-    return found
+        members[name] = value
+    return members

@@ -7,14 +7,23 @@ Read back are ``\begin{array}{c|cc}`` with c, A (blank cells are zeros), a rule 
 from __future__ import annotations
 
 import re
-from typing import Any
 
 from orderconds.errors import TableauError
-from orderconds.exchange.arrays import MATRICES, ROWS, TEXTS, Arrays, arrays, butcher, coefficient, data_of
-from orderconds.exchange.spelling import from_latex, latex
-from orderconds.ring import Ball, Balls
+from orderconds.exchange.arrays import (
+    MATRICES,
+    ROWS,
+    TEXTS,
+    Arrays,
+    butcher,
+    coefficient,
+    from_arrays,
+    to_arrays,
+)
+from orderconds.exchange.notation import from_latex, to_latex
+from orderconds.ring import Ball, Balls, Element
 from orderconds.tableau import Tableau
 from orderconds.tableau.file import from_data
+from orderconds.tableau.write import Data
 
 SHORT = Balls(64)
 _TEXT = re.compile(r"^% (\w+): (.*)$", re.MULTILINE)
@@ -22,7 +31,7 @@ _BUTCHER = re.compile(r"\\begin\{array\}\{\s*[lcr]\s*\|[lcr\s]+\}(.*?)\\end\{arr
 _MATRIX = re.compile(r"([A-Za-z_\\{}]+)\s*=\s*\\begin\{[bp]matrix\}(.*?)\\end\{[bp]matrix\}", re.DOTALL)
 
 
-def write(data: Any) -> bytes:
+def write(data: Data) -> bytes:
     r"""Return LaTeX for a display.
 
     >>> print(write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode())
@@ -35,34 +44,34 @@ def write(data: Any) -> bytes:
     \end{array}
     <BLANKLINE>
     """
-    found = arrays(data, "LaTeX")
-    lines = [f"% {name}: {found[name]}" for name in TEXTS if name in found]
-    if "A" in found and "A_hat" not in found:
+    entries = to_arrays(data, "LaTeX")
+    lines = [f"% {name}: {entries[name]}" for name in TEXTS if name in entries]
+    if "A" in entries and "A_hat" not in entries:
         tableau = from_data(data)
         nodes = [_node(tableau, x) for x in tableau.abelian().c]
-        lines.append(rf"\begin{{array}}{{c|{'c' * len(found['b'])}}}")
+        lines.append(rf"\begin{{array}}{{c|{'c' * len(entries['b'])}}}")
         lines += [
-            " & ".join([latex(c), *map(latex, row)]) + r" \\"
-            for c, row in zip(nodes, found["A"], strict=True)
+            " & ".join([to_latex(c), *map(to_latex, row)]) + r" \\"
+            for c, row in zip(nodes, entries["A"], strict=True)
         ]
         for key in ("b", "embedded_b"):
-            if key in found:
-                lines += [r"\hline", " & ".join(["", *map(latex, found[key])]).lstrip() + r" \\"]
+            if key in entries:
+                lines += [r"\hline", " & ".join(["", *map(to_latex, entries[key])]).lstrip() + r" \\"]
         return ("\n".join([*lines, r"\end{array}"]) + "\n").encode()
     for name in ROWS + MATRICES:
-        if name in found:
-            rows = found[name] if name in MATRICES else [found[name]]
-            body = " \\\\\n".join(" & ".join(map(latex, row)) for row in rows)
+        if name in entries:
+            rows = entries[name] if name in MATRICES else [entries[name]]
+            body = " \\\\\n".join(" & ".join(map(to_latex, row)) for row in rows)
             lines += [rf"{name} = \begin{{pmatrix}}", body, r"\end{pmatrix}"]
     return ("\n".join(lines) + "\n").encode()
 
 
-def _node(tableau: Tableau, x: Any) -> str:
-    """Spell an abscissa; a ball with the digits of a double and a few more, which determine nothing."""
+def _node(tableau: Tableau, x: Element) -> str:
+    """Return an abscissa as text; a ball has few digits, as nothing depends on them."""
     return SHORT.text(SHORT.enclose(x.value) + 0) if isinstance(x, Ball) else tableau.ring.text(x)
 
 
-def read(content: bytes, where: str) -> dict[str, Any]:
+def read(content: bytes, where: str) -> Data:
     r"""Return the keys of a tableau file.
 
     >>> read(rb"\begin{array}{c|c} \frac12 & \frac12 \\ \hline & 1 \end{array}", "m.tex")["A"]
@@ -72,17 +81,17 @@ def read(content: bytes, where: str) -> dict[str, Any]:
         text = content.decode()
     except UnicodeDecodeError:
         raise TableauError("bytes that are no UTF-8", where=where, expected="LaTeX") from None
-    found: Arrays = {name: value for name, value in _TEXT.findall(text) if name in TEXTS}
+    entries: Arrays = {name: value for name, value in _TEXT.findall(text) if name in TEXTS}
     if butcher := _BUTCHER.search(text):
-        return data_of({**found, **_butcher(butcher[1], where)}, where)
+        return from_arrays({**entries, **_butcher(butcher[1], where)}, where)
     for name, body in _MATRIX.findall(text):
         rows = _rows(body, where)
-        found[name] = rows[0] if name in ROWS and rows else rows
-    if not found.keys() - set(TEXTS):
+        entries[name] = rows[0] if name in ROWS and rows else rows
+    if not entries.keys() - set(TEXTS):
         raise TableauError(
             "no tableau", where=where, expected=r"\begin{array}{c|cc} ... or A = \begin{pmatrix} ..."
         )
-    return data_of(found, where)
+    return from_arrays(entries, where)
 
 
 def _butcher(body: str, where: str) -> Arrays:

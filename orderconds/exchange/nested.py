@@ -1,21 +1,24 @@
-"""Arrays in source text, ``{{1, 2}, {3, 4}}`` or ``[[1, 2], [3, 4]]``, read without running it."""
+"""Nested arrays in source text, ``{{1, 2}, {3, 4}}`` or ``[[1, 2], [3, 4]]``; nothing is executed."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TypeAlias
 
 from orderconds.errors import TableauError
+
+Cells: TypeAlias = "str | list[Cells]"
+"""The text of one cell, or a list of cells."""
 
 MAX_DEPTH = 3
 
 
-def nested(text: str, opening: str, closing: str, where: str) -> Any:
+def nested(text: str, opening: str, closing: str, where: str) -> Cells:
     """Return the lists of cell texts in one bracketed expression; commas within parentheses belong to cells.
 
     >>> nested("[[1, Rational(1, 2)], [3, 4]]", "[", "]", "x")
     [['1', 'Rational(1, 2)'], ['3', '4']]
     """
-    stack: list[list[Any]] = [[]]
+    stack: list[list[Cells]] = [[]]
     cell, parentheses = "", 0
     for character in text:
         if character == opening and not parentheses:

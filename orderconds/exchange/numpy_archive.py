@@ -1,6 +1,6 @@
-"""NumPy: an ``.npz`` archive with float64 arrays, and beside each the exact spelling (``A_exact``).
+"""NumPy: an ``.npz`` archive with float64 arrays, and for each an array of exact texts (``A_exact``).
 
-An archive without spellings is read by its floats, as decimals of all their digits.
+An archive without exact texts is read by its floats, as decimals with all their digits.
 """
 
 from __future__ import annotations
@@ -11,15 +11,20 @@ import struct
 import zipfile
 import zlib
 from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, TypeAlias, cast
 
 from orderconds.errors import TableauError
-from orderconds.exchange.arrays import TEXTS, Arrays, arrays, coefficient, data_of, table
+from orderconds.exchange.arrays import TEXTS, Arrays, coefficient, from_arrays, json_table, to_arrays
+from orderconds.exchange.nested import Cells
 from orderconds.tableau.file import from_data
+from orderconds.tableau.write import Data
+
+if TYPE_CHECKING:
+    from orderconds.ring.protocol import RealRing
 
 EXACT = "_exact"
 LARGEST = 20_000_000
-"""No more bytes are unpacked."""
+"""The largest size of unpacked arrays, in bytes."""
 UNREADABLE = (
     EOFError,
     KeyError,
@@ -33,11 +38,14 @@ UNREADABLE = (
     zipfile.BadZipFile,
     zlib.error,
 )
-"""What zip files and array headers raise that are damaged, encrypted or of another version."""
+"""The errors of zip files and array headers that are damaged, encrypted or of an unknown version."""
 INTEGERS = ("count", "start")
 
+Floats: TypeAlias = "float | list[Floats]"
+"""A number, or nested lists of numbers."""
 
-def write(data: Any) -> bytes:
+
+def write(data: Data) -> bytes:
     """Return the archive.
 
     >>> write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]})[:2]
@@ -46,10 +54,10 @@ def write(data: Any) -> bytes:
     import numpy as np
 
     content = io.BytesIO()
-    found = arrays(data, "NumPy")
-    roots = found.get("numbers", "{}")
-    members: dict[str, Any] = {}
-    for name, value in found.items():
+    entries = to_arrays(data, "NumPy")
+    roots = entries.get("numbers", "{}")
+    members: Arrays = {}
+    for name, value in entries.items():
         if name in TEXTS:
             members[name] = np.array(value)
         elif name in INTEGERS:
@@ -61,8 +69,8 @@ def write(data: Any) -> bytes:
     return content.getvalue()
 
 
-def floats(value: Any, roots: str = "{}") -> Any:
-    """Return spelled coefficients as the doubles nearest to them; ``roots`` is the JSON of named ones.
+def floats(value: Cells, roots: str = "{}") -> Floats:
+    """Return the doubles nearest to coefficients; ``roots`` is the JSON of named roots.
 
     >>> floats([["1/2", "1/3"]])
     [[0.5, 0.3333333333333333]]
@@ -73,31 +81,30 @@ def floats(value: Any, roots: str = "{}") -> Any:
 
 
 @lru_cache(maxsize=4096)
-def nearest(spelled: str, roots: str = "{}") -> float:
-    """Return the double nearest to a spelled coefficient.
+def nearest(text: str, roots: str = "{}") -> float:
+    """Return the double nearest to a coefficient.
 
     >>> nearest("1/3 - sqrt(3)/6")
     0.04465819873852045
     >>> nearest("x/2", '{"x": {"minpoly": ["-2", "0", "0", "1"], "near": "1.26"}}')
     0.6299605249474366
     """
-    fraction = re.fullmatch(r"(-?[0-9]{1,300})(?:/([1-9][0-9]{0,299}))?", spelled)
+    fraction = re.fullmatch(r"(-?[0-9]{1,300})(?:/([1-9][0-9]{0,299}))?", text)
     try:
         if fraction:  # most are; integers divide with one rounding
             return int(fraction[1]) / int(fraction[2] or 1)
-        data = {"name": "x", "family": "rk", "A": [[]], "b": [spelled], "numbers": table(roots, "numbers")}
+        data = {"name": "x", "family": "rk", "A": [[]], "b": [text], "numbers": json_table(roots, "numbers")}
         tableau = from_data(data)
         (weight,) = tableau.abelian().b
-        ring: Any = tableau.ring
-        return float(ring.nearest_float(weight))
+        return cast("RealRing", tableau.ring).nearest_float(weight)
     except OverflowError:
         raise TableauError(
-            f"{spelled[:40]!r}, beyond the range of doubles", expected="format json, which holds everything"
+            f"{text[:40]!r}, beyond the range of doubles", expected="format json, which holds everything"
         ) from None
 
 
-def read(content: bytes, where: str) -> dict[str, Any]:
-    """Return the keys of a tableau file; floats and spellings that disagree are refused.
+def read(content: bytes, where: str) -> Data:
+    """Return the keys of a tableau file; floats that disagree with their exact texts are refused.
 
     >>> read(write({"name": "m", "family": "rk", "A": [["1/3"]], "b": ["1"]}), "m.npz")["A"]
     [['1/3']]
@@ -106,37 +113,37 @@ def read(content: bytes, where: str) -> dict[str, Any]:
 
     try:
         with np.load(io.BytesIO(content), allow_pickle=False) as archive:
-            _refuse_bombs(archive.zip, where)
+            _require_small(archive.zip, where)
             members = {name: archive[name] for name in archive.files}
     except UNREADABLE as problem:
         raise TableauError(str(problem) or "no archive", where=where, expected="an .npz archive") from None
-    found: Arrays = {}
+    entries: Arrays = {}
     for name, value in members.items():
         if name.endswith(EXACT):
             continue
         if name in TEXTS:
-            found[name] = str(value)
+            entries[name] = str(value)
             continue
-        spelled = members.get(name + EXACT)
+        exact = members.get(name + EXACT)
         if value.dtype.kind not in "fiu" or value.ndim not in (1, 2):
             raise TableauError(
                 f"{name}: {value.dtype} with {value.ndim} axes", where=where, expected="numbers"
             )
-        if spelled is None or name in INTEGERS:
-            found[name] = _spelled(value.tolist())
+        if exact is None or name in INTEGERS:
+            entries[name] = _coefficients(value.tolist())
             continue
-        found[name] = spelled.tolist()
-        if not np.array_equal(np.array(floats(found[name], str(members.get("numbers", "{}")))), value):
+        entries[name] = exact.tolist()
+        if not np.array_equal(np.array(floats(entries[name], str(members.get("numbers", "{}")))), value):
             raise TableauError(
                 f"{name} that is not {name}{EXACT}",
                 where=where,
                 expected="numbers that agree",
                 hint="drop one",
             )
-    return data_of(found, where)
+    return from_arrays(entries, where)
 
 
-def _refuse_bombs(archive: zipfile.ZipFile, where: str) -> None:
+def _require_small(archive: zipfile.ZipFile, where: str) -> None:
     size = sum(member.file_size for member in archive.infolist())
     if size > LARGEST:
         raise TableauError(
@@ -144,5 +151,5 @@ def _refuse_bombs(archive: zipfile.ZipFile, where: str) -> None:
         )
 
 
-def _spelled(value: Any) -> Any:
-    return [_spelled(x) for x in value] if isinstance(value, list) else coefficient(repr(value))
+def _coefficients(value: Floats) -> Cells:
+    return [_coefficients(x) for x in value] if isinstance(value, list) else coefficient(repr(value))

@@ -1,16 +1,16 @@
-"""The project's own format, with every key in its place."""
+"""TOML, the project's own format, with the keys in their usual order."""
 
 from __future__ import annotations
 
 import tomllib
-from typing import Any
 
 from orderconds.errors import TableauError
 from orderconds.tableau import dumps
 from orderconds.tableau.file import from_data
+from orderconds.tableau.write import Data
 
 
-def write(data: Any) -> bytes:
+def write(data: Data) -> bytes:
     """Return TOML text.
 
     >>> write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode().splitlines()[-1]
@@ -19,7 +19,7 @@ def write(data: Any) -> bytes:
     return dumps(from_data(data)).encode()
 
 
-def read(content: bytes, where: str) -> dict[str, Any]:
+def read(content: bytes, where: str) -> Data:
     """Return the keys and values of TOML text.
 
     >>> read(b'name = "m"', "m.toml")
@@ -27,5 +27,5 @@ def read(content: bytes, where: str) -> dict[str, Any]:
     """
     try:
         return tomllib.loads(content.decode())
-    except (ValueError, RecursionError) as problem:  # no TOML, no UTF-8, integers of thousands of digits
+    except (ValueError, RecursionError) as problem:  # no TOML, no UTF-8, an integer of thousands of digits
         raise TableauError(str(problem) or "nested too deep", where=where, expected="TOML") from None

@@ -1,4 +1,4 @@
-"""Diagrams: vertices, edges and ordered branches, what every kind of tree becomes before it is drawn.
+"""Diagrams: vertices, edges and ordered branches, the form in which every kind of tree is drawn.
 
 A vertex is a *dot* (trees of one colour), *black* or *white*, or a *transport* (the L of the action trees,
 which is no copy of the Hamiltonian); in words, a *letter* or the *bracket* of two. An edge is *plain*, or it
@@ -16,7 +16,7 @@ from orderconds.series.action_trees import Force, Momentum, Velocity
 from orderconds.trees import bicoloured, directed, levels
 from orderconds.words.lie import Bracket, standard_bracketing
 from orderconds.words.lyndon import is_lyndon
-from orderconds.words.shuffle import Word
+from orderconds.words.shuffle import Letter, Word
 
 Sign = Literal["dot", "black", "white", "transport", "bracket", "letter"]
 Edge = Literal["plain", "inward", "outward"]
@@ -38,9 +38,9 @@ class Branch:
 class Vertex:
     """A vertex with its branches from left to right.
 
-    ``legs`` = (before, letters) says that the first so many branches are letters of one word, and that the
-    edge to the parent stands behind ``before`` of them; None where there is no such choice. ``label`` is what
-    a letter looks like.
+    ``legs`` = (before, letters) says that the first ``letters`` branches are letters of one word, and that
+    the edge to the parent comes after ``before`` of them; None where there is no choice. ``label`` is the
+    text of a letter.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2
@@ -104,21 +104,21 @@ def action(tree: Velocity) -> Diagram:
     return (Vertex("dot", (*_letters(tree.word), *_covectors(tree.momenta))),)
 
 
-def word(letters: Word, spell: Callable[[int], str]) -> Diagram:
+def word(letters: Word, name: Callable[[Letter], str]) -> Diagram:
     """Return the diagram of a word: its standard bracketing if it is a Lyndon word, else its letters.
 
     >>> [vertex.sign for vertex in word((1, 2), str)], [vertex.label for vertex in word((2, 1), str)]
     (['bracket'], ['2', '1'])
     """
     if is_lyndon(letters):
-        return (_bracketed(standard_bracketing(letters), spell),)
-    return tuple(Vertex("letter", label=spell(letter)) for letter in letters)
+        return (_bracketed(standard_bracketing(letters), name),)
+    return tuple(Vertex("letter", label=name(letter)) for letter in letters)
 
 
-def _bracketed(bracket: Bracket, spell: Callable[[int], str]) -> Vertex:
+def _bracketed(bracket: Bracket, name: Callable[[Letter], str]) -> Vertex:
     if not isinstance(bracket, tuple):
-        return Vertex("letter", label=spell(bracket))
-    return Vertex("bracket", tuple(Branch("plain", _bracketed(part, spell)) for part in bracket))
+        return Vertex("letter", label=name(bracket))
+    return Vertex("bracket", tuple(Branch("plain", _bracketed(part, name)) for part in bracket))
 
 
 def _letters(trees: Iterable[Velocity]) -> Iterator[Branch]:

@@ -1,7 +1,7 @@
-"""The elementary differentials and Hamiltonians that trees name, spelled out.
+"""Texts of the elementary differentials and Hamiltonians that belong to trees.
 
-Each function spells one kind of tree. ``f''(x, y)`` is a derivative applied to vectors; subscripts name the
-variables of partial derivatives, one letter each. Words name commutators of fields.
+Each function serves one kind of tree. ``f''(x, y)`` is a derivative applied to vectors; subscripts name the
+variables of partial derivatives, one letter each. Words stand for commutators of fields.
 """
 
 from __future__ import annotations
@@ -11,11 +11,11 @@ from collections.abc import Callable, Sequence
 from orderconds.trees import bicoloured, directed, levels
 from orderconds.words.lie import Bracket, standard_bracketing
 from orderconds.words.lyndon import is_lyndon
-from orderconds.words.shuffle import Word
+from orderconds.words.shuffle import Letter, Word
 
 
 def differential(tree: levels.Tree) -> str:
-    r"""Spell the elementary differential of a rooted tree (HLW III.1, Definition 1.2).
+    r"""Return the elementary differential of a rooted tree (HLW III.1, Definition 1.2).
 
     >>> differential(b"\0\1\2\1")
     "f''(f'(f), f)"
@@ -24,7 +24,7 @@ def differential(tree: levels.Tree) -> str:
 
 
 def hamiltonian(tree: levels.Tree) -> str:
-    r"""Spell the elementary Hamiltonian of a free tree, given by one of its rootings (HLW IX.9.2).
+    r"""Return the elementary Hamiltonian of a free tree, given by one of its rootings (HLW IX.9.2).
 
     ``f`` is the Hamiltonian vector field; other rootings give the same function up to its sign.
 
@@ -35,7 +35,7 @@ def hamiltonian(tree: levels.Tree) -> str:
 
 
 def frozen_differential(forest: levels.Forest) -> str:
-    r"""Spell the differential operator of an ordered forest, or the vector field of an ordered tree.
+    r"""Return the differential operator of an ordered forest, or the vector field of an ordered tree.
 
     ``f[x y]`` is f differentiated along the frozen fields x and y, the innermost derivative along y: the
     order of the word, in which x acts first. A forest is the product of its operators (Munthe-Kaas and
@@ -44,15 +44,15 @@ def frozen_differential(forest: levels.Forest) -> str:
     >>> frozen_differential(b"\0\1\2\1"), frozen_differential(b"\0\1\0")
     ('f[f[f] f]', 'f[f] f')
     """
-    spelled = []
+    factors = []
     for tree in levels.trees_of(forest):
         inside = frozen_differential(levels.branches(tree))
-        spelled.append(f"f[{inside}]" if inside else "f")
-    return " ".join(spelled)
+        factors.append(f"f[{inside}]" if inside else "f")
+    return " ".join(factors)
 
 
 def partitioned_differential(tree: bicoloured.BicolouredTree) -> str:
-    r"""Spell the elementary differential of a tree of two colours (HLW III.2.1).
+    r"""Return the elementary differential of a tree of two colours (HLW III.2.1).
 
     For y' = f(y, z), z' = g(y, z): black vertices are f, white ones g.
 
@@ -65,7 +65,7 @@ def partitioned_differential(tree: bicoloured.BicolouredTree) -> str:
 
 
 def directed_hamiltonian(tree: directed.DirectedTree) -> str:
-    r"""Spell the elementary Hamiltonian of a tree with directed edges, up to its sign.
+    r"""Return the elementary Hamiltonian of a tree with directed edges, up to its sign.
 
     For q' = H_p, p' = -H_q; an edge leads from a derivative in q to one in p.
 
@@ -76,7 +76,7 @@ def directed_hamiltonian(tree: directed.DirectedTree) -> str:
 
 
 def separable_hamiltonian(tree: bicoloured.BicolouredTree) -> str:
-    r"""Spell the elementary Hamiltonian of an alternating tree, up to its sign (HLW VI.7.2).
+    r"""Return the elementary Hamiltonian of an alternating tree, up to its sign (HLW VI.7.2).
 
     For H = T(p) + V(q): black vertices are T, white ones V.
 
@@ -86,8 +86,8 @@ def separable_hamiltonian(tree: bicoloured.BicolouredTree) -> str:
     return _separable(tree, "")
 
 
-def bracket(word: Word, spell: Callable[[int], str]) -> str:
-    """Spell the commutator that a Lyndon word names, by its standard bracketing; else the product of letters.
+def bracket(word: Word, name: Callable[[Letter], str]) -> str:
+    """Return the commutator of a Lyndon word, by its standard bracketing; for another word, the product.
 
     Letters are Lie derivatives, which multiply in the order of action.
 
@@ -95,14 +95,19 @@ def bracket(word: Word, spell: Callable[[int], str]) -> str:
     ('[1, [1, 2]]', '2 1')
     """
     if not is_lyndon(word):
-        return " ".join(map(spell, word))
-    return _bracketed(standard_bracketing(word), spell)
+        return " ".join(map(name, word))
+    return commutator(standard_bracketing(word), name)
 
 
-def _bracketed(nested: Bracket, spell: Callable[[int], str]) -> str:
+def commutator(nested: Bracket, name: Callable[[Letter], str]) -> str:
+    """Return nested brackets of letters as text.
+
+    >>> commutator(("A", ("A", "B")), str)
+    '[A, [A, B]]'
+    """
     if not isinstance(nested, tuple):
-        return spell(nested)
-    return f"[{', '.join(_bracketed(part, spell) for part in nested)}]"
+        return name(nested)
+    return f"[{', '.join(commutator(part, name) for part in nested)}]"
 
 
 def _derivative(name: str, inside: Sequence[str]) -> str:

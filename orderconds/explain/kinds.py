@@ -1,6 +1,6 @@
 """The kinds of trees: their members, numbers, texts, drawings, and what they name.
 
-A kind is put together when it is asked for, so that listing rooted trees loads nothing about words.
+A kind is assembled on demand, so that listing rooted trees loads nothing about words.
 """
 
 from __future__ import annotations
@@ -15,6 +15,10 @@ from orderconds.conditions import OrderCondition
 from orderconds.errors import UnknownName
 from orderconds.explain.diagram import Diagram
 from orderconds.explain.lines import Style, draw
+from orderconds.families import Family
+
+Member = Any
+"""A tree, forest or word, in the encoding of its kind."""
 
 
 @dataclass(frozen=True)
@@ -22,30 +26,38 @@ class Kind:
     """One kind of trees, words or forests.
 
     ``members`` enumerates those of an order and ``count`` finds their number another way, from generating
-    functions; ``text`` spells a member, ``diagram`` makes it drawable, ``names`` spells the elementary
-    differential or Hamiltonian it names. ``family`` is a family whose conditions belong to these trees: all
-    of them, or with ``independent`` an independent set.
+    functions; ``text`` is the text of a member, ``diagram`` its drawing, ``names`` that of the elementary
+    differential or Hamiltonian it names. With ``independent`` the members carry an independent set of
+    conditions of the family that illustrates the kind, else all of its conditions.
 
     >>> kind = get("rooted")
     >>> [(kind.text(tree), kind.names(tree)) for tree in kind.members(3)]
     [('[[.]]', "f'(f'(f))"), ('[..]', "f''(f, f)")]
     """
 
-    members: Callable[[int], Iterable[Any]]
+    members: Callable[[int], Iterable[Member]]
     count: Callable[[int], int]
-    text: Callable[[Any], str]
-    diagram: Callable[[Any], Diagram]
-    names: Callable[[Any], str]
-    family: str
+    text: Callable[[Member], str]
+    diagram: Callable[[Member], Diagram]
+    names: Callable[[Member], str]
+    name: str
     independent: bool = False
 
-    def conditions(self, order: int) -> dict[Any, OrderCondition]:
-        """Return the family's condition of each member."""
-        family = families.get(self.family)
-        found = family.conditions(order) if self.independent else family.all_conditions(order)
-        return {condition.key: condition for condition in found}
+    def family(self) -> Family:
+        """Return the family that illustrates this kind with its conditions."""
+        for name in families.names():
+            family = families.family_class(name)
+            if self.name in family.illustrates:
+                return family()
+        raise UnknownName(f"no family illustrates the trees {self.name!r}", expected="a registered family")
 
-    def entry(self, member: Any, condition: OrderCondition | None, style: Style | None) -> list[str]:
+    def conditions(self, order: int) -> dict[Member, OrderCondition]:
+        """Return the family's condition of each member."""
+        family = self.family()
+        conditions = family.conditions(order) if self.independent else family.all_conditions(order)
+        return {condition.key: condition for condition in conditions}
+
+    def entry(self, member: Member, condition: OrderCondition | None, style: Style | None) -> list[str]:
         r"""Return the lines that explain a member: its text, a drawing, what it names, its condition.
 
         Without a style there is no drawing.
@@ -88,19 +100,19 @@ def get(name: str) -> Kind:
 
 
 def of_family(label: str) -> Kind | None:
-    r"""Return the kind of trees of a family's conditions; None for words, which speak for themselves.
+    r"""Return the kind of trees of a family's conditions; None for words, which need no drawing.
 
     >>> of_family("rkmk(1)").text(b"\0\1\0")
     '[.] .'
     """
-    name = getattr(families.get(label), "trees", None)
+    name = families.get(label).trees
     return None if name is None else get(name)
 
 
 def named_by(condition: OrderCondition) -> str:
     """Return the elementary differential or Hamiltonian that a condition names, or else its tree's text.
 
-    >>> from orderconds.derive import derive
+    >>> from orderconds.derivation import derive
     >>> print(*map(named_by, derive("vcg", order=2).conditions))
     H H_q(H_m)
     """
@@ -118,7 +130,7 @@ def _rooted() -> Kind:
         levels.text,
         diagram.plain,
         differentials.differential,
-        "rk",
+        "rooted",
     )
 
 
@@ -132,7 +144,7 @@ def _ordered() -> Kind:
         levels.text,
         diagram.plain,
         differentials.frozen_differential,
-        "cg",
+        "ordered",
     )
 
 
@@ -146,7 +158,7 @@ def _forests() -> Kind:
         levels.text,
         diagram.plain,
         differentials.frozen_differential,
-        "cg",
+        "forests",
     )
 
 
@@ -163,7 +175,13 @@ def _lyndon() -> Kind:
         return counts.lyndon_word_count(order, counts.ordered_tree_count)
 
     return Kind(
-        words, count, levels.text, diagram.plain, differentials.frozen_differential, "cg", independent=True
+        words,
+        count,
+        levels.text,
+        diagram.plain,
+        differentials.frozen_differential,
+        "lyndon",
+        independent=True,
     )
 
 
@@ -177,7 +195,7 @@ def _bicoloured() -> Kind:
         bicoloured.text,
         diagram.coloured,
         differentials.partitioned_differential,
-        "prk",
+        "bicoloured",
     )
 
 
@@ -191,7 +209,7 @@ def _free() -> Kind:
         levels.text,
         diagram.plain,
         differentials.hamiltonian,
-        "symplectic_rk",
+        "free",
     )
 
 
@@ -205,7 +223,7 @@ def _essential() -> Kind:
         levels.text,
         diagram.plain,
         differentials.hamiltonian,
-        "symplectic_rk",
+        "essential",
         independent=True,
     )
 
@@ -220,7 +238,7 @@ def _directed() -> Kind:
         directed.text,
         diagram.with_directions,
         differentials.directed_hamiltonian,
-        "sprk",
+        "directed",
     )
 
 
@@ -235,7 +253,7 @@ def _directed_rooted() -> Kind:
         diagram.with_directions,
         # An edge of the second kind leads to a white vertex; the root may have either colour.
         lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),
-        "prk_same_weights",
+        "directed-rooted",
     )
 
 
@@ -249,7 +267,7 @@ def _alternating() -> Kind:
         bicoloured.text,
         diagram.coloured,
         differentials.separable_hamiltonian,
-        "sprk_separable",
+        "alternating",
     )
 
 
@@ -263,25 +281,25 @@ def _action() -> Kind:
         str,
         diagram.action,
         action_trees.hamiltonian,
-        "vcg",
+        "action",
     )
 
 
 def _graded() -> Kind:
-    return _lyndon_words("composition", lambda weight: weight, lambda order: range(1, order + 1), str, " ")
+    return _lyndon_words("graded", lambda weight: weight, lambda order: range(1, order + 1), str, " ")
 
 
 def _letters() -> Kind:
     return _lyndon_words(
-        "splitting", lambda letter: 1, lambda order: range(2), "ABCDEFGHIJKLMNOPQRSTUVWXYZ".__getitem__, ""
+        "letters", lambda letter: 1, lambda order: range(2), "ABCDEFGHIJKLMNOPQRSTUVWXYZ".__getitem__, ""
     )
 
 
 def _lyndon_words(
-    family: str,
+    name: str,
     weigh: Callable[[int], int],
     letters: Callable[[int], Iterable[int]],
-    spell: Callable[[int], str],
+    letter: Callable[[int], str],
     between: str,
 ) -> Kind:
     from orderconds.explain import diagram, differentials
@@ -291,10 +309,10 @@ def _lyndon_words(
     return Kind(
         lambda order: lyndon_words(list(letters(order)), order, weigh),
         lambda order: lyndon_word_count(order, lambda k: sum(weigh(x) == k for x in letters(order))),
-        lambda word: between.join(map(spell, word)),
-        lambda word: diagram.word(word, spell),
-        lambda word: differentials.bracket(word, spell),
-        family,
+        lambda word: between.join(map(letter, word)),
+        lambda word: diagram.word(word, letter),
+        lambda word: differentials.bracket(word, letter),
+        name,
         independent=True,
     )
 

@@ -12,8 +12,8 @@ from orderconds.explain.diagram import Diagram, Edge, Sign, Vertex
 class Style:
     """The signs of one way of drawing.
 
-    ``fork`` and ``last`` join a branch to its parent, ``rail`` runs down beside what hangs from a fork.
-    Behind a force stands its place in the word at its vertex, ``(▸*▸)`` for f(t * u).
+    ``fork`` and ``last`` join a branch to its parent, ``rail`` runs down beside the branches of a fork.
+    A force is followed by its place in the word at its vertex, ``(▸*▸)`` for f(t * u).
 
     >>> ASCII.signs["white"], UNICODE.signs["white"]
     ('o', '○')
@@ -43,7 +43,7 @@ UNICODE = Style(
 
 
 def draw(diagram: Diagram, style: Style) -> list[str]:
-    r"""Return the lines of a drawing; the trees of a word stand below each other, its first letter on top.
+    r"""Return the lines of a drawing; the trees of a word come below each other, its first letter on top.
 
     >>> from orderconds.explain.diagram import plain, with_directions
     >>> print("\n".join(draw(plain(b"\0\1\2\1"), ASCII)))

@@ -61,7 +61,7 @@ def lay_out(vertex: Vertex) -> Layout:
     depth = max((len(child.left) for child in moved), default=0)
     left = [min(c.x + c.left[level] for c in moved if level < len(c.left)) for level in range(depth)]
     right = [max(c.x + c.right[level] for c in moved if level < len(c.right)) for level in range(depth)]
-    # A note on the parent's place in a word stands right of the vertex and needs room.
+    # A note on the parent's place in a word is drawn right of the vertex and needs room.
     room = 1.0 if vertex.legs is not None else 0.0
     return Layout(0.0, vertex, moved, (0.0, *left), (room, *right))
 
@@ -69,7 +69,7 @@ def lay_out(vertex: Vertex) -> Layout:
 def sheet(entries: Iterable[tuple[Diagram, Sequence[str]]], width: float = 900.0) -> str:
     r"""Return an SVG document with all diagrams in rows, each above the lines of its caption.
 
-    The roots of a row stand on one line. ``width`` is that of the sheet in px.
+    The roots of a row are on one line. ``width`` is that of the sheet in px.
 
     >>> from orderconds.explain.diagram import plain
     >>> document = sheet([(plain(b"\0\1\1"), ["[..]"])])
@@ -87,8 +87,8 @@ def sheet(entries: Iterable[tuple[Diagram, Sequence[str]]], width: float = 900.0
         y = ground + max(block.under for block in row) + 2 * MARGIN
     height = max(y - MARGIN, 0.0)
     size = f'width="{_number(widest)}" height="{_number(height)}"'
-    view = f'viewBox="0 0 {_number(widest)} {_number(height)}"'
-    head = f'<svg xmlns="http://www.w3.org/2000/svg" {size} {view} fill="none" stroke="currentColor">'
+    view_box = f'viewBox="0 0 {_number(widest)} {_number(height)}"'
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" {size} {view_box} fill="none" stroke="currentColor">'
     return "\n".join([head, *body, "</svg>", ""])
 
 

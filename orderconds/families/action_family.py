@@ -1,23 +1,27 @@
-"""What the variational families share: action conditions, their independent sets, their left-hand sides."""
+"""Variational families: action conditions, their independent sets, their left-hand sides."""
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
+from abc import abstractmethod
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from functools import cache, cached_property, partial
+from functools import cache, cached_property, lru_cache, partial
 from math import prod
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Self
 
 from orderconds.conditions import OrderCondition
 from orderconds.families.action_formula import ActionFormula, multiplier
-from orderconds.families.once import Once
+from orderconds.families.base import Family, in_ring
+from orderconds.families.memo import Memo
+from orderconds.families.rk import has_weights
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series import action_exact
 from orderconds.series.action_counts import class_count
 from orderconds.series.action_enumeration import velocities
 from orderconds.series.action_switching import classes_in_turn, representatives
-from orderconds.series.action_trees import Velocity, hamiltonian
+from orderconds.series.action_trees import Force, Momentum, Transport, Velocity, hamiltonian
+from orderconds.tableau.products import Method
+from orderconds.tableau.record import Tableau
 
 if TYPE_CHECKING:
     import numpy as np
@@ -27,25 +31,21 @@ if TYPE_CHECKING:
     from orderconds.series.action_relations import Polynomial
 
 
-class ActionFamily(ABC):
+class ActionFamily(Family):
     """A family whose conditions are ``sum_i b_i tau_t(i)`` = exact, one for each g-valued action tree t.
 
     The conditions of order n are those of the trees with n copies of H. ``conditions`` picks the independent
     ones by their rank at random methods; ``decisive_conditions`` needs neither rank nor NumPy.
     """
 
-    name: str
-    formats: tuple[str, ...]
     needs_nonzero_weights = True
     trees = "action"
     search_limit = 6
-
-    def label(self) -> str:
-        """Return the name with its options."""
-        return self.name
+    low_order = "rk"
+    on_groups = True
 
     @abstractmethod
-    def series(self, method: Any, ring: Ring) -> ActionSeries:
+    def series(self, method: Method, ring: Ring) -> ActionSeries:
         """Return the action series of a method; raises ZeroWeight for a weight that vanishes."""
 
     @abstractmethod
@@ -89,22 +89,36 @@ class ActionFamily(ABC):
         """Return conditions that imply all of this order: the simplest of each root-switching class."""
         return tuple(map(self.condition, representatives(order)))
 
-    def decisive_in_turn(self, order: int) -> Iterator[Velocity]:
+    def decisive_in_turn(self, order: int) -> Iterator[tuple[Velocity, Callable[[], OrderCondition]]]:
         """Yield the trees of the decisive conditions."""
-        return (of_class[0] for of_class in classes_in_turn(order))
+        for of_class in classes_in_turn(order):
+            yield of_class[0], partial(self.condition, of_class[0])
 
     def decisive_count(self, order: int) -> int:
         """Return how many they are, at no cost."""
         return class_count(order)
 
     @cached_property
-    def _once(self) -> Once[ActionSeries]:
-        return Once(self.series)
+    def _memo(self) -> Memo[ActionSeries]:
+        return Memo(self.series)
 
-    def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
+    def evaluate(
+        self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
+    ) -> tuple[Element, ...]:
         """Return the left-hand sides, as printed, for a method with coefficients in ``ring``."""
-        series = self._once(method, ring)
+        series = self._memo(method, ring)
         return tuple(series.condition(c.key) * multiplier(c.key) for c in conditions)
+
+    def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
+        """Return the residuals of all rooted action trees, as expanded about (q0, mu1), not scaled."""
+        series = self.series(method, ring)
+        exact = action_exact.condition
+        return tuple(series.condition(t) - in_ring(ring, exact(t)) for t in velocities(order))
+
+    @classmethod
+    def claimable(cls, tableau: Tableau) -> Self | None:
+        """Tableaux (A, b) without zero weights."""
+        return cls() if has_weights(tableau, nonzero=True) else None
 
     def elementary_hamiltonian(self, condition: OrderCondition) -> str:
         """Return the elementary Hamiltonian whose coefficient a condition fixes."""
@@ -124,11 +138,11 @@ class ActionFamily(ABC):
 
 @cache
 def _relations(family: ActionFamily, order: int) -> dict[Velocity, str]:
-    return {tree: _spelled(polynomial) for tree, polynomial in family.relations(order).items()}
+    return {tree: _text(polynomial) for tree, polynomial in family.relations(order).items()}
 
 
-def _spelled(polynomial: Polynomial) -> str:
-    """Spell a polynomial, short terms first: ``3 <o(|L(o o))> - <o> <o(o)>``."""
+def _text(polynomial: Polynomial) -> str:
+    """Write a polynomial, short terms first: ``3 <o(|L(o o))> - <o> <o(o)>``."""
     text = ""
     for q, trees in sorted(polynomial, key=lambda term: len(term[1])):
         sign = ("-" if q < 0 else "") if not text else (" - " if q < 0 else " + ")
@@ -142,3 +156,25 @@ def _independent(family: ActionFamily, order: int) -> tuple[tuple[Velocity, ...]
     from orderconds.series.action_rank import independent_trees
 
     return independent_trees(partial(family.random_series, order=order), order)
+
+
+@lru_cache(maxsize=1 << 14)
+def longest_word(tree: Velocity) -> int:
+    """Return the length of the longest word whose value enters that of an action tree.
+
+    >>> from orderconds.series.action_trees import velocity
+    >>> longest_word(velocity((velocity(), velocity())))
+    2
+    """
+    letters = max(map(longest_word, tree.word), default=0)
+    return max(len(tree.word), letters, *map(_longest_in_momentum, tree.momenta), 0)
+
+
+@lru_cache(maxsize=1 << 14)
+def _longest_in_momentum(tree: Momentum) -> int:
+    """The varied velocity is a letter of its own."""
+    if isinstance(tree, Transport):
+        return max(len(tree.word) + 1, *map(longest_word, tree.word))
+    assert isinstance(tree, Force)
+    word = (*tree.before, *tree.after)
+    return max(len(word) + 1, *map(longest_word, word), *map(_longest_in_momentum, tree.momenta), 0)

@@ -28,6 +28,7 @@ from orderconds.formula import (
     zero,
 )
 from orderconds.formula.nodes import Relation
+from orderconds.series.action_lie import Terms, pade_terms
 from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, Word
 from orderconds.series.dexpinv import dexpinv_terms
 from orderconds.words.compositions import compositions
@@ -281,9 +282,13 @@ class MuntheKaasFormula(ActionFormula):
                 terms.append((q, term if varied else index_sum((stage,), (), term)))
         return total(*terms)
 
+    def _terms(self, letters: int) -> Terms:
+        """Return the terms of dexpinv for at most this many letters beside the velocity."""
+        return dexpinv_terms(letters if self._cutoff is None else min(letters, self._cutoff))
+
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
         letters = len(before) + len(behind)
-        for q, m, n in dexpinv_terms(letters if self._cutoff is None else min(letters, self._cutoff)):
+        for q, m, n in self._terms(letters):
             # A power of X has a word's coefficient only if the word is empty where the power is 1.
             if m <= len(before) and n <= len(behind) and bool(m) is bool(before) and bool(n) is bool(behind):
                 inner = product(self._power(stage, m, before), self._power(stage, n, behind))
@@ -291,6 +296,23 @@ class MuntheKaasFormula(ActionFormula):
                     yield from ((q * scale, term) for scale, term in inner.terms)
                 else:
                     yield q, inner
+
+
+class PadeFormula(MuntheKaasFormula):
+    """One exponential of ``X_i = sum_j a_ij v_j``, where v_j solves dexp_{(r),X_j} v_j = xi_j.
+
+    >>> from orderconds.formula import named
+    >>> from orderconds.series.action_trees import velocity
+    >>> named(PadeFormula(0).condition(velocity((velocity((velocity(),)),)))).text()
+    'sum_{i,j} b_i a_ij c_j'
+    """
+
+    def __init__(self, cutoff: int) -> None:
+        super().__init__(cutoff)
+        self._power_of_dexp = cutoff
+
+    def _terms(self, letters: int) -> Terms:
+        return pade_terms(self._power_of_dexp, letters)
 
 
 def _runge_kutta(row: str | None, stage: str) -> Formula:

@@ -9,10 +9,12 @@ Comput. Math. 8 (1998) 317).
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from orderconds.families.magnus import MagnusFamily
+from orderconds.families.registry import register
 from orderconds.families.relations import Polynomial
 from orderconds.tableau.brackets import Product
 from orderconds.tableau.products import Magnus
@@ -25,10 +27,11 @@ if TYPE_CHECKING:
     from orderconds.ring.residues import Residues
 
 
+@register
 class CayleyFamily(MagnusFamily):
     """Methods cay(Omega), or products of Cayley transforms; omega_{ij...} is the coefficient of ... A_j A_i.
 
-    >>> for condition in create().conditions(3):
+    >>> for condition in CayleyFamily().conditions(3):
     ...     print(condition.tree, condition)
     3 sum_i omega_i c_i^2 = 1/3
     1 2 sum_{i,j} omega_ij c_j = 1/12
@@ -36,6 +39,11 @@ class CayleyFamily(MagnusFamily):
     """
 
     name = "cayley"
+    description = (
+        "Cayley methods for Y' = A(t) Y on quadratic groups: Y_1 = cay(Omega) Y_0, cay(x) = (1 - "
+        "x/2)^-1 (1 + x/2)."
+    )
+    implies: ClassVar[Mapping[str, str]] = {}
     transform = "cay"
 
     def independent(self, order: int) -> tuple[Word, ...]:
@@ -66,12 +74,3 @@ class CayleyFamily(MagnusFamily):
                 paired = x if length % 2 else -x
                 terms += [(Product(nodes), x), (Product(nodes[::-1]), paired)]
         return Magnus(tuple(ring.random(generator) for _ in range(order)), (tuple(terms),), (), "cay")
-
-
-def create() -> CayleyFamily:
-    """Return the family.
-
-    >>> [len(create().conditions(n)) for n in range(1, 7)]
-    [1, 1, 3, 4, 10, 16]
-    """
-    return CayleyFamily()

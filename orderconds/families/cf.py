@@ -7,28 +7,37 @@ exponentials before its own. In print b_j = sum_J beta_Jj, a_ij = sum_J alpha_iJ
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise
 from math import factorial, prod
-from typing import Any
+from typing import ClassVar, Self
 
+from orderconds.families.base import expect
 from orderconds.families.cg import crouch_grossman_series
 from orderconds.families.ordered_forests import OrderedForestFamily
+from orderconds.families.registry import register
 from orderconds.formula import Formula, coefficient, fresh, index_sum, one, product, total
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.b_series import sparse
 from orderconds.series.lie_butcher import ExponentialsSeries
+from orderconds.tableau.methods import CommutatorFree, RungeKutta
+from orderconds.tableau.palindromes import symmetric_paths
+from orderconds.tableau.products import Method
+from orderconds.tableau.record import Tableau
+from orderconds.tableau.work import Work, commutator_free_work
 from orderconds.trees.levels import Forest, Tree, branches, trees_of
 from orderconds.words.compositions import compositions
 
 Exponentials = tuple[tuple[Element, ...], ...]
+Table = Sequence[Element] | Sequence[Sequence[Element]] | Sequence[Sequence[Sequence[Element]]]
 
 
+@register
 class CommutatorFreeFamily(OrderedForestFamily):
     """Commutator-free methods; a Runge-Kutta tableau is read with one stage in each exponential.
 
-    >>> for condition in create().conditions(3):
+    >>> for condition in CommutatorFreeFamily().conditions(3):
     ...     print(condition)
     sum_{i,j} b_i a_ij c_j = 1/6
     sum_i b_i c_i^2 = 1/3
@@ -36,16 +45,17 @@ class CommutatorFreeFamily(OrderedForestFamily):
     """
 
     name = "cf"
-    formats: tuple[str, ...] = ("cf", "rk")
-    search_limit = 7
+    description = (
+        "Commutator-free methods: each stage and the update is a product of exponentials of "
+        "combinations of stages."
+    )
+    formats = ("cf", "rk")
+    implies: ClassVar[Mapping[str, str]] = {"rk": "a vector space is a group"}
+    unknowns = "cf"
 
-    def label(self) -> str:
-        """Return ``cf``."""
-        return self.name
-
-    def series(self, method: Any, ring: Ring) -> ExponentialsSeries:
-        """Return the series of a step; ``method`` has ``stages`` and ``update``, or ``A`` and ``b``."""
-        if not hasattr(method, "update"):
+    def series(self, method: Method, ring: Ring) -> ExponentialsSeries:
+        """Return the series of a step of a commutator-free method, or of a tableau (A, b)."""
+        if isinstance(method, RungeKutta):
             return crouch_grossman_series(method, ring)
         *stages, update = [[sparse(ring, row) for row in rows] for rows in exponentials(method)]
         return ExponentialsSeries(ring, stages, update)
@@ -54,17 +64,21 @@ class CommutatorFreeFamily(OrderedForestFamily):
         """Return the index sum of the scaled value on a forest."""
         return _word(forest, lambda J, j: coefficient("beta", J, j), lambda j: coefficient("b", j), None)
 
+    @classmethod
+    def claimable(cls, tableau: Tableau) -> Self | None:
+        """Commutator-free methods; of a tableau (A, b) the order is the Crouch-Grossman one."""
+        return cls() if isinstance(tableau.method, CommutatorFree) else None
 
-def create() -> CommutatorFreeFamily:
-    """Return the family.
+    def is_symmetric(self, method: Method, ring: Ring) -> bool:
+        """Whether the paths to the stages are symmetric."""
+        return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
-    >>> create().label()
-    'cf'
-    """
-    return CommutatorFreeFamily()
+    def work(self, tableau: Tableau) -> Work | None:
+        """Return evaluations and exponentials."""
+        return commutator_free_work(tableau)
 
 
-def exponentials(method: Any) -> list[Exponentials]:
+def exponentials(method: Method) -> list[Exponentials]:
     """Return the exponentials from y0 to each stage and, last, to the step; rows over all stages.
 
     >>> from orderconds.tableau import Tableau, find
@@ -72,13 +86,14 @@ def exponentials(method: Any) -> list[Exponentials]:
     [0, 1, 1, 2, 2]
     """
     found: list[Exponentials] = []
-    for stage in (*method.stages, method.update):
+    commutator_free = expect(method, CommutatorFree)
+    for stage in (*commutator_free.stages, commutator_free.update):
         before = found[stage.start] if stage.start is not None else ()
         found.append((*before, *stage.exponentials))
     return found
 
 
-def coefficient_tables(method: Any, ring: Ring) -> dict[str, Any]:
+def coefficient_tables(method: Method, ring: Ring) -> dict[str, Table]:
     """Return the tables that the formulas name, filled up with zeros.
 
     alpha_iJj and beta_Jj, and summed over the exponentials a_ij and b_j; c_i = sum_j a_ij.
@@ -88,7 +103,7 @@ def coefficient_tables(method: Any, ring: Ring) -> dict[str, Any]:
     >>> [str(c) for c in coefficient_tables(Tableau.load(find("cf4")).method, QQ)["c"]]
     ['0', '1/2', '1/2', '1']
     """
-    stages = len(method.stages)
+    stages = expect(method, CommutatorFree).s
     *rows, update = exponentials(method)
     most = max(1, *(len(row) for row in rows))
     empty = (ring.zero,) * stages

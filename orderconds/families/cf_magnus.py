@@ -6,20 +6,24 @@ Letter k stands for X_k in A(t) = X_1 + t X_2 + ... and weighs k; the exact valu
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from math import factorial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from orderconds.errors import InputError
+from orderconds.families.base import expect
 from orderconds.families.composition import composition_formula
 from orderconds.families.exponents import exponent_values
 from orderconds.families.magnus import random_product
+from orderconds.families.registry import register
 from orderconds.families.word_family import WordFamily
 from orderconds.formula import Formula, coefficient, fresh, index_sum, product
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.exponentials import ProductOfExponentials
-from orderconds.tableau.products import Magnus
+from orderconds.tableau.products import Magnus, Method
+from orderconds.tableau.record import Tableau
+from orderconds.tableau.work import Work, magnus_work
 from orderconds.words.expansions import iterated_integral, words_of_weight
 from orderconds.words.shuffle import Word
 
@@ -29,29 +33,39 @@ if TYPE_CHECKING:
     from orderconds.ring.residues import Residues
 
 
+@register
 class CommutatorFreeMagnusFamily(WordFamily):
     """Products of exponentials of combinations of A at nodes.
 
-    >>> for condition in create().conditions(3):
+    >>> for condition in CommutatorFreeMagnusFamily().conditions(3):
     ...     print(condition.tree, condition)
     1 2 sum_{I,i,j} beta_Ii beta_Ij c_j + 2 sum_{I<J,i,j} beta_Ii beta_Jj c_j = 2/3
     3 sum_{I,i} beta_Ii c_i^2 = 1/3
     """
 
     name = "cf_magnus"
-    formats: tuple[str, ...] = ("magnus",)
+    description = (
+        "Commutator-free Magnus methods: exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i), A_i = h A(c_i h)."
+    )
+    formats = ("magnus",)
+    implies: ClassVar[Mapping[str, str]] = {"magnus": "a product of exponentials"}
 
-    def require(self, method: Magnus, ring: Ring) -> None:
+    def require(self, method: Method, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` for a method with commutators or with another map."""
-        if method.transform != "exp" or not method.is_commutator_free(ring):
+        product = expect(method, Magnus)
+        if product.transform != "exp" or not product.is_commutator_free(ring):
             raise InputError(
-                f'map = "{method.transform}"'
-                if method.transform != "exp"
+                f'map = "{product.transform}"'
+                if product.transform != "exp"
                 else "an exponent with commutators",
                 where=f"family {self.name}",
                 expected="exponentials of combinations of nodes",
-                hint=f"ask for the family {'cayley' if method.transform != 'exp' else 'magnus'!r}",
+                hint=f"ask for the family {'cayley' if product.transform != 'exp' else 'magnus'!r}",
             )
+
+    def work(self, tableau: Tableau) -> Work | None:
+        """Return nodes and exponentials."""
+        return magnus_work(tableau)
 
     def words(self, order: int) -> tuple[Word, ...]:
         """Return every word of this weight."""
@@ -69,23 +83,14 @@ class CommutatorFreeMagnusFamily(WordFamily):
         """Return the index sum of the scaled value over exponentials I, J, ... and nodes i, j, ...."""
         return composition_formula(word, _exponential, "J")
 
-    def series(self, method: Magnus, ring: Ring) -> Callable[[Word], Element]:
+    def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
         """Return the values of a step on words."""
-        rows = exponent_values(ring, method)
+        rows = exponent_values(ring, expect(method, Magnus))
         return ProductOfExponentials(ring, len(rows), lambda J, k: rows[J]((k,)))
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
         """Return products of random exponentials over random nodes, ``order`` of each."""
         return random_product(ring, generator, order, "exp")
-
-
-def create() -> CommutatorFreeMagnusFamily:
-    """Return the family.
-
-    >>> [len(create().conditions(n)) for n in range(1, 9)]
-    [1, 1, 2, 3, 6, 9, 18, 30]
-    """
-    return CommutatorFreeMagnusFamily()
 
 
 def _exponential(letters: Word, J: str) -> tuple[Formula, int]:

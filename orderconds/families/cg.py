@@ -5,55 +5,72 @@ The first stage acts first, in the stages and in the update; exponentials with c
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from itertools import pairwise
 from math import factorial, prod
-from typing import Any
+from typing import ClassVar, Self
 
+from orderconds.families.base import expect
 from orderconds.families.ordered_forests import OrderedForestFamily
+from orderconds.families.registry import register
+from orderconds.families.rk import has_weights
 from orderconds.formula import Formula, coefficient, fresh, index_sum, one, product, total
 from orderconds.ring.protocol import Ring
 from orderconds.series.b_series import sparse
 from orderconds.series.lie_butcher import ExponentialsSeries
+from orderconds.tableau.methods import RungeKutta
+from orderconds.tableau.palindromes import symmetric_paths
+from orderconds.tableau.products import Method
+from orderconds.tableau.record import Tableau
+from orderconds.tableau.work import Work, crouch_grossman_work
 from orderconds.trees.levels import Forest, Tree, branches, trees_of
 from orderconds.words.compositions import compositions
 
 
+@register
 class CrouchGrossmanFamily(OrderedForestFamily):
     """Crouch-Grossman methods, given by a Runge-Kutta tableau.
 
-    >>> [str(condition) for condition in create().conditions(3)][2]
+    >>> [str(condition) for condition in CrouchGrossmanFamily().conditions(3)][2]
     'sum_i b_i^2 c_i + 2 sum_{i<j} b_i c_i b_j = 1/3'
     """
 
     name = "cg"
-    formats: tuple[str, ...] = ("rk",)
-    search_limit = 7
+    description = (
+        "Crouch-Grossman methods: exp(h b_s k_s) ... exp(h b_1 k_1) y0, stages alike with a_ij (HLW IV.8.1)."
+    )
+    formats = ("rk",)
+    illustrates = ("ordered", "forests", "lyndon")
+    implies: ClassVar[Mapping[str, str]] = {
+        "rk": "a vector space is a group",
+        "cf": "one stage in each exponential",
+    }
+    unknowns = "rk"
 
-    def label(self) -> str:
-        """Return ``cg``."""
-        return self.name
-
-    def series(self, method: Any, ring: Ring) -> ExponentialsSeries:
-        """Return the series of a step; ``method`` has ``A`` and ``b`` over ``ring``."""
+    def series(self, method: Method, ring: Ring) -> ExponentialsSeries:
+        """Return the series of a step of a tableau (A, b)."""
         return crouch_grossman_series(method, ring)
+
+    @classmethod
+    def claimable(cls, tableau: Tableau) -> Self | None:
+        """Tableaux (A, b)."""
+        return cls() if has_weights(tableau) else None
+
+    def is_symmetric(self, method: Method, ring: Ring) -> bool:
+        """Whether the paths to the stages are symmetric."""
+        return symmetric_crouch_grossman(method, ring)
+
+    def work(self, tableau: Tableau) -> Work | None:
+        """Return evaluations and exponentials."""
+        return crouch_grossman_work(tableau)
 
     def formula(self, forest: Forest) -> Formula:
         """Return the index sum of the scaled value on a forest."""
         return _word(forest, lambda i: coefficient("b", i), None)
 
 
-def create() -> CrouchGrossmanFamily:
-    """Return the family.
-
-    >>> create().label()
-    'cg'
-    """
-    return CrouchGrossmanFamily()
-
-
-def crouch_grossman_series(method: Any, ring: Ring) -> ExponentialsSeries:
+def crouch_grossman_series(method: Method, ring: Ring) -> ExponentialsSeries:
     """Return the series of a Runge-Kutta tableau read as a Crouch-Grossman method.
 
     >>> from orderconds.ring import QQ
@@ -62,8 +79,25 @@ def crouch_grossman_series(method: Any, ring: Ring) -> ExponentialsSeries:
     >>> str(crouch_grossman_series(Tableau.load(find("cg3")).method, QQ)(parse("[..]")))
     '1/6'
     """
-    single = [[((j, x),) for j, x in sparse(ring, row)] for row in (*method.A, method.b)]
+    tableau = expect(method, RungeKutta)
+    single = [[((j, x),) for j, x in sparse(ring, row)] for row in (*tableau.A, tableau.b)]
     return ExponentialsSeries(ring, single[:-1], single[-1])
+
+
+def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
+    """Whether a tableau read as a Crouch-Grossman method is proved to be symmetric.
+
+    A variational method is symmetric where its discrete Lagrangian is; that is symmetric where the paths to
+    the stages are.
+
+    >>> from orderconds.tableau import find
+    >>> triple_jump = Tableau.load(find("triple_jump"))
+    >>> symmetric_crouch_grossman(triple_jump.read_as(("rk",)), triple_jump.ring)
+    True
+    """
+    if not isinstance(method, RungeKutta):
+        return False
+    return symmetric_paths(method.as_crouch_grossman(ring), ring) is True
 
 
 def _word(word: Forest, row: Callable[[str], Formula], row_sum: Formula | None) -> Formula:

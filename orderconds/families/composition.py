@@ -7,18 +7,22 @@ letters 1, and zero on all others (HLW III.3.1; Murua and Sanz-Serna, Phil. Tran
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 from itertools import pairwise
 from math import factorial, prod
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar, Self
 
-from orderconds.families.word_family import StageNames, WordFamily
+from orderconds.families.base import Family, expect
+from orderconds.families.registry import get, register
+from orderconds.families.stage_form import StageForm, refuse_explicit
+from orderconds.families.word_family import WordFamily
 from orderconds.formula import Formula, coefficient, fresh, index_sum, product, refreshed, total
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.exponentials import ProductOfExponentials
 from orderconds.tableau.methods import Composition
-from orderconds.tableau.products import AdjointComposition
+from orderconds.tableau.products import AdjointComposition, Method
+from orderconds.tableau.record import Tableau
 from orderconds.words.compositions import compositions
 from orderconds.words.expansions import words_of_weight
 from orderconds.words.shuffle import Word
@@ -29,18 +33,33 @@ if TYPE_CHECKING:
     from orderconds.ring.residues import Residues
 
 
+@register
 class CompositionFamily(WordFamily):
     """Compositions Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h} of any basic method.
 
     A composition of symmetric methods reads as one whose fields X_2, X_4, ... vanish.
 
-    >>> for condition in create().conditions(2):
+    >>> for condition in CompositionFamily().conditions(2):
     ...     print(condition.tree, condition)
     2 sum_i (alpha_i^2 - beta_i^2) = 0
     """
 
     name = "composition"
-    formats: tuple[str, ...] = ("composition",)
+    description = (
+        "Compositions of a method Phi and its adjoint, or of symmetric methods: words over the fields of Phi."
+    )
+    formats = ("composition",)
+    illustrates: ClassVar[tuple[str, ...]] = ("graded",)
+    implies: ClassVar[Mapping[str, str]] = {
+        **dict.fromkeys(
+            ("rk", "symplectic_rk", "sprk", "cg", "cf", "vcg", "vcf"),
+            "a composition of midpoints is one in each family (Bogfjellmo and Marthinsen, Lemma 3.5.4)",
+        ),
+        "symmetric_composition": "a symmetric composition is a composition",
+        "splitting": "a composition of an adjoint pair is a splitting (McLachlan 1995)",
+    }
+    bounds_others = True
+    unknowns = "composition"
 
     def words(self, order: int) -> tuple[Word, ...]:
         """Return every word of this weight."""
@@ -58,14 +77,15 @@ class CompositionFamily(WordFamily):
         """Return the index sum of the scaled value over pairs (alpha_i, beta_i)."""
         return composition_formula(word, _pair)
 
-    def series(self, method: Composition | AdjointComposition, ring: Ring) -> ProductOfExponentials:
+    def series(self, method: Method, ring: Ring) -> ProductOfExponentials:
         """Return the values of a step on words."""
         if isinstance(method, Composition):
             steps = method.gamma
             return ProductOfExponentials(
                 ring, len(steps), lambda J, k: power(steps[J], k, ring) if k % 2 else None
             )
-        both = [step for pair in zip(method.beta, method.alpha, strict=True) for step in pair]
+        pairs = expect(method, AdjointComposition)
+        both = [step for pair in zip(pairs.beta, pairs.alpha, strict=True) for step in pair]
 
         def letter(J: int, k: int) -> Element:
             value = power(both[J], k, ring)
@@ -73,29 +93,32 @@ class CompositionFamily(WordFamily):
 
         return ProductOfExponentials(ring, len(both), letter)
 
-    def in_stages(
-        self, stages: int
-    ) -> tuple[StageNames, Callable[[Sequence[Element]], Composition | AdjointComposition]]:
-        """Return the names of the steps of so many stages, and how they make a method."""
+    def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
+        """Return the form of compositions of pairs (alpha_i, beta_i)."""
+        refuse_explicit(self.label(), explicit)
         names = tuple((x, (str(i),)) for x in ("alpha", "beta") for i in range(1, stages + 1))
-        return names, lambda values: AdjointComposition(tuple(values[:stages]), tuple(values[stages:]))
+        return StageForm(
+            names, lambda values, ring: AdjointComposition(tuple(values[:stages]), tuple(values[stages:]))
+        )
 
-    def random_method(
-        self, ring: Residues, generator: np.random.Generator, order: int
-    ) -> Composition | AdjointComposition:
+    @classmethod
+    def claimable(cls, tableau: Tableau) -> Self | None:
+        """Every composition."""
+        return cls() if isinstance(tableau.method, Composition | AdjointComposition) else None
+
+    def symmetric_family(self, method: Method) -> Family | None:
+        """Return the family of symmetric compositions for a composition of symmetric methods."""
+        return get("symmetric_composition") if isinstance(method, Composition) else None
+
+    def solved_as(self, nystroem: bool) -> str:
+        """Return the family of symmetric compositions: steps that read the same backwards are looked for."""
+        return "symmetric_composition"
+
+    def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
         """Return compositions with random steps, half as many pairs as conditions up to ``order``."""
         pairs = 1 + sum(len(self.independent(n)) for n in range(1, order + 1))
         alpha, beta = (tuple(ring.random(generator) for _ in range(pairs)) for _ in range(2))
         return AdjointComposition(alpha, beta)
-
-
-def create() -> CompositionFamily:
-    """Return the family.
-
-    >>> [len(create().conditions(n)) for n in range(1, 9)]
-    [1, 1, 2, 3, 6, 9, 18, 30]
-    """
-    return CompositionFamily()
 
 
 def power(x: Element, n: int, ring: Ring) -> Element:

@@ -1,4 +1,4 @@
-"""What the families on rooted trees share: elementary weights as index sums, and conditions made of them.
+"""Elementary weights of rooted trees as index sums, and the conditions made of them.
 
 A tree with directed edges or coloured vertices has edges of two kinds, which stand for a_ij and ahat_ij.
 """

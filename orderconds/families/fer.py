@@ -8,18 +8,21 @@ Ros, J. Phys. A 31 (1998) 259). Up to order six that is Fer's F_2; F_3 begins wi
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar, Self
 
 from orderconds.errors import InputError
+from orderconds.families.base import expect
 from orderconds.families.exponents import exponent_values
 from orderconds.families.magnus import MagnusFamily, node_sum
+from orderconds.families.registry import register
 from orderconds.formula import Formula
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.linear_flow import product_logarithm
-from orderconds.tableau.brackets import Bracket
-from orderconds.tableau.products import Magnus
+from orderconds.tableau.brackets import Bracket, Term
+from orderconds.tableau.products import Magnus, Method
+from orderconds.tableau.record import Tableau
 from orderconds.words.expansions import fer_remainder
 from orderconds.words.shuffle import Word
 
@@ -29,21 +32,32 @@ if TYPE_CHECKING:
     from orderconds.ring.residues import Residues
 
 
+@register
 class FerFamily(MagnusFamily):
     """Methods whose last exponential is free of commutators and whose others hold nothing else.
 
-    >>> for condition in create().conditions(3):
+    >>> for condition in FerFamily().conditions(3):
     ...     print(condition.tree, condition)
     1 2 sum_{i,j} phi_ij c_j = 1/12
     3 sum_i b_i c_i^2 = 1/3
     """
 
     name = "fer"
+    description = (
+        "Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), F_1 = sum_i b_i A_i acting last and F_2 made "
+        "of brackets."
+    )
+    implies: ClassVar[Mapping[str, str]] = {"magnus": "a Fer step is a product of exponentials"}
 
-    def require(self, method: Magnus, ring: Ring) -> None:
+    @classmethod
+    def claimable(cls, tableau: Tableau) -> Self | None:
+        """No tableau: the order is that of ``magnus``."""
+        return None
+
+    def require(self, method: Method, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` for a method that is no product of Fer's kind."""
         super().require(method, ring)
-        *others, last = method.extents()
+        *others, last = expect(method, Magnus).extents()
         if last[1] > 1 or any(least == 1 for least, _ in others):
             raise InputError(
                 "commutators in the last exponent, or nodes alone in another",
@@ -60,9 +74,9 @@ class FerFamily(MagnusFamily):
         """Return the sum of b_i c_i^(k-1) for a letter, else of phi_{ij...} c_i^(k_1-1) ... over nodes."""
         return node_sum("b" if len(word) == 1 else "phi", word)
 
-    def series(self, method: Magnus, ring: Ring) -> Callable[[Word], Element]:
+    def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
         """Return the values of F_1 on letters and of the logarithm of the rest on longer words."""
-        *others, last = exponent_values(ring, method)
+        *others, last = exponent_values(ring, expect(method, Magnus))
         rest = product_logarithm(ring, others)
         return lambda word: last(word) if len(word) == 1 else rest(word)
 
@@ -73,18 +87,9 @@ class FerFamily(MagnusFamily):
         for depth in range(2, order + 1):
             for _ in range(2**order):
                 nodes = [int(i) for i in generator.integers(0, order, depth)]
-                term: object = nodes[0]
+                term: Term = nodes[0]
                 for i in nodes[1:]:
                     term = Bracket(term, i)
                 terms.append((term, ring.random(generator)))
         b = tuple((i, ring.random(generator)) for i in range(order))
         return Magnus(c, (tuple(terms), b))
-
-
-def create() -> FerFamily:
-    """Return the family.
-
-    >>> print(create().conditions(4)[0])
-    sum_{i,j,k} phi_ijk c_k = 1/24
-    """
-    return FerFamily()

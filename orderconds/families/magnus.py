@@ -8,18 +8,22 @@ Numerica 9 (2000) 215, Section 5). A product of exponentials is judged by its lo
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar, Self
 
 from orderconds.errors import InputError
+from orderconds.families.base import Family, expect
 from orderconds.families.exponents import exponent_values
+from orderconds.families.registry import get, register
 from orderconds.families.relations import Polynomial
 from orderconds.families.word_family import WordFamily
 from orderconds.formula import Formula, coefficient, fresh, index_sum, product
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.linear_flow import product_logarithm
-from orderconds.tableau.products import Magnus
+from orderconds.tableau.products import Magnus, Method
+from orderconds.tableau.record import Tableau
+from orderconds.tableau.work import Work, magnus_work
 from orderconds.words import expansions
 from orderconds.words.radford import in_lyndon_words
 from orderconds.words.shuffle import Word
@@ -30,29 +34,50 @@ if TYPE_CHECKING:
     from orderconds.ring.residues import Residues
 
 
+@register
 class MagnusFamily(WordFamily):
     """Methods exp(Omega), or products of exponentials of Lie elements.
 
-    >>> for condition in create().conditions(3):
+    >>> for condition in MagnusFamily().conditions(3):
     ...     print(condition.tree, condition)
     1 2 sum_{i,j} omega_ij c_j = 1/12
     3 sum_i omega_i c_i^2 = 1/3
     """
 
     name = "magnus"
-    formats: tuple[str, ...] = ("magnus",)
-    transform = "exp"
+    description = (
+        "Magnus methods for Y' = A(t) Y: one exponential of a Lie element Omega in the A_i = h A(c_i h)."
+    )
+    formats = ("magnus",)
+    implies: ClassVar[Mapping[str, str]] = dict.fromkeys(
+        ("cf_magnus", "fer"), "one step reads as this or that product of exponentials, of one order"
+    )
+    transform: ClassVar[str] = "exp"
 
-    def require(self, method: Magnus, ring: Ring) -> None:
+    def require(self, method: Method, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` for a method that uses another map."""
-        if method.transform != self.transform:
-            other = "cayley" if method.transform == "cay" else "magnus"
+        found = expect(method, Magnus).transform
+        if found != self.transform:
             raise InputError(
-                f'map = "{method.transform}"',
+                f'map = "{found}"',
                 where=f"family {self.name}",
                 expected=f'map = "{self.transform}"',
-                hint=f"ask for the family {other!r}",
+                hint=f"ask for the family {self.for_method(method).name!r}",
             )
+
+    def for_method(self, method: Method) -> Family:
+        """Return the family of exponentials, or that of Cayley transforms."""
+        return get("magnus" if expect(method, Magnus).transform == "exp" else "cayley")
+
+    @classmethod
+    def claimable(cls, tableau: Tableau) -> Self | None:
+        """Methods that use the family's map."""
+        method = tableau.method
+        return cls() if isinstance(method, Magnus) and method.transform == cls.transform else None
+
+    def work(self, tableau: Tableau) -> Work | None:
+        """Return nodes, exponentials and commutators."""
+        return magnus_work(tableau)
 
     def words(self, order: int) -> tuple[Word, ...]:
         """Return every word of this weight."""
@@ -70,22 +95,13 @@ class MagnusFamily(WordFamily):
         """Write the value of a Lie element on a word by those on Lyndon words, linearly: shuffles vanish."""
         return linear_in_lyndon_words(word)
 
-    def series(self, method: Magnus, ring: Ring) -> Callable[[Word], Element]:
+    def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
         """Return the values of Omega on words."""
-        return product_logarithm(ring, exponent_values(ring, method), self.transform)
+        return product_logarithm(ring, exponent_values(ring, expect(method, Magnus)), self.transform)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
         """Return products of random exponentials over random nodes, ``order`` of each."""
         return random_product(ring, generator, order, self.transform)
-
-
-def create() -> MagnusFamily:
-    """Return the family.
-
-    >>> print(create().conditions(4)[1])
-    sum_{i,j} omega_ij c_j^2 = 1/12
-    """
-    return MagnusFamily()
 
 
 def node_sum(name: str, word: Word) -> Formula:

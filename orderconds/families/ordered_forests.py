@@ -1,4 +1,4 @@
-"""What the families on ordered forests share: conditions are the values on Lyndon words of ordered trees.
+"""Families on ordered forests: conditions are the values on Lyndon words of ordered trees.
 
 The step of a Lie group method and the exact flow are group-like, so their values on Lyndon words generate all
 others by shuffles (see ``words.lyndon``). Letters are ordered by falling size, ties as enumerated.
@@ -9,37 +9,36 @@ vertices, so that it reads sum_i b_i c_i^2 = 1/3 and not 1/2 sum_i b_i c_i^2 = 1
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Sequence
 from functools import cached_property, lru_cache, partial
 from math import factorial, prod
-from typing import Any
 
 from orderconds.conditions import OrderCondition
-from orderconds.families.once import Once
+from orderconds.families.base import Family
+from orderconds.families.memo import Memo
 from orderconds.families.relations import in_lyndon_words, with_relations
 from orderconds.formula import Formula
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.lie_butcher import ForestSeries, exact_value
+from orderconds.tableau.products import Method
 from orderconds.trees.levels import Forest, branches, text, trees_of
 from orderconds.trees.ordered import ordered_forests, ordered_trees
 from orderconds.words.lyndon import lyndon_words
 
 
-class OrderedForestFamily(ABC):
+class OrderedForestFamily(Family):
     """A family whose step has a Lie-Butcher series."""
 
-    name: str
-    formats: tuple[str, ...]
-    needs_nonzero_weights = False
     trees = "forests"
+    search_limit = 7
+    abelian = "rk"
+    low_order = "rk"
+    on_groups = True
+    fixed_stages = True
 
     @abstractmethod
-    def label(self) -> str:
-        """Return the name with its options."""
-
-    @abstractmethod
-    def series(self, method: Any, ring: Ring) -> ForestSeries:
+    def series(self, method: Method, ring: Ring) -> ForestSeries:
         """Return the values of one step of ``method`` on ordered forests, elements of ``ring``."""
 
     @abstractmethod
@@ -57,12 +56,14 @@ class OrderedForestFamily(ABC):
         )
 
     @cached_property
-    def _once(self) -> Once[ForestSeries]:
-        return Once(self.series)
+    def _memo(self) -> Memo[ForestSeries]:
+        return Memo(self.series)
 
-    def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
+    def evaluate(
+        self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
+    ) -> tuple[Element, ...]:
         """Return the step's values on the words of ``conditions``, each times its scale."""
-        series = self._once(method, ring)
+        series = self._memo(method, ring)
         return tuple(series(condition.key) * scale(condition.key) for condition in conditions)
 
     def _of(self, forests: Sequence[Forest]) -> tuple[OrderCondition, ...]:
@@ -99,3 +100,13 @@ def lyndon_forests(order: int) -> tuple[Forest, ...]:
     """
     letters = [tree for vertices in range(order, 0, -1) for tree in ordered_trees(vertices)]
     return tuple(b"".join(word) for word in lyndon_words(letters, order, weigh=len))
+
+
+def longest_word(forest: Forest) -> int:
+    r"""Return the length of the longest word of branches in a forest, the forest itself among them.
+
+    >>> longest_word(b"\0\1\1\1\0")
+    3
+    """
+    below = trees_of(forest)
+    return max(len(below), *(longest_word(branches(tree)) for tree in below if len(tree) > 1), 0)

@@ -5,10 +5,12 @@ A single tableau is read as the pair of it with itself.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
+from typing import ClassVar, Self
 
 from orderconds.conditions import OrderCondition
+from orderconds.families.base import Family, expect
 from orderconds.families.elementary_weights import (
     WEIGHTS,
     kept_branches,
@@ -16,62 +18,91 @@ from orderconds.families.elementary_weights import (
     weight_condition,
     weight_conditions,
 )
+from orderconds.families.reductions import Substitute
+from orderconds.families.registry import get, register
+from orderconds.families.rk import symmetric_tableau
 from orderconds.formula import Formula
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.b_series import ElementaryWeights
+from orderconds.tableau.methods import PartitionedRungeKutta, RungeKutta
+from orderconds.tableau.products import Method
+from orderconds.tableau.properties import symplectic_pair
+from orderconds.tableau.record import Tableau
 from orderconds.trees import bicoloured
 from orderconds.trees.bicoloured import BicolouredTree
 from orderconds.trees.directed import DirectedTree
 
 
-class PartitionedFamily:
+@register
+class PartitionedFamily(Family):
     """Partitioned Runge-Kutta methods (A, b), (A_hat, b_hat).
 
-    >>> [len(create().conditions(n)) for n in range(1, 6)]
+    >>> [len(PartitionedFamily().conditions(n)) for n in range(1, 6)]
     [2, 4, 14, 52, 214]
-    >>> [str(condition) for condition in create().conditions(2)][1:3]
+    >>> [str(condition) for condition in PartitionedFamily().conditions(2)][1:3]
     ['sum_i b_i chat_i = 1/2', 'sum_i bhat_i c_i = 1/2']
     """
 
     name = "prk"
+    description = (
+        "Partitioned Runge-Kutta methods: one condition a rooted tree with vertices of two colours (HLW "
+        "III.2.2)."
+    )
+    formats = ("prk", "rk")
     trees = "bicoloured"
-    formats: tuple[str, ...] = ("prk", "rk")
+    illustrates: ClassVar[tuple[str, ...]] = ("bicoloured",)
     search_limit = 7
-    needs_nonzero_weights = False
-
-    def label(self) -> str:
-        """Return the family's name."""
-        return self.name
+    over_rationals = True
+    implies: ClassVar[Mapping[str, str]] = {"rk": "a system with one part"}
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of this order; all are independent (HLW III.2, Theorem 2.5)."""
         trees = tuple(bicoloured.bicoloured_rooted_trees(order))
         return weight_conditions(self.name, trees, bicoloured.text, rooted_weight)
 
-    def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the same conditions."""
-        return self.conditions(order)
-
-    def decisive_in_turn(self, order: int) -> Iterator[BicolouredTree]:
+    def decisive_in_turn(self, order: int) -> Iterator[tuple[BicolouredTree, Callable[[], OrderCondition]]]:
         """Yield the trees of this order."""
-        return bicoloured.bicoloured_rooted_trees(order)
+        for tree in bicoloured.bicoloured_rooted_trees(order):
+            yield tree, partial(weight_condition, self.name, tree, bicoloured.text, rooted_weight)
 
-    def condition(self, tree: BicolouredTree) -> OrderCondition:
-        """Return the condition of a tree."""
-        return weight_condition(self.name, tree, bicoloured.text, rooted_weight)
+    def evaluate(
+        self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
+    ) -> tuple[Element, ...]:
+        """Return elementary weights of a pair of tableaux."""
+        return rooted_weights(as_pair(method), ring, conditions)
 
-    def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
-        """Return elementary weights; ``method`` has ``A``, ``b`` and perhaps ``A_hat``, ``b_hat``."""
-        return rooted_weights(method, ring, conditions)
+    @classmethod
+    def claimable(cls, tableau: Tableau) -> Self | None:
+        """A pair that is not symplectic; a symplectic one has conditions of its own."""
+        method = tableau.method
+        if not isinstance(method, PartitionedRungeKutta) or symplectic_pair(method, tableau.ring):
+            return None
+        return cls()
+
+    def is_symmetric(self, method: Method, ring: Ring) -> bool:
+        """Whether both tableaux are symmetric."""
+        return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
+
+    def substitute(self, method: Method, ring: Ring) -> Substitute | None:
+        """Return free trees for a symplectic pair with b = bhat, all non-zero (HLW VI.7, Theorem 7.4)."""
+        if not isinstance(method, PartitionedRungeKutta):
+            return None
+        same = all(ring.is_zero(x - y) is True for x, y in zip(method.b, method.b_hat, strict=True))
+        nonzero = all(ring.is_zero(x) is False for x in method.b)
+        if not (same and nonzero and symplectic_pair(method, ring) is True):
+            return None
+        return Substitute(get("sprk"), method.first())
 
 
-def create() -> PartitionedFamily:
-    """Return the family of general pairs.
+def as_pair(method: Method) -> PartitionedRungeKutta:
+    """Return a pair of tableaux, of a single tableau the pair of it with itself.
 
-    >>> create().label()
-    'prk'
+    >>> as_pair(RungeKutta(((0,),), (1,))).b_hat
+    (1,)
     """
-    return PartitionedFamily()
+    if isinstance(method, RungeKutta):
+        return PartitionedRungeKutta(method.A, method.b, method.A, method.b)
+    return expect(method, PartitionedRungeKutta)
 
 
 def rooted_weight(tree: BicolouredTree) -> Formula:
@@ -84,18 +115,19 @@ def rooted_weight(tree: BicolouredTree) -> Formula:
     return weight(bicoloured.coloured(0, tree), WEIGHTS[tree[0]])
 
 
-def rooted_weights(method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
+def rooted_weights(
+    pair: PartitionedRungeKutta, ring: Ring, conditions: Sequence[OrderCondition]
+) -> tuple[Element, ...]:
     """Return the elementary weights of a pair of tableaux on the coloured trees of ``conditions``.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find
     >>> verlet = Tableau.load(find("stormer_verlet")).method
-    >>> [str(x) for x in rooted_weights(verlet, QQ, create().conditions(2))]
+    >>> [str(x) for x in rooted_weights(verlet, QQ, PartitionedFamily().conditions(2))]
     ['1/2', '1/2', '1/2', '1/2']
     """
-    matrices = (method.A, getattr(method, "A_hat", method.A))
-    pair = [
-        ElementaryWeights[DirectedTree](ring, matrices, b, kept_branches)
-        for b in (method.b, getattr(method, "b_hat", method.b))
+    matrices = (pair.A, pair.A_hat)
+    of_colour = [
+        ElementaryWeights[DirectedTree](ring, matrices, b, kept_branches) for b in (pair.b, pair.b_hat)
     ]
-    return tuple(pair[c.key[0]](bicoloured.coloured(0, c.key)) for c in conditions)
+    return tuple(of_colour[c.key[0]](bicoloured.coloured(0, c.key)) for c in conditions)

@@ -1,4 +1,4 @@
-"""What the left-hand sides of dependent conditions equal: polynomials in those of independent ones.
+"""Relations of dependent conditions: polynomials in the left-hand sides of independent ones.
 
 Two laws make conditions dependent. The root of a tree of a symplectic method moves across an edge by
 phi(u o v) = phi(u) phi(v) - phi(v o u) (HLW VI.7.1). Values on words of a group-like series multiply by
@@ -111,9 +111,9 @@ def with_relations(
 ) -> tuple[OrderCondition, ...]:
     """Give each condition that its ``polynomial`` does not name itself the relation it obeys.
 
-    >>> from orderconds.families.symplectic_rk import SWITCHING, create
+    >>> from orderconds.families.symplectic_rk import SWITCHING, SymplecticFamily
     >>> from orderconds.trees.levels import text
-    >>> [c.relation for c in with_relations(create().all_conditions(2), SWITCHING, text)]
+    >>> [c.relation for c in with_relations(SymplecticFamily().all_conditions(2), SWITCHING, text)]
     ['1/2 <.> <.>']
     """
     found = []
@@ -139,7 +139,7 @@ def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], 
     factors = lyndon_factors(word, letter_key)
     if len(factors) <= 1:
         return ((tuple(b"".join(factor) for factor in factors), Fraction(1)),)
-    # The shuffle of the factors is their concatenation, so many times, and smaller words.
+    # The shuffle of the factors is a multiple of their concatenation, plus smaller words.
     repeated = prod(factorial(factors.count(factor)) for factor in dict.fromkeys(factors))
     words = reduce(_shuffled, factors[1:], {factors[0]: 1})
     result: Polynomial = {tuple(sorted(b"".join(factor) for factor in factors)): Fraction(1)}

@@ -2,78 +2,140 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property, lru_cache, partial
-from typing import Any
+from typing import ClassVar, Self
 
 from orderconds.conditions import OrderCondition
+from orderconds.families.base import Family, all_nonzero, expect
 from orderconds.families.elementary_weights import elementary_weight
-from orderconds.families.once import Once
+from orderconds.families.memo import Memo
+from orderconds.families.registry import register
 from orderconds.formula import Formula
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.b_series import ElementaryWeights, runge_kutta_series
+from orderconds.tableau.methods import CommutatorFree, Composition, PartitionedRungeKutta, RungeKutta
+from orderconds.tableau.products import Method
+from orderconds.tableau.properties import symmetric
+from orderconds.tableau.record import Tableau
 from orderconds.trees.levels import Tree, children, density, text
 from orderconds.trees.rooted import rooted_trees
 
 
-class RungeKuttaFamily:
+@register
+class RungeKuttaFamily(Family):
     """Runge-Kutta methods for ordinary differential equations.
 
-    >>> [str(condition) for condition in create().conditions(3)]
+    >>> [str(condition) for condition in RungeKuttaFamily().conditions(3)]
     ['sum_{i,j} b_i a_ij c_j = 1/6', 'sum_i b_i c_i^2 = 1/3']
     """
 
     name = "rk"
+    description = (
+        "Runge-Kutta methods: one condition a rooted tree, its elementary weight = 1/gamma (HLW III.1, "
+        "Thm 1.5)."
+    )
+    formats = ("rk",)
     trees = "rooted"
-    formats: tuple[str, ...] = ("rk",)
-    needs_nonzero_weights = False
+    illustrates: ClassVar[tuple[str, ...]] = ("rooted",)
     search_limit = 12
-
-    def label(self) -> str:
-        """Return ``rk``."""
-        return self.name
+    over_rationals = True
+    implies: ClassVar[Mapping[str, str]] = {"symplectic_rk": "a symplectic method is a Runge-Kutta method"}
+    low_order = "rk"
+    bounds_others = True
+    low_storage: ClassVar[tuple[str, ...]] = ("rk", "cf")
+    fixed_stages = True
+    unknowns = "rk"
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of this order, one a rooted tree; they are independent (HLW III.1, Ex. 5)."""
-        return _conditions(order)
-
-    def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the same conditions."""
-        return _conditions(order)
+        return _conditions(self.name, order)
 
     @cached_property
-    def _once(self) -> Once[ElementaryWeights[Tree]]:
-        return Once(lambda method, ring: runge_kutta_series(ring, method.A, method.b))
+    def _memo(self) -> Memo[ElementaryWeights[Tree]]:
+        return Memo(_series)
 
-    def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
-        """Return elementary weights; ``method`` has ``A`` and ``b`` over ``ring``."""
-        weights = self._once(method, ring)
+    def evaluate(
+        self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
+    ) -> tuple[Element, ...]:
+        """Return elementary weights of a tableau (A, b)."""
+        weights = self._memo(method, ring)
         return tuple(weights(condition.key) for condition in conditions)
 
+    def read(self, tableau: Tableau) -> Method | None:
+        """Return the tableau, of other formats that which the method is on an abelian group."""
+        return tableau.read_as(self.formats) or tableau.abelian()
 
-def create() -> RungeKuttaFamily:
-    """Return the family.
+    @classmethod
+    def claimable(cls, tableau: Tableau) -> Self | None:
+        """Butcher tableaux, commutator-free methods and compositions of midpoints have a classical order."""
+        return cls() if isinstance(tableau.method, RungeKutta | CommutatorFree | Composition) else None
 
-    >>> create().label()
-    'rk'
+    def is_symmetric(self, method: Method, ring: Ring) -> bool:
+        """Whether the tableau is symmetric."""
+        return symmetric_tableau(method, ring)
+
+
+def symmetric_tableau(method: Method, ring: Ring) -> bool:
+    """Whether a tableau, or each tableau of a pair, is proved to be symmetric.
+
+    >>> from orderconds.tableau import find
+    >>> gauss2 = Tableau.load(find("gauss2"))
+    >>> symmetric_tableau(gauss2.method, gauss2.ring)
+    True
     """
-    return RungeKuttaFamily()
+    if isinstance(method, PartitionedRungeKutta):
+        both = (RungeKutta(method.A, method.b), RungeKutta(method.A_hat, method.b_hat))
+        return all(symmetric(part, ring) is True for part in both)
+    return isinstance(method, RungeKutta) and symmetric(method, ring) is True
+
+
+def weights_of(tableau: Tableau) -> tuple[Element, ...] | None:
+    """Return the weights b_i of a tableau that reads as (A, b), None for other formats.
+
+    >>> from orderconds.tableau import find
+    >>> [str(x) for x in weights_of(Tableau.load(find("rk4")))]
+    ['1/6', '1/3', '1/3', '1/6']
+    """
+    method = tableau.method
+    if isinstance(method, RungeKutta):
+        return method.b
+    return method.gamma if isinstance(method, Composition) else None
+
+
+def has_weights(tableau: Tableau, *, nonzero: bool = False) -> bool:
+    """Whether a tableau reads as (A, b); with ``nonzero`` all weights are proved to be non-zero as well.
+
+    >>> from orderconds.tableau import find
+    >>> cg4 = Tableau.load(find("cg4"))
+    >>> has_weights(cg4), has_weights(cg4, nonzero=True)
+    (True, False)
+    """
+    b = weights_of(tableau)
+    return b is not None and (not nonzero or all_nonzero(b, tableau.ring))
+
+
+def _series(method: Method, ring: Ring) -> ElementaryWeights[Tree]:
+    tableau = expect(method, RungeKutta)
+    return runge_kutta_series(ring, tableau.A, tableau.b)
 
 
 @lru_cache(maxsize=32)
-def _conditions(order: int) -> tuple[OrderCondition, ...]:
-    return tree_conditions(tuple(rooted_trees(order)))
+def _conditions(family: str, order: int) -> tuple[OrderCondition, ...]:
+    return tree_conditions(tuple(rooted_trees(order)), family)
 
 
-def tree_conditions(trees: Sequence[Tree]) -> tuple[OrderCondition, ...]:
-    r"""Return the conditions of some trees, weight = 1/gamma (HLW III.1, Theorem 1.5).
+def tree_conditions(trees: Sequence[Tree], family: str = "rk") -> tuple[OrderCondition, ...]:
+    r"""Return the conditions of some trees, weight = 1/gamma (HLW III.1, Theorem 1.5), for a family's label.
 
     >>> print(*tree_conditions([b"\0\1\1"]))
     sum_i b_i c_i^2 = 1/3
     """
     return tuple(
-        OrderCondition("rk", len(tree), text(tree), partial(_weight, tree), Fraction(1, density(tree)), tree)
+        OrderCondition(
+            family, len(tree), text(tree), partial(_weight, tree), Fraction(1, density(tree)), tree
+        )
         for tree in trees
     )
 

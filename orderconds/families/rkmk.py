@@ -7,14 +7,18 @@ even r >= 2, since B_{r+1} = 0.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
 from functools import lru_cache
 from math import factorial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, ClassVar, Self
 
 from orderconds.conditions import OrderCondition
-from orderconds.errors import InputError
-from orderconds.families.ordered_forests import OrderedForestFamily, lyndon_forests, scale
+from orderconds.families.base import Key, expect
+from orderconds.families.dexpinv_cut import DexpinvCut
+from orderconds.families.ordered_forests import OrderedForestFamily, longest_word, lyndon_forests, scale
+from orderconds.families.registry import register
+from orderconds.families.rk import has_weights
 from orderconds.formula import (
     Formula,
     Total,
@@ -29,6 +33,10 @@ from orderconds.formula import (
 )
 from orderconds.ring.protocol import Ring
 from orderconds.series.dexpinv import DexpinvSeries, dexpinv_terms
+from orderconds.series.lie_butcher import ForestSeries
+from orderconds.tableau.methods import RungeKutta
+from orderconds.tableau.products import Method
+from orderconds.tableau.record import Tableau
 from orderconds.trees.counts import rooted_tree_count
 from orderconds.trees.levels import Forest, branches, trees_of
 
@@ -38,7 +46,12 @@ if TYPE_CHECKING:
     from orderconds.ring.residues import Residues
 
 
-class MuntheKaasFamily(OrderedForestFamily):
+RANKED = 8
+"""The highest order whose essential conditions are computed: ranks take seconds there."""
+
+
+@register
+class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
     """Runge-Kutta-Munthe-Kaas methods, given by a Runge-Kutta tableau.
 
     >>> for condition in MuntheKaasFamily(cutoff=1).conditions(3):
@@ -49,28 +62,58 @@ class MuntheKaasFamily(OrderedForestFamily):
     """
 
     name = "rkmk"
-    formats: tuple[str, ...] = ("rk",)
-    search_limit = 7
+    description = (
+        "Runge-Kutta-Munthe-Kaas methods with dexpinv cut after the power r: ``rkmk(r)``; without r it "
+        "is not cut."
+    )
+    formats = ("rk",)
+    implies: ClassVar[Mapping[str, str]] = {"rk": "a vector space is a group"}
+    unknowns = "rk"
+    minimal_brackets = 6
 
-    def __init__(self, cutoff: int | None = None) -> None:
-        self.cutoff = cutoff
+    def series(self, method: Method, ring: Ring) -> ForestSeries:
+        """Return the series of a step of a tableau (A, b)."""
+        tableau = expect(method, RungeKutta)
+        return DexpinvSeries(ring, tableau.A, tableau.b, self.cutoff)
 
-    def label(self) -> str:
-        """Return ``rkmk(r)``, or ``rkmk`` when dexpinv is not cut."""
-        return self.name if self.cutoff is None else f"{self.name}({self.cutoff})"
+    @classmethod
+    def claimable(cls, tableau: Tableau) -> Self | None:
+        """Tableaux (A, b)."""
+        return cls() if has_weights(tableau) else None
 
-    def series(self, method: Any, ring: Ring) -> DexpinvSeries:
-        """Return the series of a step; ``method`` has ``A`` and ``b`` over ``ring``."""
-        return DexpinvSeries(ring, method.A, method.b, self.cutoff)
+    def longest_word(self, key: Key) -> int:
+        """Return the length of the longest word of branches in a forest."""
+        assert isinstance(key, bytes)
+        return longest_word(key)
+
+    def first_unmet(self, order: int) -> OrderCondition | None:
+        """Return the condition of the word ``[.] . ... .``, on which a cut of dexpinv shows first."""
+        if self.cutoff is None or order < 3:
+            return None
+        return self._of([b"\0\1" + b"\0" * (order - 2)])[0]
 
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return those of :meth:`conditions` that do not follow from the others and from lower ones.
 
         They are as many as rooted trees, 1, 1, 2, 4, 9 ..., for dexpinv turns the problem into one on a
         vector space; and at order R + 3 there is one more, which no tableau meets. Computed by ranks
-        (imports NumPy).
+        (imports NumPy) up to order :data:`RANKED`; beyond it all of :meth:`conditions`.
+
+        >>> [len(MuntheKaasFamily().essential_conditions(n)) for n in (1, 2, 3, 4, 5)]
+        [1, 1, 2, 4, 9]
         """
-        return self._of(_essential(self.cutoff, order)[-1])
+        return self.conditions(order) if order > RANKED else self._of(_essential(self.cutoff, order)[-1])
+
+    def remark(self, order: int) -> str:
+        """Return what the conditions of Lyndon words are beside the essential ones."""
+        if order < 3:
+            return ""
+        counts = ", ".join(str(len(lyndon_forests(n))) for n in range(1, min(order, RANKED) + 1))
+        beyond = f" Beyond order {RANKED} all conditions of Lyndon words are listed." if order > RANKED else ""
+        return (
+            f"Lyndon words over ordered trees give {counts} conditions of order 1, 2, ...: a generating set for "
+            f"every method on a group. For {self.label()} those listed imply the others.{beyond}"
+        )
 
     def highest_order(self, limit: int) -> int:
         """Return the order that this cut of dexpinv allows at most, or ``limit``: R + 2.
@@ -161,16 +204,3 @@ def _essential(cutoff: int | None, order: int) -> tuple[tuple[Forest, ...], ...]
         return DexpinvSeries(ring, A, [ring.random(generator) for _ in range(order)], cutoff)
 
     return independent_forests(random_series, [lyndon_forests(n) for n in range(1, order + 1)])
-
-
-def create(cutoff: int | None = None) -> MuntheKaasFamily:
-    """Return the family with dexpinv cut after the power ``cutoff``, or uncut.
-
-    Raises :class:`~orderconds.errors.InputError` for a negative cutoff.
-
-    >>> create(cutoff=1).label(), create().label()
-    ('rkmk(1)', 'rkmk')
-    """
-    if cutoff is not None and not (isinstance(cutoff, int) and cutoff >= 0):
-        raise InputError(f"cutoff {cutoff!r}", where="family rkmk", expected="an integer >= 0")
-    return MuntheKaasFamily(cutoff)

@@ -9,23 +9,27 @@ and Murua, J. Comput. Dyn. 6 (2019) 345).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
 from itertools import combinations
 from math import lcm, prod
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Self
 
 from flint import fmpq, fmpq_mat
 
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
+from orderconds.families.base import Family, expect
+from orderconds.families.registry import register
 from orderconds.families.relations import Polynomial, with_relations
 from orderconds.families.splitting import SplittingFamily, two_part_formula
-from orderconds.families.word_family import StageNames
+from orderconds.families.stage_form import StageForm
 from orderconds.formula import Formula, total
 from orderconds.ring.protocol import Element, Ring
-from orderconds.tableau.products import Splitting
+from orderconds.tableau.products import Method, Splitting
+from orderconds.tableau.record import Tableau
+from orderconds.tableau.work import Work
 from orderconds.words.lie import expand
 from orderconds.words.quotient import Functional, independent_on_lie, orthogonal
 from orderconds.words.shuffle import Series, Word, add, shuffle
@@ -38,27 +42,26 @@ if TYPE_CHECKING:
 T, V = 0, 1
 
 
-class NystroemFamily:
+@register
+class NystroemFamily(Family):
     """Splittings T + V for which ``rkn`` names V; a condition is a combination of words over T and V.
 
-    >>> [len(create().conditions(n)) for n in range(1, 6)]
+    >>> [len(NystroemFamily().conditions(n)) for n in range(1, 6)]
     [2, 1, 2, 2, 4]
-    >>> print(create().conditions(3)[0].tree, create().conditions(3)[0])
+    >>> print(NystroemFamily().conditions(3)[0].tree, NystroemFamily().conditions(3)[0])
     TTV sum_i c_i^2 b_i = 1/3
     """
 
     name = "rkn"
-    formats: tuple[str, ...] = ("splitting",)
-    needs_nonzero_weights = False
-    search_limit = 8
+    description = (
+        "Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q) with T quadratic in p, where brackets vanish."
+    )
+    formats = ("splitting",)
+    unknowns = "splitting"
 
-    def label(self) -> str:
-        """Return ``rkn``."""
-        return self.name
-
-    def require(self, method: Splitting, ring: Ring) -> None:
+    def require(self, method: Method, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` for a splitting that does not say which part is V."""
-        if method.rkn is None:
+        if expect(method, Splitting).rkn is None:
             raise InputError(
                 "a splitting without rkn",
                 where=f"family {self.name}",
@@ -74,11 +77,14 @@ class NystroemFamily:
         """Return those of a basis of all combinations, dependent ones with their relations."""
         return with_relations(map(self._condition, functionals(order)), relation, text)
 
-    def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
+    def evaluate(
+        self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
+    ) -> tuple[Element, ...]:
         """Return the step's values on combinations of words, each times its scale."""
         self.require(method, ring)
-        swap = method.rkn == T
-        steps = [(1 - part if swap else part, x) for part, x in method.steps]
+        splitting = expect(method, Splitting)
+        swap = splitting.rkn == T
+        steps = [(1 - part if swap else part, x) for part, x in splitting.steps]
         values = SplittingFamily().series(Splitting(("T", "V"), tuple(steps)), ring)
         found = []
         for condition in conditions:
@@ -88,15 +94,29 @@ class NystroemFamily:
             found.append(value * _scale(condition.key))
         return tuple(found)
 
-    def in_stages(self, stages: int) -> tuple[StageNames, Callable[[Sequence[Element]], Splitting]]:
-        """Return the names of the steps of so many stages, and how they make a method."""
-        names, method = SplittingFamily().in_stages(stages)
-        return names, lambda values: Splitting(("T", "V"), method(values).steps, V)
+    def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
+        """Return the form of splittings T + V."""
+        form = SplittingFamily().in_stages(stages, explicit=explicit)
+        return StageForm(form.names, lambda values, ring: _nystroem(form.method(values, ring)))
+
+    @classmethod
+    def claimable(cls, tableau: Tableau) -> Self | None:
+        """Splittings whose file says which part is V."""
+        method = tableau.method
+        return cls() if isinstance(method, Splitting) and method.rkn is not None else None
+
+    def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
+        """Return the same order, as a splitting up to 4: [V,[V,[V,T]]] = 0 concerns words of four letters and
+        more, and the order is even."""
+        return ((self.label(), order), ("splitting", min(order, 4)))
+
+    def work(self, tableau: Tableau) -> Work | None:
+        """Return None: what a flow costs is not known here."""
+        return None
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Splitting:
         """Return splittings with random steps."""
-        made = SplittingFamily().random_method(ring, generator, order)
-        return Splitting(("T", "V"), made.steps, V)
+        return _nystroem(SplittingFamily().random_method(ring, generator, order))
 
     def _condition(self, functional: Functional) -> OrderCondition:
         splitting, scale = SplittingFamily(), _scale(functional)
@@ -111,13 +131,8 @@ class NystroemFamily:
         )
 
 
-def create() -> NystroemFamily:
-    """Return the family.
-
-    >>> [condition.tree for condition in create().conditions(5)]
-    ['TTTTV', 'TTTVV', 'TTVTV', '3 TTVVV - TVVTV']
-    """
-    return NystroemFamily()
+def _nystroem(method: Method) -> Splitting:
+    return Splitting(("T", "V"), expect(method, Splitting).steps, V)
 
 
 def text(functional: Functional) -> str:

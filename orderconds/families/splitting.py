@@ -6,20 +6,24 @@ value 1/n! on every word of n letters (HLW III.5; McLachlan and Quispel, Acta Nu
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import accumulate, groupby, pairwise
 from itertools import product as tuples
 from math import factorial, prod
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, ClassVar, Self
 
 from orderconds.errors import InputError
-from orderconds.families.word_family import StageNames, WordFamily
+from orderconds.families.base import Family, expect
+from orderconds.families.registry import register
+from orderconds.families.stage_form import StageForm, refuse_explicit
+from orderconds.families.word_family import WordFamily
 from orderconds.formula import Formula, coefficient, fresh, index_sum, product, total
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.exponentials import ProductOfExponentials
-from orderconds.tableau.products import Splitting
+from orderconds.tableau.products import AdjointComposition, Method, Splitting
+from orderconds.tableau.record import Tableau
+from orderconds.tableau.work import Work
 from orderconds.words.compositions import compositions
 from orderconds.words.shuffle import Word
 
@@ -31,31 +35,43 @@ if TYPE_CHECKING:
 MAX_PARTS = 6
 
 
-@dataclass(frozen=True)
+@register
 class SplittingFamily(WordFamily):
     """Splittings in ``parts`` parts; letters 0, 1, ... are the parts in the order of the file, A, B, ....
 
-    >>> for condition in create().conditions(3):
+    >>> for condition in SplittingFamily().conditions(3):
     ...     print(condition.tree, condition)
     AAB sum_i c_i^2 b_i = 1/3
     ABB sum_i c_i b_i^2 + 2 sum_{i<j} c_i b_i b_j = 1/3
     """
 
-    parts: int = 2
     name = "splitting"
-    trees = "letters"
+    description = (
+        "Splittings: products of the flows of A, B, ... whose sum is the field; conditions are words "
+        "over A, B, ..."
+    )
     formats = ("splitting",)
+    trees = "letters"
+    illustrates = ("letters",)
+    implies: ClassVar[Mapping[str, str]] = {"rkn": "a splitting T + V is one"}
+    unknowns = "splitting"
+
+    def __init__(self, parts: int = 2) -> None:
+        if not 2 <= parts <= MAX_PARTS:
+            raise InputError(f"{parts} parts", where="family splitting", expected=f"2 to {MAX_PARTS} parts")
+        self.parts = parts
 
     def label(self) -> str:
         """Return ``splitting``, with the number of parts where it is not two."""
         return self.name if self.parts == 2 else f"{self.name}({self.parts})"
 
-    def require(self, method: Splitting, ring: Ring) -> None:
+    def require(self, method: Method, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` for a splitting in another number of parts."""
-        if len(method.parts) != self.parts:
-            right = SplittingFamily(len(method.parts)).label()
+        parts = expect(method, Splitting).parts
+        if len(parts) != self.parts:
+            right = SplittingFamily(len(parts)).label()
             raise InputError(
-                f"a splitting in {len(method.parts)} parts: {', '.join(method.parts)}",
+                f"a splitting in {len(parts)} parts: {', '.join(parts)}",
                 where=f"family {self.label()}",
                 expected=f"{self.parts} parts",
                 hint=f"ask for the family {right!r}",
@@ -88,40 +104,52 @@ class SplittingFamily(WordFamily):
         """
         return two_part_formula(word) if self.parts == 2 else splitting_formula(word)
 
-    def series(self, method: Splitting, ring: Ring) -> ProductOfExponentials:
+    def for_method(self, method: Method) -> Family:
+        """Return the family for the number of parts of a splitting."""
+        return SplittingFamily(len(expect(method, Splitting).parts))
+
+    @classmethod
+    def claimable(cls, tableau: Tableau) -> Self | None:
+        """Splittings, and compositions of an adjoint pair."""
+        method = tableau.method
+        if isinstance(method, AdjointComposition):
+            return cls()
+        return cls(len(method.parts)) if isinstance(method, Splitting) else None
+
+    def implied_order(self, orders: Mapping[str, int]) -> int:
+        """Return the order of a Runge-Kutta-Nystroem splitting up to 3: brackets vanish from order 4 on."""
+        return min(3, orders.get("rkn", 0))
+
+    def work(self, tableau: Tableau) -> Work | None:
+        """Return None for a splitting: what a flow costs is not known here."""
+        return None if isinstance(tableau.method, Splitting) else super().work(tableau)
+
+    def solved_as(self, nystroem: bool) -> str:
+        """Return the family of Nystroem splittings with option --rkn."""
+        return "rkn" if nystroem else self.label()
+
+    def series(self, method: Method, ring: Ring) -> ProductOfExponentials:
         """Return the values of a step on words."""
-        steps = method.steps
+        steps = expect(method, Splitting).steps
         return ProductOfExponentials(ring, len(steps), lambda J, k: steps[J][1] if steps[J][0] == k else None)
 
-    def in_stages(self, stages: int) -> tuple[StageNames, Callable[[Sequence[Element]], Splitting]]:
-        """Return the names of the steps of so many stages, and how they make a method."""
+    def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
+        """Return the form of splittings in which every stage has all parts."""
+        refuse_explicit(self.label(), explicit)
         letters = "abcdef"[: self.parts]
         names = tuple((x, (str(i),)) for i in range(1, stages + 1) for x in letters)
 
-        def method(values: Sequence[Element]) -> Splitting:
+        def method(values: Sequence[Element], ring: Ring) -> Splitting:
             steps = tuple((place % self.parts, x) for place, x in enumerate(values))
             return Splitting(tuple(map(self.text, self.words(1))), steps)
 
-        return names, method
+        return StageForm(names, method)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Splitting:
         """Return splittings with random steps, a stage more than the conditions of ``order``."""
         stages = 1 + sum(len(self.independent(n)) for n in range(1, order + 1)) // self.parts
         steps = [(part, ring.random(generator)) for _ in range(stages) for part in range(self.parts)]
         return Splitting(tuple(map(self.text, self.words(1))), tuple(steps))
-
-
-def create(parts: int = 2) -> SplittingFamily:
-    """Return the family of splittings in so many parts.
-
-    Raises :class:`~orderconds.errors.InputError` for fewer than two parts or more than six.
-
-    >>> create(3).label()
-    'splitting(3)'
-    """
-    if not 2 <= parts <= MAX_PARTS:
-        raise InputError(f"{parts} parts", where="family splitting", expected=f"2 to {MAX_PARTS} parts")
-    return SplittingFamily(parts)
 
 
 def splitting_formula(word: Word) -> Formula:
@@ -206,7 +234,7 @@ def stage_tables(method: Splitting, ring: Ring) -> dict[str, list[Element]]:
     >>> stage_tables(strang, QQ)
     {'a': [0, 1], 'b': [1/2, 1/2], 'c': [0, 1]}
     """
-    stages: list[list[Any]] = []
+    stages: list[list[Element]] = []
     last = len(method.parts)
     for part, step in method.steps:
         if part <= last:

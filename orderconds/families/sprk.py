@@ -6,17 +6,24 @@ across an edge at the price of products of conditions of lower order (Abia and S
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property, lru_cache
-from typing import Any
+from typing import ClassVar, Self
 
 from orderconds.conditions import OrderCondition
-from orderconds.families import require_nonzero_weights
+from orderconds.families.base import Family, expect, require_nonzero_weights
 from orderconds.families.elementary_weights import conjugate, kept_branches, weight_conditions
-from orderconds.families.once import Once
+from orderconds.families.memo import Memo
+from orderconds.families.registry import register
 from orderconds.families.relations import RootSwitching
+from orderconds.families.rk import has_weights, symmetric_tableau
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.b_series import ElementaryWeights
+from orderconds.tableau.methods import RungeKutta
+from orderconds.tableau.products import Method
+from orderconds.tableau.properties import symplectic
+from orderconds.tableau.record import Tableau
+from orderconds.tableau.simplifying import highest_assumptions
 from orderconds.trees.directed import (
     DirectedTree,
     directed_free_trees,
@@ -29,22 +36,27 @@ SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(directed_free_trees))
 """Every rooted tree's weight by those of free trees."""
 
 
-class SymplecticPartitionedFamily:
+@register
+class SymplecticPartitionedFamily(Family):
     """Symplectic partitioned Runge-Kutta methods, given by (A, b) with non-zero weights.
 
-    >>> [str(condition) for condition in create().conditions(3)]
+    >>> [str(condition) for condition in SymplecticPartitionedFamily().conditions(3)]
     ['sum_i b_i c_i^2 = 1/3', 'sum_i b_i chat_i^2 = 1/3', 'sum_{i,j} b_i a_ij c_j = 1/6']
     """
 
     name = "sprk"
+    description = "Symplectic partitioned Runge-Kutta methods: bhat = b and ahat_ij = b_j - b_j a_ji/b_i."
+    formats = ("rk",)
     trees = "directed"
-    formats: tuple[str, ...] = ("rk",)
-    search_limit = 8
+    illustrates = ("directed",)
     needs_nonzero_weights = True
-
-    def label(self) -> str:
-        """Return ``sprk``."""
-        return self.name
+    over_rationals = True
+    implies: ClassVar[Mapping[str, str]] = {
+        "rk": "a Hamiltonian linear in the momentum has the flow of any field"
+    }
+    low_order = "rk"
+    bounds_others = True
+    unknowns = "rk"
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the independent conditions of this order, one a free tree with directed edges."""
@@ -54,25 +66,46 @@ class SymplecticPartitionedFamily:
         """Return the conditions of all rooted trees with directed edges, with their relations."""
         return weight_conditions(self.name, directed_rooted_trees(order), text, switching=SWITCHING)
 
-    def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
-        """Return elementary weights; ``method`` has ``A`` and ``b`` over ``ring``, which can divide."""
-        weights = self._once(method, ring)
+    def evaluate(
+        self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
+    ) -> tuple[Element, ...]:
+        """Return elementary weights of a tableau (A, b); the ring can divide."""
+        weights = self._memo(method, ring)
         return tuple(weights(condition.key) for condition in conditions)
 
     @cached_property
-    def _once(self) -> Once[ElementaryWeights[DirectedTree]]:
-        return Once(self._weights)
+    def _memo(self) -> Memo[ElementaryWeights[DirectedTree]]:
+        return Memo(self._weights)
 
-    def _weights(self, method: Any, ring: Ring) -> ElementaryWeights[DirectedTree]:
-        require_nonzero_weights(self.label(), ring, method.b)
-        matrices = (method.A, conjugate(method.A, method.b))
-        return ElementaryWeights[DirectedTree](ring, matrices, method.b, kept_branches)
+    def _weights(self, method: Method, ring: Ring) -> ElementaryWeights[DirectedTree]:
+        A, b = expect(method, RungeKutta).A, expect(method, RungeKutta).b
+        require_nonzero_weights(self.label(), ring, b)
+        return ElementaryWeights[DirectedTree](ring, (A, conjugate(A, b)), b, kept_branches)
 
+    @classmethod
+    def claimable(cls, tableau: Tableau) -> Self | None:
+        """Tableaux (A, b) without zero weights."""
+        return cls() if has_weights(tableau, nonzero=True) else None
 
-def create() -> SymplecticPartitionedFamily:
-    """Return the family.
+    def is_symmetric(self, method: Method, ring: Ring) -> bool:
+        """Whether the tableau is symmetric: its conjugate is, too."""
+        return symmetric_tableau(method, ring)
 
-    >>> create().label()
-    'sprk'
-    """
-    return SymplecticPartitionedFamily()
+    def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
+        """Return an order that the order p under ``rk`` and simplifying assumptions give, without trees.
+
+        Where ahat = a, it is p. Otherwise C(m) and D(m) of a with B(2m) give C(m) and D(m) of ahat, by its
+        definition; trees with edges of both kinds then simplify as those with one do in Butcher's theorem,
+        since c = chat, and the order is at least min(p, 2m + 1) (Jay 1996, for Lobatto pairs).
+
+        >>> from orderconds.tableau.collocation import construct
+        >>> radau = construct("radau2a", 3)
+        >>> SymplecticPartitionedFamily().order_of_tableau(radau.method, radau.ring, {"rk": 5})
+        5
+        """
+        p = orders.get("rk", 0)
+        if not isinstance(method, RungeKutta) or not p:
+            return 0
+        if symplectic(method, ring) is True:
+            return p
+        return min(p, 2 * highest_assumptions(method, ring, p) + 1)

@@ -9,16 +9,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
-from types import SimpleNamespace
-from typing import Any
+from typing import Self
 
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
-from orderconds.families import require_nonzero_weights
+from orderconds.families.base import Family, expect, require_nonzero_weights
 from orderconds.families.elementary_weights import conjugate, weight_conditions
 from orderconds.families.prk import rooted_weight, rooted_weights
+from orderconds.families.registry import register
 from orderconds.families.relations import RootSwitching
+from orderconds.families.rk import symmetric_tableau
+from orderconds.families.stage_form import StageForm, tableau_form
 from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.methods import PartitionedRungeKutta, RungeKutta
+from orderconds.tableau.products import Method
+from orderconds.tableau.properties import symplectic_pair
+from orderconds.tableau.record import Tableau
 from orderconds.trees.bicoloured import alternating, alternating_free_trees, moves, text
 from orderconds.trees.rooted import rooted_trees
 
@@ -26,24 +32,22 @@ SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(alternating_free_trees)
 """Every rooted tree's weight by those of free trees."""
 
 
-class SeparableFamily:
+@register
+class SeparableFamily(Family):
     """Symplectic pairs (A, b), (A_hat, b_hat), or a tableau (A, b) with its conjugate and b_hat = b.
 
-    >>> [len(create().conditions(n)) for n in range(1, 9)]
+    >>> [len(SeparableFamily().conditions(n)) for n in range(1, 9)]
     [2, 1, 2, 3, 6, 10, 22, 42]
-    >>> [str(condition) for condition in create().conditions(3)]
+    >>> [str(condition) for condition in SeparableFamily().conditions(3)]
     ['sum_i b_i chat_i^2 = 1/3', 'sum_i bhat_i c_i^2 = 1/3']
     """
 
     name = "sprk_separable"
+    description = "Symplectic partitioned Runge-Kutta methods for separable Hamiltonians H = T(p) + V(q)."
+    formats = ("rk", "prk")
     trees = "alternating"
-    formats: tuple[str, ...] = ("rk", "prk")
+    illustrates = ("alternating",)
     search_limit = 10
-    needs_nonzero_weights = False
-
-    def label(self) -> str:
-        """Return the family's name."""
-        return self.name
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the independent conditions of this order, one a free tree with alternating colours."""
@@ -54,34 +58,42 @@ class SeparableFamily:
         trees = [alternating(colour, tree) for colour in (0, 1) for tree in rooted_trees(order)]
         return weight_conditions(self.name, trees, text, rooted_weight, SWITCHING)
 
-    def require(self, method: Any, ring: Ring) -> None:
+    def require(self, method: Method, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` for a pair that is not symplectic."""
-        if hasattr(method, "A_hat"):
+        if isinstance(method, PartitionedRungeKutta):
             require_symplectic_pair(self.name, method, ring)
 
-    def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
-        """Return elementary weights; ``method`` has ``A``, ``b`` and perhaps ``A_hat``, ``b_hat``.
+    def evaluate(
+        self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
+    ) -> tuple[Element, ...]:
+        """Return elementary weights of a pair, or of a single tableau and its conjugate.
 
         Raises :class:`~orderconds.errors.ZeroWeight` for a single tableau whose conjugate does not exist.
         """
-        if hasattr(method, "A_hat"):
+        if isinstance(method, PartitionedRungeKutta):
             return rooted_weights(method, ring, conditions)
-        require_nonzero_weights(self.name, ring, method.b)
-        A_hat = conjugate(method.A, method.b)
-        pair = SimpleNamespace(A=method.A, b=method.b, A_hat=A_hat, b_hat=method.b)
-        return rooted_weights(pair, ring, conditions)
+        A, b = expect(method, RungeKutta).A, expect(method, RungeKutta).b
+        require_nonzero_weights(self.name, ring, b)
+        A_hat = tuple(map(tuple, conjugate(A, b)))
+        return rooted_weights(PartitionedRungeKutta(A, b, A_hat, b), ring, conditions)
+
+    @classmethod
+    def claimable(cls, tableau: Tableau) -> Self | None:
+        """Symplectic pairs."""
+        method = tableau.method
+        pair = isinstance(method, PartitionedRungeKutta) and symplectic_pair(method, tableau.ring)
+        return cls() if pair else None
+
+    def is_symmetric(self, method: Method, ring: Ring) -> bool:
+        """Whether both tableaux of a pair are symmetric."""
+        return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
+
+    def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
+        """Return the form of single tableaux, whose conjugates divide by weights."""
+        return tableau_form(stages, explicit, divides=True)
 
 
-def create() -> SeparableFamily:
-    """Return the family.
-
-    >>> create().label()
-    'sprk_separable'
-    """
-    return SeparableFamily()
-
-
-def require_symplectic_pair(label: str, method: Any, ring: Ring) -> None:
+def require_symplectic_pair(label: str, method: PartitionedRungeKutta, ring: Ring) -> None:
     """Raise :class:`~orderconds.errors.InputError` unless b_i ahat_ij + bhat_j a_ji = b_i bhat_j.
 
     Balls pass where they contain zero: the conditions are then checked to the digits given.

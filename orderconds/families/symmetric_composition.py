@@ -6,18 +6,24 @@ follow from those before (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping
+from fractions import Fraction
 from functools import lru_cache
 from math import factorial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, ClassVar, Self
 
 from orderconds.errors import InputError
+from orderconds.families.base import Family
 from orderconds.families.composition import CompositionFamily, composition_formula
+from orderconds.families.registry import register
 from orderconds.families.relations import Polynomial, add, multiply
-from orderconds.families.word_family import StageNames
+from orderconds.families.stage_form import StageForm, refuse_explicit
 from orderconds.formula import Formula, coefficient, product
-from orderconds.ring.protocol import Element, Ring
+from orderconds.ring.protocol import Ring
 from orderconds.tableau.methods import Composition
+from orderconds.tableau.products import Method
+from orderconds.tableau.properties import reads_backwards
+from orderconds.tableau.record import Tableau
 from orderconds.words.compositions import compositions
 from orderconds.words.convolution import logarithm_scales
 from orderconds.words.expansions import words_of_weight
@@ -31,19 +37,27 @@ if TYPE_CHECKING:
     from orderconds.ring.residues import Residues
 
 
+@register
 class SymmetricCompositionFamily(CompositionFamily):
     """Compositions with steps gamma_1, ..., gamma_s that read the same backwards, of a symmetric method.
 
     >>> for n in (1, 2, 3, 4):
-    ...     for condition in create().conditions(n):
+    ...     for condition in SymmetricCompositionFamily().conditions(n):
     ...         print(condition.tree, condition)
     1 sum_i gamma_i = 1
     3 sum_i gamma_i^3 = 0
     """
 
     name = "symmetric_composition"
+    description = (
+        "Symmetric compositions of a symmetric method of order two: words over letters 1, 3, 5, ... of "
+        "odd weight."
+    )
+    illustrates = ()
+    implies: ClassVar[Mapping[str, str]] = {"composition": "a symmetric composition of this order"}
+    bounds_others = False
 
-    def require(self, method: Any, ring: Ring) -> None:
+    def require(self, method: Method, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` unless steps of a symmetric base are symmetric."""
         expected = "base symmetric-2 and steps that read the same backwards"
         if not isinstance(method, Composition):
@@ -73,25 +87,31 @@ class SymmetricCompositionFamily(CompositionFamily):
         """Return the index sum of the scaled value over steps gamma_i."""
         return composition_formula(word, _step)
 
-    def in_stages(self, stages: int) -> tuple[StageNames, Callable[[Sequence[Element]], Composition]]:
-        """Return the names of the steps of so many stages, and how they make a method."""
+    def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
+        """Return the form of symmetric compositions, by the first half of the steps."""
+        refuse_explicit(self.label(), explicit)
         names = tuple(("gamma", (str(i),)) for i in range(1, (stages + 1) // 2 + 1))
-        return names, lambda values: Composition("symmetric-2", (*values, *values[: stages // 2][::-1]))
+        return StageForm(
+            names, lambda values, ring: Composition("symmetric-2", (*values, *values[: stages // 2][::-1]))
+        )
 
-    def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Composition:
+    @classmethod
+    def claimable(cls, tableau: Tableau) -> Self | None:
+        """Compositions of symmetric methods whose steps read the same backwards."""
+        method = tableau.method
+        if not isinstance(method, Composition):
+            return None
+        return cls() if reads_backwards(method.gamma, tableau.ring) else None
+
+    def symmetric_family(self, method: Method) -> Family | None:
+        """Return None: no format is named after this family."""
+        return None
+
+    def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
         """Return symmetric compositions with random steps, as many as conditions up to ``order`` and more."""
         steps = 1 + sum(len(self.independent(n)) for n in range(1, order + 1))
         half = [ring.random(generator) for _ in range(steps)]
         return Composition("symmetric-2", (*half, *half[:-1][::-1]))
-
-
-def create() -> SymmetricCompositionFamily:
-    """Return the family.
-
-    >>> [len(create().conditions(n)) for n in range(1, 8)]
-    [1, 0, 1, 0, 2, 0, 4]
-    """
-    return SymmetricCompositionFamily()
 
 
 def _step(letters: Word, i: str) -> tuple[Formula, int]:
@@ -99,7 +119,7 @@ def _step(letters: Word, i: str) -> tuple[Formula, int]:
 
 
 @lru_cache(maxsize=1 << 12)
-def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Any], ...]:
+def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
     factors = in_lyndon_words(word)
     if set(factors) != {(word,)}:
         result: Polynomial = {}
@@ -110,7 +130,7 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Any], ...]:
             result = add(result, product_of_values)
         return tuple(result.items())
     if sum(word) % 2:
-        return (((word,), 1),)
+        return (((word,), Fraction(1)),)
     # At even weight the logarithm vanishes: sum over cuts of (-1)^(m+1)/m prod of values = 0.
     result = {}
     for lengths in compositions(len(word)):

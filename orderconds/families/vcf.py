@@ -7,15 +7,22 @@ that Section 3.5 of Bogfjellmo and Marthinsen points to. Negative weights are no
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, ClassVar, Self
 
-from orderconds.families import require_nonzero_weights
 from orderconds.families.action_family import ActionFamily
 from orderconds.families.action_formula import ActionFormula, CommutatorFreeFormula
+from orderconds.families.base import all_nonzero, require_nonzero_weights
 from orderconds.families.cf import exponentials
+from orderconds.families.registry import register
 from orderconds.ring.protocol import Ring
 from orderconds.series.action import ActionSeries, CommutatorFreeSeries, crouch_grossman_rows
 from orderconds.series.b_series import sparse
+from orderconds.tableau.methods import CommutatorFree, RungeKutta
+from orderconds.tableau.palindromes import symmetric_paths
+from orderconds.tableau.products import Method
+from orderconds.tableau.record import Tableau
+from orderconds.tableau.work import Work, commutator_free_work
 
 if TYPE_CHECKING:
     import numpy as np
@@ -23,25 +30,33 @@ if TYPE_CHECKING:
     from orderconds.ring.residues import Residues
 
 
+@register
 class VariationalCommutatorFree(ActionFamily):
     """The family ``vcf``; ``update`` and ``stage`` say how many exponentials there are when conditions count.
 
     Without them there are as many as can make a difference, and the independent conditions are as many as
     there are elementary Hamiltonians. A Runge-Kutta tableau is read with one stage in each exponential.
 
-    >>> [len(create().conditions(n)) for n in (1, 2, 3, 4)]
+    >>> [len(VariationalCommutatorFree().conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 6, 28]
     """
 
     name = "vcf"
+    description = "Variational commutator-free methods: VCG with several stages in one exponential."
     formats = ("cf", "rk")
+    implies: ClassVar[Mapping[str, str]] = {
+        "cf": "a Hamiltonian linear in the momentum has the flow of any field on G"
+    }
+    unknowns = "cf"
+    equal_abscissae = True
+    principal_error_limit = 6
 
     def __init__(self, update: int | None = None, stage: int | None = None) -> None:
         self.update, self.stage = update, stage
 
-    def series(self, method: Any, ring: Ring) -> ActionSeries:
-        """Return the action series of ``method.stages`` and ``method.update``, or of a tableau (A, b)."""
-        if not hasattr(method, "update"):
+    def series(self, method: Method, ring: Ring) -> ActionSeries:
+        """Return the action series of a commutator-free method, or of a tableau (A, b)."""
+        if isinstance(method, RungeKutta):
             require_nonzero_weights(self.label(), ring, method.b)
             return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, method.A, method.b))
         weights = [sum(column, ring.zero) for column in zip(*exponentials(method)[-1], strict=True)]
@@ -64,11 +79,18 @@ class VariationalCommutatorFree(ActionFamily):
         """Return the writer of index sums over alpha, beta, b, c."""
         return CommutatorFreeFormula()
 
+    @classmethod
+    def claimable(cls, tableau: Tableau) -> Self | None:
+        """Commutator-free methods without zero weights; of a tableau (A, b) the order is that of ``vcg``."""
+        method, ring = tableau.method, tableau.ring
+        if not isinstance(method, CommutatorFree):
+            return None
+        return cls() if all_nonzero(method.as_runge_kutta(ring).b, ring) else None
 
-def create(update: int | None = None, stage: int | None = None) -> VariationalCommutatorFree:
-    """Return the family, its independent conditions for so many exponentials in the update and in a stage.
+    def is_symmetric(self, method: Method, ring: Ring) -> bool:
+        """Whether the paths to the stages are symmetric."""
+        return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
-    >>> [len(create(update=2, stage=2).conditions(n)) for n in (3, 4)]
-    [6, 27]
-    """
-    return VariationalCommutatorFree(update, stage)
+    def work(self, tableau: Tableau) -> Work | None:
+        """Return evaluations and exponentials."""
+        return commutator_free_work(tableau)

@@ -6,13 +6,20 @@ Equations (3.18), (3.19) of Bogfjellmo and Marthinsen. Order 3 gives the six con
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, ClassVar
 
-from orderconds.families import require_nonzero_weights
 from orderconds.families.action_family import ActionFamily
 from orderconds.families.action_formula import ActionFormula, CrouchGrossmanFormula
+from orderconds.families.base import expect, require_nonzero_weights
+from orderconds.families.cg import symmetric_crouch_grossman
+from orderconds.families.registry import register
 from orderconds.ring.protocol import Ring
 from orderconds.series.action import ActionSeries, CommutatorFreeSeries, crouch_grossman_rows
+from orderconds.tableau.methods import RungeKutta
+from orderconds.tableau.products import Method
+from orderconds.tableau.record import Tableau
+from orderconds.tableau.work import Work, crouch_grossman_work
 
 if TYPE_CHECKING:
     import numpy as np
@@ -20,6 +27,7 @@ if TYPE_CHECKING:
     from orderconds.ring.residues import Residues
 
 
+@register
 class VariationalCrouchGrossman(ActionFamily):
     """The family ``vcg`` of tableaux (A, b) with all b_i non-zero.
 
@@ -31,12 +39,26 @@ class VariationalCrouchGrossman(ActionFamily):
     """
 
     name = "vcg"
+    description = (
+        "Variational Crouch-Grossman methods: a Butcher tableau on T*G, one exponential for each coefficient."
+    )
     formats = ("rk",)
+    illustrates = ("action",)
+    implies: ClassVar[Mapping[str, str]] = {
+        "cg": "a Hamiltonian linear in the momentum has the flow of any field on G",
+        "sprk": "a vector space is a group",
+        "vcf": "one stage in each exponential",
+    }
+    abelian = "sprk"
+    unknowns = "rk"
+    equal_abscissae = True
+    principal_error_limit = 6
 
-    def series(self, method: Any, ring: Ring) -> ActionSeries:
-        """Return the action series of the tableau ``method.A``, ``method.b``."""
-        require_nonzero_weights(self.label(), ring, method.b)
-        return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, method.A, method.b))
+    def series(self, method: Method, ring: Ring) -> ActionSeries:
+        """Return the action series of a tableau (A, b)."""
+        tableau = expect(method, RungeKutta)
+        require_nonzero_weights(self.label(), ring, tableau.b)
+        return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, tableau.A, tableau.b))
 
     def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
         """Return the series of random full tableaux; from order - 1 stages on ranks stand."""
@@ -48,11 +70,10 @@ class VariationalCrouchGrossman(ActionFamily):
         """Return the writer of index sums over a, b, c."""
         return CrouchGrossmanFormula()
 
+    def is_symmetric(self, method: Method, ring: Ring) -> bool:
+        """Whether the paths to the stages are symmetric."""
+        return symmetric_crouch_grossman(method, ring)
 
-def create() -> VariationalCrouchGrossman:
-    """Return the family.
-
-    >>> create().label()
-    'vcg'
-    """
-    return VariationalCrouchGrossman()
+    def work(self, tableau: Tableau) -> Work | None:
+        """Return evaluations and exponentials."""
+        return crouch_grossman_work(tableau)

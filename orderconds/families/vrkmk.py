@@ -2,20 +2,26 @@
 
 Equation (3.16) of Bogfjellmo and Marthinsen. The order is computed from the method's own series; it comes out
 as min(p, R + 2), p the order as symplectic partitioned method and R as for RKMK, sharper than Theorem 3.5.3:
-:func:`orderconds.series.action_cutoff.highest_order` computes R + 2.
+the tests compute R + 2 from the series.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, ClassVar
 
-from orderconds.errors import InputError
-from orderconds.families import require_nonzero_weights
-from orderconds.families.action_family import ActionFamily
+from orderconds.conditions import OrderCondition
+from orderconds.families.action_family import ActionFamily, longest_word
 from orderconds.families.action_formula import ActionFormula, MuntheKaasFormula
+from orderconds.families.base import Key, expect, require_nonzero_weights
+from orderconds.families.dexpinv_cut import DexpinvCut
+from orderconds.families.registry import register
 from orderconds.ring.protocol import Ring
 from orderconds.series.action import ActionSeries
 from orderconds.series.action_lie import MuntheKaasActionSeries
+from orderconds.series.action_trees import Velocity, transport, velocity
+from orderconds.tableau.methods import RungeKutta
+from orderconds.tableau.products import Method
 
 if TYPE_CHECKING:
     import numpy as np
@@ -23,7 +29,8 @@ if TYPE_CHECKING:
     from orderconds.ring.residues import Residues
 
 
-class VariationalMuntheKaas(ActionFamily):
+@register
+class VariationalMuntheKaas(DexpinvCut, ActionFamily):
     """The family ``vrkmk(r)`` of tableaux (A, b) with all b_i non-zero.
 
     >>> [len(VariationalMuntheKaas(cutoff=2).conditions(n)) for n in (1, 2, 3, 4)]
@@ -31,19 +38,31 @@ class VariationalMuntheKaas(ActionFamily):
     """
 
     name = "vrkmk"
-    formats: tuple[str, ...] = ("rk",)
+    description = (
+        "Variational Runge-Kutta-Munthe-Kaas methods with dexpinv cut after the power r: ``vrkmk(r)``."
+    )
+    formats = ("rk",)
+    implies: ClassVar[Mapping[str, str]] = {"sprk": "a vector space is a group"}
+    abelian: ClassVar[str | None] = "sprk"
+    unknowns: ClassVar[str | None] = "rk"
 
-    def __init__(self, cutoff: int | None = None) -> None:
-        self.cutoff = cutoff
+    def series(self, method: Method, ring: Ring) -> ActionSeries:
+        """Return the action series of a tableau (A, b)."""
+        tableau = expect(method, RungeKutta)
+        require_nonzero_weights(self.label(), ring, tableau.b)
+        return MuntheKaasActionSeries(ring, tableau.A, tableau.b, self.cutoff)
 
-    def label(self) -> str:
-        """Return ``vrkmk(r)``, or ``vrkmk`` when dexpinv is not cut."""
-        return self.name if self.cutoff is None else f"{self.name}({self.cutoff})"
+    def longest_word(self, key: Key) -> int:
+        """Return the length of the longest word in an action tree."""
+        assert isinstance(key, Velocity)
+        return longest_word(key)
 
-    def series(self, method: Any, ring: Ring) -> ActionSeries:
-        """Return the action series of the tableau ``method.A``, ``method.b``."""
-        require_nonzero_weights(self.label(), ring, method.b)
-        return MuntheKaasActionSeries(ring, method.A, method.b, self.cutoff)
+    def first_unmet(self, order: int) -> OrderCondition | None:
+        """Return the condition of the tree ``o(o|L(o ... o))``, on which a cut of dexpinv shows first."""
+        if self.cutoff is None or order < 3:
+            return None
+        leaf = velocity()
+        return self.condition(velocity((leaf,), (transport((leaf,) * (order - 2)),)))
 
     def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
         """Return the series of random full tableaux."""
@@ -54,16 +73,3 @@ class VariationalMuntheKaas(ActionFamily):
     def formula(self) -> ActionFormula:
         """Return the writer of index sums over a, b, c."""
         return MuntheKaasFormula(self.cutoff)
-
-
-def create(cutoff: int | None = None) -> VariationalMuntheKaas:
-    """Return the family with dexpinv cut after the power ``cutoff``, or uncut.
-
-    Raises :class:`~orderconds.errors.InputError` for a negative cutoff.
-
-    >>> create(cutoff=2).label(), create().label()
-    ('vrkmk(2)', 'vrkmk')
-    """
-    if cutoff is not None and not (isinstance(cutoff, int) and cutoff >= 0):
-        raise InputError(f"cutoff {cutoff!r}", where="family vrkmk", expected="an integer >= 0")
-    return VariationalMuntheKaas(cutoff)

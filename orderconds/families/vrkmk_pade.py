@@ -1,21 +1,38 @@
-"""VRKMK with the inverse of dexp cut off in place of dexp^{-1} cut off: ``vrkmk_pade(r)``, for the compiler.
+"""VRKMK with the inverse of dexp cut off in place of dexp^{-1} cut off: ``vrkmk_pade(r)``.
 
+The stage velocities solve dexp_(r),X_i v_i = xi_i (Marthinsen's thesis, Section 3.4.1, alternative approach).
 The conditions are those of every variational family; the left-hand sides come from the method's own action
-series. The index sums are not spelled out.
+series.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Self
 
-from orderconds.families import require_nonzero_weights
+from orderconds.families.action_formula import ActionFormula, PadeFormula
+from orderconds.families.base import Family, expect, require_nonzero_weights
+from orderconds.families.reductions import UnseenCut
+from orderconds.families.registry import register
 from orderconds.families.vrkmk import VariationalMuntheKaas
 from orderconds.ring.protocol import Ring
-from orderconds.series.action_lie import MuntheKaasActionSeries, PadeActionSeries
+from orderconds.series.action import ActionSeries
+from orderconds.series.action_lie import PadeActionSeries
+from orderconds.tableau.methods import RungeKutta
+from orderconds.tableau.products import Method
+from orderconds.tableau.record import Tableau
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from orderconds.ring.residues import Residues
 
 
+@register
 class VariationalMuntheKaasPade(VariationalMuntheKaas):
-    """The family of tableaux (A, b), all b_i non-zero, with dexp_(r),X_i v_i = xi_i (thesis section 3.4.1).
+    """The family of tableaux (A, b), all b_i non-zero, with dexp cut after the power ``cutoff``.
+
+    Without a cutoff the whole of dexp is inverted, which is ``vrkmk`` uncut.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss = Tableau.load(find("gauss1"))
@@ -25,11 +42,41 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
     """
 
     name = "vrkmk_pade"
+    description = "VRKMK with dexp cut after the power r, and inverted: ``vrkmk_pade(r)``."
 
-    def __init__(self, cutoff: int) -> None:
-        super().__init__(cutoff)
+    def series(self, method: Method, ring: Ring) -> ActionSeries:
+        """Return the action series of a tableau (A, b)."""
+        if self.cutoff is None:
+            return super().series(method, ring)
+        tableau = expect(method, RungeKutta)
+        require_nonzero_weights(self.label(), ring, tableau.b)
+        return PadeActionSeries(ring, tableau.A, tableau.b, self.cutoff)
 
-    def series(self, method: Any, ring: Ring) -> MuntheKaasActionSeries:
-        """Return the action series of the tableau ``method.A``, ``method.b``."""
-        require_nonzero_weights(self.label(), ring, method.b)
-        return PadeActionSeries(ring, method.A, method.b, self.cutoff)
+    def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
+        """Return the series of random full tableaux."""
+        if self.cutoff is None:
+            return super().random_series(ring, generator, order)
+        stages = max(order - 1, 2)
+        rows = [[ring.random(generator) for _ in range(stages)] for _ in range(stages + 1)]
+        return PadeActionSeries(ring, rows[:-1], rows[-1], self.cutoff)
+
+    def formula(self) -> ActionFormula:
+        """Return the writer of index sums over a, b, c."""
+        return super().formula() if self.cutoff is None else PadeFormula(self.cutoff)
+
+    @classmethod
+    def claimable(cls, tableau: Tableau) -> Self | None:
+        """No tableau: an order may be claimed, none is missed."""
+        return None
+
+    def claimed_variants(self) -> tuple[Family, ...]:
+        """Return the family alone."""
+        return (self,)
+
+    def implied_order(self, orders: Mapping[str, int]) -> int:
+        """Return the order up to 2: no theorem about this cut is used beyond."""
+        return min(2, orders.get("rk", 0))
+
+    def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
+        """Return None: no theorem about this cut is used."""
+        return None

@@ -1,4 +1,4 @@
-"""What families have in common whose conditions are values on words over a graded alphabet.
+"""Families whose conditions are values on words over a graded alphabet.
 
 Values of a group-like series multiply over shuffles, so that those on Lyndon words determine all and are
 independent (Radford 1979; Reutenauer, Free Lie Algebras, Thm 6.1). Words are written in the order of action.
@@ -6,18 +6,20 @@ independent (Radford 1979; Reutenauer, Free Lie Algebras, Thm 6.1). Words are wr
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import cached_property, partial
 from math import prod
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from orderconds.conditions import OrderCondition
-from orderconds.families.once import Once
+from orderconds.families.base import Family
+from orderconds.families.memo import Memo
 from orderconds.families.relations import Polynomial, with_relations
 from orderconds.formula import Formula
 from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.products import Method
 from orderconds.words.lyndon import lyndon_words
 from orderconds.words.radford import in_lyndon_words
 from orderconds.words.shuffle import Word
@@ -27,22 +29,11 @@ if TYPE_CHECKING:
 
     from orderconds.ring.residues import Residues
 
-StageNames = tuple[tuple[str, tuple[str, ...]], ...]
-"""Letters and indices of coefficients, as ``(("a", ("1",)), ("b", ("1",)))``."""
 
-
-class WordFamily(ABC):
+class WordFamily(Family):
     """A family with one condition a word over letters of positive weight."""
 
-    name: str
-    formats: tuple[str, ...]
-    needs_nonzero_weights = False
-    search_limit = 8
     trees = "graded"
-
-    def label(self) -> str:
-        """Return the name with its options."""
-        return self.name
 
     @abstractmethod
     def words(self, order: int) -> tuple[Word, ...]:
@@ -57,11 +48,11 @@ class WordFamily(ABC):
         """Return the index sum of ``scale(word)`` times the method's value on a word."""
 
     @abstractmethod
-    def series(self, method: Any, ring: Ring) -> Callable[[Word], Element]:
+    def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
         """Return the values of one step of ``method`` on words, elements of ``ring``."""
 
     @abstractmethod
-    def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Any:
+    def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
         """Return random members, one a sample, free enough to tell conditions up to ``order`` apart."""
 
     def independent(self, order: int) -> tuple[Word, ...]:
@@ -78,7 +69,7 @@ class WordFamily(ABC):
         return 1
 
     def text(self, word: Word) -> str:
-        """Spell a word."""
+        """Return a word as text."""
         return " ".join(map(str, word))
 
     def polynomial(self, word: Word) -> Polynomial:
@@ -94,12 +85,14 @@ class WordFamily(ABC):
         return with_relations(map(self._condition, self.words(order)), self._scaled, self.text)
 
     @cached_property
-    def _once(self) -> Once[Callable[[Word], Element]]:
-        return Once(self.series)
+    def _memo(self) -> Memo[Callable[[Word], Element]]:
+        return Memo(self.series)
 
-    def evaluate(self, method: Any, ring: Ring, conditions: Sequence[OrderCondition]) -> tuple[Element, ...]:
+    def evaluate(
+        self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
+    ) -> tuple[Element, ...]:
         """Return the step's values on the words of ``conditions``, each times its scale."""
-        series = self._once(method, ring)
+        series = self._memo(method, ring)
         return tuple(series(c.key) * self.scale(c.key) for c in conditions)
 
     def _scaled(self, word: Word) -> Polynomial:

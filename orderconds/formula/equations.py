@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 
 LINE = 60
-"""How many signs wide a line may be before it is broken: about the text width of an article."""
+"""The largest width of a line in signs, about the text width of an article."""
 
 _TOKEN = re.compile(r"\\[A-Za-z]+ ?|\\.|[{}]| [+-] |.")
 
@@ -14,7 +14,7 @@ _TOKEN = re.compile(r"\\[A-Za-z]+ ?|\\.|[{}]| [+-] |.")
 def aligned(equations: Iterable[tuple[str, str, str]]) -> str:
     r"""Return an ``align*`` environment (package amsmath) of (comment, left-hand side, right-hand side).
 
-    The signs of equality stand below each other, unless a line is broken; then everything starts at the left.
+    The signs of equality are aligned, unless a line is broken; then every line starts at the left.
 
     >>> print(aligned([("order 1", r"\sum_{i} b_{i}", "1")]))
     \begin{align*}
@@ -57,7 +57,7 @@ def broken(latex: str, line: int = LINE) -> list[str]:
 
 
 def _terms(latex: str, within: int) -> list[str]:
-    """Split before the plus and minus signs that stand in at most so many brackets and in no braces."""
+    """Split before plus and minus signs inside at most ``within`` brackets and no braces."""
     terms, brackets, braces = [""], 0, 0
     for token in _TOKEN.findall(latex):
         braces += (token == "{") - (token == "}")

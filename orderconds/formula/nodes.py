@@ -9,11 +9,12 @@ from __future__ import annotations
 import itertools
 from collections.abc import Container, Hashable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
-from orderconds.ring.protocol import Element, Ring
+if TYPE_CHECKING:
+    from sympy import Expr
 
 Relation = tuple[str, str, str]
 """``("i", "<", "j")`` or ``("i", "<=", "j")``: a restriction on two indices of one sum."""
@@ -28,31 +29,22 @@ class Formula(Struct, frozen=True):
     """A node of the syntax tree: Coefficient, Product, Power, Total or IndexSum."""
 
     def text(self) -> str:
-        """Spell the formula in ASCII, as ``sum_{i,j} b_i a_ij c_j``."""
-        from orderconds.formula.spelling import TEXT, spell
+        """Return the formula in ASCII, as ``sum_{i,j} b_i a_ij c_j``."""
+        from orderconds.formula.rendering import TEXT, render
 
-        return spell(self, TEXT)
+        return render(self, TEXT)
 
     def latex(self) -> str:
-        """Spell the formula for LaTeX's mathematics mode."""
-        from orderconds.formula.spelling import LATEX, spell
+        """Return the formula for LaTeX's mathematics mode."""
+        from orderconds.formula.rendering import LATEX, render
 
-        return spell(self, LATEX)
+        return render(self, LATEX)
 
-    def sympy(self) -> Any:
+    def sympy(self) -> Expr:
         """Return a SymPy expression; stages run from 1 to ``s``, exponentials to ``m``."""
         from orderconds.formula.sympy_form import export
 
         return export(self)
-
-    def evaluate(self, ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element]) -> Element:
-        """Sum by brute force for the Runge-Kutta tableau (A, b), elements of ``ring``.
-
-        Derived are ``c_i = sum_j a_ij``, ``ahat_ij = b_j - b_j a_ji / b_i``, ``chat_i = sum_j ahat_ij``.
-        """
-        from orderconds.formula.brute_force import RungeKuttaTables, value
-
-        return value(self, ring, RungeKuttaTables(ring, A, b))
 
 
 class Coefficient(Formula, frozen=True):
@@ -183,11 +175,11 @@ def index_sum(indices: Sequence[str], relations: Iterable[Relation], body: Formu
         return body
     if isinstance(body, Total) and len(body.terms) <= 1:
         return total(*((scale, index_sum(indices, relations, inner)) for scale, inner in body.terms))
-    found = body.factors if isinstance(body, Product) else (body,)
-    if not any(isinstance(factor, IndexSum) for factor in found):
+    parts = body.factors if isinstance(body, Product) else (body,)
+    if not any(isinstance(factor, IndexSum) for factor in parts):
         return IndexSum(tuple(indices), tuple(relations), body)
     all_indices, all_relations, factors = list(indices), list(relations), []
-    for factor in found:
+    for factor in parts:
         if isinstance(factor, IndexSum):
             all_indices += factor.indices
             all_relations += factor.relations
@@ -234,7 +226,7 @@ def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
 def named(formula: Formula, names: Mapping[str, str] | None = None) -> Formula:
     """Name bound indices in reading order: i, j, k ... for stages, I, J, K ... for exponentials.
 
-    Free indices are renamed by ``names``, if they stand there. Sums that differ by the names of bound
+    Free indices are renamed by ``names``, if they occur there. Sums that differ by the names of bound
     indices only become identical.
 
     >>> i = fresh()
@@ -294,27 +286,27 @@ def free_indices(formula: Formula) -> tuple[str, ...]:
     """
     match formula:
         case Coefficient(_, indices):
-            found: Iterable[str] = indices
+            names: Iterable[str] = indices
         case Product(factors):
-            found = itertools.chain.from_iterable(free_indices(factor) for factor in factors)
+            names = itertools.chain.from_iterable(free_indices(factor) for factor in factors)
         case Power(base, _):
-            found = free_indices(base)
+            names = free_indices(base)
         case Total(terms):
-            found = itertools.chain.from_iterable(free_indices(term) for _, term in terms)
+            names = itertools.chain.from_iterable(free_indices(term) for _, term in terms)
         case IndexSum(indices, relations, body):
             inner = itertools.chain(free_indices(body), *((i, j) for i, _, j in relations))
-            found = [index for index in inner if index not in indices]
+            names = [index for index in inner if index not in indices]
         case _:
             raise TypeError(f"not a formula: {formula!r}")
-    return tuple(dict.fromkeys(found))
+    return tuple(dict.fromkeys(names))
 
 
 def _powers(factors: Iterable[Formula]) -> list[tuple[Formula, int]]:
-    found: list[tuple[Formula, int]] = []
+    powers: list[tuple[Formula, int]] = []
     for factor in factors:
         for part in factor.factors if isinstance(factor, Product) else (factor,):
-            found.append((part.base, part.exponent) if isinstance(part, Power) else (part, 1))
-    return found
+            powers.append((part.base, part.exponent) if isinstance(part, Power) else (part, 1))
+    return powers
 
 
 def _shape(formula: Formula, depths: Mapping[str, int]) -> Hashable:

@@ -1,22 +1,24 @@
 """Formulas as SymPy expressions: coefficients become ``IndexedBase`` entries, index sums become ``Sum``.
 
-SymPy is imported here only, and this module only where somebody asks for an expression.
+This is the only module of the symbolic side that imports SymPy at load time; it is loaded on demand.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import sympy
 
 from orderconds.formula.nodes import Coefficient, Formula, IndexSum, Power, Product, Relation, Total
 
+Limit = tuple[sympy.Symbol, sympy.Expr, sympy.Expr]
+"""A summation index with its first and its last value."""
+
 STAGES = sympy.Symbol("s", integer=True, positive=True)
 EXPONENTIALS = sympy.Symbol("m", integer=True, positive=True)
 
 
-def export(formula: Formula) -> Any:
+def export(formula: Formula) -> sympy.Expr:
     """Return the SymPy expression; indices count from 1, lower-case ones to ``s``, upper-case ones to ``m``.
 
     >>> from orderconds.formula import coefficient, index_sum
@@ -39,19 +41,19 @@ def export(formula: Formula) -> Any:
     raise TypeError(f"not a formula: {formula!r}")
 
 
-def _index(name: str) -> Any:
+def _index(name: str) -> sympy.Expr:
     return sympy.Symbol(name, integer=True, positive=True)
 
 
-def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[tuple[Any, Any, Any]]:
+def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit]:
     """Turn ``i < j`` into the range 1..j-1 of i, with i summed inside j; j from i+1 for i free."""
-    limits, waiting = [], list(indices)
-    while waiting:
+    limits, remaining = [], list(indices)
+    while remaining:
         # SymPy's innermost limit comes first: an index goes once none that waits is bounded by it.
         index = next(
-            x for x in waiting if not any(high == x and low in waiting for low, _, high in relations)
+            x for x in remaining if not any(high == x and low in remaining for low, _, high in relations)
         )
-        waiting.remove(index)
+        remaining.remove(index)
         bounds = [_index(high) - int(sign == "<") for low, sign, high in relations if low == index]
         last = EXPONENTIALS if index[0].isupper() else STAGES
         lowest = [
@@ -64,17 +66,17 @@ def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[tuple
     return limits
 
 
-def written_out(expression: Any, stages: int, exponentials: int = 1) -> Any:
+def expand_sums(expression: sympy.Expr, stages: int, exponentials: int = 1) -> sympy.Expr:
     """Expand the sums of an exported expression for a number of stages (SymPy's ``doit`` stops at ``i < j``).
 
     >>> from orderconds.formula import coefficient, index_sum, product
     >>> body = product(coefficient("b", "i"), coefficient("c", "j"))
     >>> strict = index_sum(("i", "j"), (("i", "<", "j"),), body)
-    >>> written_out(export(strict), 3)
+    >>> expand_sums(export(strict), 3)
     b[1]*c[2] + b[1]*c[3] + b[2]*c[3]
     """
 
-    def summed(body: Any, *limits: Any) -> Any:
+    def summed(body: sympy.Expr, *limits: sympy.Expr) -> sympy.Expr:
         if not limits:
             return body
         *inner, (index, first, last) = limits

@@ -14,8 +14,8 @@ makes the others follow is verified exactly, on the file and not on its decimals
 ``low-storage``  a 2N scheme: on a group it has the order that it has on a vector space (see below).
 ``simplifying``  B(p), C(q), D(r) imply order min(p, q + r + 1, 2q + 2) (Butcher 1964; Hairer, Norsett and
                  Wanner, Theorem II.7.4).
-``spelling``     coefficients of the file that are spelled by others make it one of a sub-family, in which
-                 some of the conditions follow from the others (:mod:`orderconds.proof.spelling`).
+``spelling``     coefficients given by formulas in others define a sub-family, in which some of the
+                 conditions follow from the others (:mod:`orderconds.proof.subfamily`).
 
 2N schemes. With y_j, k_j, f_j the values of Y_j, K_j, F(Y_j) on a word or tree, k_j = A_j k_{j-1} + f_j and
 y_{j+1} = y_j + B_j k_j on single trees, D_j = y_j(t) k_j(u) - y_j(u) k_j(t) is not changed by y_j ->
@@ -32,26 +32,20 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
 
 from orderconds import families
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError, TableauError
 from orderconds.families import Family
+from orderconds.families.base import expect
 from orderconds.proof.krawczyk import NotProved
-from orderconds.proof.simplifying import simplifying, simplifying_order
 from orderconds.ring.jets import Jet
 from orderconds.ring.protocol import Element, Ring
-from orderconds.tableau import Composition, Magnus, Tableau
+from orderconds.tableau import Magnus, Method, RungeKutta, Tableau
 from orderconds.tableau.evaluate import evaluate, rounded_and_exact
 from orderconds.tableau.properties import properties
-from orderconds.tableau.unknowns import Proof
-
-COMPOSITION = "composition"
-"""The fact that a composition of a symmetric method of order 2 has an order, whatever the method."""
-
-SYMMETRIC = "symmetric_composition"
-"""The family whose conditions are then the equations."""
+from orderconds.tableau.simplifying import simplifying, simplifying_order
+from orderconds.tableau.unknowns import Proof, RootedRing
 
 LOW_STORAGE_ORDER = 5
 """Up to here the tests compute that 2N schemes have no conditions but those of rooted trees."""
@@ -70,7 +64,7 @@ class Equations:
     """The conditions that do not follow from others, for the reduction ``spelling``."""
 
     def __call__(
-        self, point: Sequence[Element], ring: Any, places: Sequence[int] | None = None
+        self, point: Sequence[Element], ring: RootedRing, places: Sequence[int] | None = None
     ) -> list[Element]:
         """Return left-hand sides less right-hand sides; ``point`` are the unknowns' values in ``ring``.
 
@@ -79,22 +73,15 @@ class Equations:
         values = {u.name: x for u, x in zip(self.proof.unknowns, point, strict=True)}
         method, _ = self.proof.over(ring, values)
         if self.proof.reduction == "simplifying":
-            every = list(simplifying(method, ring, self.proof.assumptions))
+            every = list(simplifying(expect(method, RungeKutta), ring, self.proof.assumptions))
             return every if places is None else [every[i] for i in places]
-        composed = self.proof.reduction == "symmetric" and isinstance(method, Composition)
-        family = families.get(SYMMETRIC if composed else self.proof.conditions)
-        read = replace(self.tableau, ring=ring, method=method).read_as(family.formats)
-        if read is None and family.name == "rk":
-            read = replace(self.tableau, ring=ring, method=method).abelian()
-        if read is None:
-            raise InputError(
-                f"conditions = {self.proof.conditions!r}",
-                where=f"{self.tableau.path or self.tableau.name}: proof",
-                expected=f"a family that reads format {self.tableau.family}",
-            )
+        family = families.get(self.proof.conditions)
+        if self.proof.reduction == "symmetric":
+            family = families.get(self.tableau.family).symmetric_family(method) or family
+        read = _read(family, replace(self.tableau, ring=ring, method=method), self.proof)
         conditions = self._conditions(family)
         wanted = conditions if places is None else [conditions[i] for i in places]
-        return list(families.residuals(family, read, ring, wanted))
+        return list(family.residuals(read, ring, wanted))
 
     def _conditions(self, family: Family) -> tuple[OrderCondition, ...]:
         if self.kept is not None:
@@ -102,6 +89,17 @@ class Equations:
         return _up_to(
             family.label(), self.proof.order, 2 if self.proof.reduction == "symmetric" else 1, self.letters
         )
+
+
+def _read(family: Family, tableau: Tableau, proof: Proof) -> Method:
+    method = family.read(tableau)
+    if method is None:
+        raise InputError(
+            f"conditions = {proof.conditions!r}",
+            where=f"{tableau.path or tableau.name}: proof",
+            expected=f"a family that reads format {tableau.family}",
+        )
+    return method
 
 
 @lru_cache(maxsize=8)
@@ -133,20 +131,16 @@ def equations(tableau: Tableau) -> Equations:
             raise NotProved(
                 f"reduction: the order of a symmetric method is even, the file says {proof.order}"
             )
-        label = (
-            COMPOSITION if isinstance(tableau.method, Composition) else families.get(proof.conditions).label()
-        )
-        facts = [(label, proof.order)]
-        if label == "rkn":
-            # [V,[V,[V,T]]] = 0 concerns words of four letters and more; the order is even.
-            facts.append(("splitting", min(proof.order, 4)))
-        return Equations(tableau, proof, tuple(facts), _letters(tableau, proof))
+        own, named = families.get(tableau.family), families.get(proof.conditions)
+        family = named if own.symmetric_family(tableau.method) is None else own
+        return Equations(tableau, proof, family.symmetric_facts(proof.order), _letters(tableau, proof))
     if proof.reduction == "low-storage":
         if not any(place.startswith("low_storage.") for place in proof.spelled.expressions):
             raise NotProved("reduction: the file gives no low_storage scheme")
-        if proof.conditions != "rk" or proof.order > LOW_STORAGE_ORDER:
+        implied = families.get(proof.conditions).low_storage
+        if not implied or proof.order > LOW_STORAGE_ORDER:
             raise NotProved(f'reduction: low-storage takes conditions = "rk" up to order {LOW_STORAGE_ORDER}')
-        return Equations(tableau, proof, (("rk", proof.order), ("cf", proof.order)))
+        return Equations(tableau, proof, tuple((label, proof.order) for label in implied))
     fact = (families.get(proof.conditions).label(), proof.order)
     kept = _independent(tableau, proof) if proof.reduction == "spelling" else None
     return Equations(tableau, proof, (fact,), kept=kept)
@@ -157,15 +151,15 @@ def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
 
     Where there are as many as unknowns a proof needs them all.
     """
-    from orderconds.proof.spelling import decisive_conditions, independent_conditions
+    from orderconds.proof.subfamily import decisive_conditions, independent_conditions
 
     family = families.get(proof.conditions)
     candidates = tuple(c for of_order in decisive_conditions(family, proof.order) for c in of_order)
     if len(candidates) == len(proof.unknowns):
         return candidates
 
-    def read(method: Any, ring: Any) -> Any:
-        return replace(tableau, ring=ring, method=method).read_as(family.formats) or method
+    def read(method: Method, ring: Ring) -> Method:
+        return _read(family, replace(tableau, ring=ring, method=method), proof)
 
     return independent_conditions(family, proof.spelled, proof.order, read)
 
@@ -216,8 +210,9 @@ def _reached(proof: Proof, order: int) -> int:
 def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
     """Return the places of the equations that are not satisfied identically, whatever the unknowns are.
 
-    Those that a box cannot tell from constants are evaluated as polynomials in the unknowns; one that is
-    the zero polynomial is left out. ``values`` are those over the box, as jets.
+    Those that a box cannot tell from constants are evaluated exactly with random numbers in place of the
+    unknowns (:mod:`orderconds.tableau.random_member`); one that is zero there is left out. ``values`` are
+    those over the box, as jets.
 
     >>> from flint import arb
     >>> from orderconds.ring.jets import Jets
@@ -231,12 +226,12 @@ def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
     flat = [i for i, f in enumerate(values) if f.value.contains(0) and all(g.contains(0) for g in f.gradient)]
     if not flat:
         return list(range(len(values)))
-    from orderconds.tableau.indeterminates import OUTSIDE, Indeterminates
+    from orderconds.tableau.random_member import OUTSIDE, RandomMember
 
-    R = Indeterminates(system.proof.spelled)
+    R = RandomMember(system.proof.spelled)
     try:
-        exact = system([R.variable(u) for u in system.proof.unknowns], R, flat)
+        exact = system([R.variable(u.constant) for u in system.proof.unknowns], R, flat)
     except OUTSIDE:
-        return list(range(len(values)))  # radicals or quotients of unknowns
+        return list(range(len(values)))
     identical = {i for i, x in zip(flat, exact, strict=True) if R.is_zero(x)}
     return [i for i in range(len(values)) if i not in identical]

@@ -10,6 +10,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import cast
 
 from flint import arb, arb_mat, fmpq
 
@@ -20,7 +21,7 @@ from orderconds.ring.decimals import endpoints
 from orderconds.ring.jets import Jets
 from orderconds.ring.precision import precision
 from orderconds.tableau import Tableau
-from orderconds.tableau.unknowns import Proof
+from orderconds.tableau.unknowns import Proof, RootedRing
 
 MAX_STEPS = 60
 TOLERANCE = fmpq(1, 100)
@@ -91,7 +92,10 @@ def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
         )
         size, i, j = max(entries, default=(0.0, 0, 0))
         if size < 1e-8:
-            raise NotProved(f"{len(rows)} of {len(jacobian)} equations depend on the others at the decimals")
+            raise NotProved(
+                f"only {len(jacobian) - len(rows)} of the {len(jacobian)} conditions are independent near "
+                'these decimals; write the coefficients in closed form, as "1/4 - sqrt(3)/6"'
+            )
         pivot = rows.pop(i)
         chosen.append(j)
         rows = [[x - row[j] / pivot[j] * y for x, y in zip(row, pivot, strict=True)] for row in rows]
@@ -120,7 +124,7 @@ def _newton(
 
 
 def decimal_places(x: arb, digits: int) -> str:
-    """Spell a positive number with so many places.
+    """Return a positive number as a decimal with ``digits`` places.
 
     >>> decimal_places(arb(2.5), 3)
     '2.500'
@@ -130,9 +134,8 @@ def decimal_places(x: arb, digits: int) -> str:
     return f"{figures[:-digits]}.{figures[-digits:]}"
 
 
-def _rational(x: object) -> fmpq:
-    numerator, denominator = x.as_integer_ratio()  # type: ignore[attr-defined]
-    return fmpq(numerator, denominator)
+def _rational(x: Fraction) -> fmpq:
+    return fmpq(*x.as_integer_ratio())
 
 
 def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequence[str]) -> str:
@@ -164,7 +167,7 @@ def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequen
     return "\n".join([*lines[:end], *added, *lines[end:]]) + "\n"
 
 
-def _figures(value: object, places: int) -> str:
+def _figures(value: Fraction, places: int) -> str:
     scaled = int(value * 10**places)
     figures = str(scaled).rjust(places + 1, "0")
     whole = figures[: len(figures) - places].lstrip("0")
@@ -175,7 +178,7 @@ def _figures(value: object, places: int) -> str:
 def _printed(proof: Proof, name: str) -> str:
     """Return the number of that name with the decimals as they stand."""
     at = replace(proof, pinned=(*proof.pinned, *proof.unknowns), unknowns=())
-    value = at.number(name, QQ, {})  # type: ignore[arg-type]  # a decimal has no radicals
+    value = at.number(name, cast("RootedRing", QQ), {})  # a decimal has no radicals
     return _spelled(Fraction(int(value.p), int(value.q)))
 
 

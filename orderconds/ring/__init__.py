@@ -1,7 +1,8 @@
 """Scalars behind one protocol: rationals, algebraic numbers, balls, power series, residues, polynomials.
 
-Every engine is written once against :class:`Ring` and runs over any of them. python-flint lives behind this
-package only. The names below load on first use (PEP 562), so that a rational tableau costs nothing else.
+Every engine is written once against :class:`Ring` and runs over any of them. Other packages import
+python-flint only where the import contract in pyproject.toml allows it. The names below load on first use
+(PEP 562), so that a rational tableau loads nothing else.
 """
 
 from __future__ import annotations

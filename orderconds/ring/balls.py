@@ -1,19 +1,19 @@
 """Certified real balls (Arb) of a fixed working precision.
 
 A ball encloses one unknown real number. It can prove that number different from zero, never equal to it,
-unless the ball is the single point zero, which is how structural zeros of a tableau survive.
+unless the ball is the single point zero: so structural zeros of a tableau stay zeros.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any
 
 from flint import arb, fmpq, fmpz
 
 from orderconds.ring.decimals import endpoints, rational_decimal, rational_float
 from orderconds.ring.precision import precision
+from orderconds.ring.protocol import Element
 from orderconds.ring.roots import isolate
 
 
@@ -94,7 +94,7 @@ class Balls:
         return 1 if x.value > 0 else -1
 
     def text(self, x: Ball) -> str:
-        """Spell x as a tableau coefficient: points exactly, others with ``~`` (one unit in the last digit).
+        """Return x as a tableau coefficient: points exactly, others with ``~`` (one unit in the last digit).
 
         >>> R = Balls(64)
         >>> R.text(R.rational(-3, 8)), R.text(R.around(fmpq(81772, 100000), fmpq(1, 100000)))
@@ -118,7 +118,7 @@ class Balls:
         return int(low.p), int(low.q), int(high.p), int(high.q)
 
     def approximate(self, x: Ball, digits: int = 20) -> str:
-        """Return the midpoint as a decimal; how many of its digits hold is what :meth:`radius` says."""
+        """Return the midpoint as a decimal; :meth:`radius` bounds its error."""
         low, high = endpoints(x.value)
         return rational_decimal((low + high) / 2, digits)
 
@@ -168,7 +168,7 @@ class Enclosures:
         return None if x.contains(0) else False
 
     def text(self, x: arb) -> str:
-        """Spell x as :meth:`Balls.text` does."""
+        """Return the text of :meth:`Balls.text`."""
         return Balls(self.bits).text(Ball(x, self.bits))
 
     def key(self, x: arb) -> tuple[int, ...]:
@@ -188,7 +188,7 @@ def _magnitude(x: arb) -> int:
 
 def _supported_places(radius: fmpq) -> int:
     """Return the most decimal places d with radius + half a unit <= one unit, that is 10^-d >= 2 radius."""
-    places = len(str(radius.q)) - len(str(radius.p))  # by flint: Python spells 4300 digits at most
+    places = len(str(radius.q)) - len(str(radius.p))  # by flint: Python converts 4300 digits at most
     while fmpq(10) ** -places < 2 * radius:
         places -= 1
     return places
@@ -206,12 +206,12 @@ class Ball:
     def __repr__(self) -> str:
         return f"Ball({self.value.str(12)})"
 
-    def _other(self, other: Any) -> Any:
+    def _other(self, other: object) -> Element:
         if isinstance(other, Ball):
             return other.value
         return other if isinstance(other, int | fmpq) else NotImplemented
 
-    def __add__(self, other: Any) -> Ball:
+    def __add__(self, other: object) -> Ball:
         if (y := self._other(other)) is NotImplemented:
             return NotImplemented
         with precision(self.bits):
@@ -219,19 +219,19 @@ class Ball:
 
     __radd__ = __add__
 
-    def __sub__(self, other: Any) -> Ball:
+    def __sub__(self, other: object) -> Ball:
         if (y := self._other(other)) is NotImplemented:
             return NotImplemented
         with precision(self.bits):
             return Ball(self.value - y, self.bits)
 
-    def __rsub__(self, other: Any) -> Ball:
+    def __rsub__(self, other: object) -> Ball:
         if (y := self._other(other)) is NotImplemented:
             return NotImplemented
         with precision(self.bits):
             return Ball(y - self.value, self.bits)
 
-    def __mul__(self, other: Any) -> Ball:
+    def __mul__(self, other: object) -> Ball:
         if (y := self._other(other)) is NotImplemented:
             return NotImplemented
         with precision(self.bits):
@@ -239,13 +239,13 @@ class Ball:
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Any) -> Ball:
+    def __truediv__(self, other: object) -> Ball:
         if (y := self._other(other)) is NotImplemented:
             return NotImplemented
         with precision(self.bits):
             return _finite(self.value / y, self.bits)
 
-    def __rtruediv__(self, other: Any) -> Ball:
+    def __rtruediv__(self, other: object) -> Ball:
         if (y := self._other(other)) is NotImplemented:
             return NotImplemented
         with precision(self.bits):

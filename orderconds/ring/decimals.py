@@ -7,12 +7,12 @@ until both of its ends round to the same answer, so the result never depends on 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from flint import arb, fmpq, fmpz
 
 Rounded = TypeVar("Rounded", str, float)
-Enclosure = Callable[[int], Any]
+Enclosure = Callable[[int], arb]
 """A real number as a function from bits of precision to a ball that contains it."""
 
 
@@ -33,7 +33,7 @@ def _dyadic(x: arb) -> fmpq:
 
 
 def rational_decimal(x: fmpq, digits: int) -> str:
-    """Spell x with ``digits`` significant digits, ties to even; an exact decimal drops its trailing zeros.
+    """Return x with ``digits`` significant digits, ties to even; an exact decimal drops its trailing zeros.
 
     >>> rational_decimal(fmpq(2, 3), 5), rational_decimal(fmpq(-1, 8), 20)
     ('0.66667', '-0.125')
@@ -57,15 +57,15 @@ def rational_decimal(x: fmpq, digits: int) -> str:
     figures = _figures(scaled)
     if rest == 0:
         figures = figures.rstrip("0")
-    return ("-" if x < 0 else "") + _spell(figures, exponent)
+    return ("-" if x < 0 else "") + _place_point(figures, exponent)
 
 
 def _figures(n: int) -> str:
-    """Return the decimal digits of n; flint spells integers of any length, Python none beyond 4300 digits."""
+    """Return the decimal digits of n; flint converts any integer, Python none beyond 4300 digits."""
     return str(fmpz(n))
 
 
-def _spell(figures: str, exponent: int) -> str:
+def _place_point(figures: str, exponent: int) -> str:
     """Place the point: plain notation near one, scientific far from it."""
     if -5 <= exponent < 0:
         return "0." + "0" * (-exponent - 1) + figures
@@ -78,7 +78,7 @@ def _spell(figures: str, exponent: int) -> str:
 
 
 def decimal(enclosure: Enclosure, digits: int) -> str:
-    """Spell an irrational number, known through its enclosures, correctly rounded to ``digits`` digits.
+    """Return an irrational number, known through its enclosures, correctly rounded to ``digits`` digits.
 
     >>> from orderconds.ring.precision import precision
     >>> def root(bits):

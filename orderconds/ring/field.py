@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from functools import cached_property
 from itertools import product
-from typing import Any
 
 from flint import arb, arb_poly, fmpq, fmpq_mat, fmpq_poly
 from msgspec import Struct
@@ -18,6 +17,7 @@ from msgspec import Struct
 from orderconds.ring.decimals import Enclosure, decimal, nearest_float, rational_decimal, rational_float
 from orderconds.ring.power import power
 from orderconds.ring.precision import precision
+from orderconds.ring.protocol import Element, Key
 from orderconds.ring.roots import isolating
 
 LARGE = 8
@@ -28,26 +28,26 @@ REMEMBERED = 1000
 
 
 class Generator(Struct, frozen=True):
-    """A root adjoined to a field: its spelling, the index n of a radical (0 for a named root), its enclosure.
+    """A root adjoined to a field: its symbol, the index n of a radical (0 for a named root), its enclosure.
 
-    A radical is spelled by its radicand, ``radicand^(1/index)``; a named root by its name. ``degree`` is
-    the degree of the field over the one before. ``minpoly`` is kept for named roots, so that a file can be
+    The symbol of a radical ``radicand^(1/index)`` is its radicand, that of a named root its name. ``degree``
+    is the degree of the field over the one before. ``minpoly`` is kept for named roots, so that a file can be
     written.
     """
 
-    spelling: str
+    symbol: str
     index: int
     degree: int
     enclosure: Enclosure
     minpoly: fmpq_poly | None = None
 
     def power(self, n: int) -> str:
-        """Spell the n-th power, n > 0."""
+        """Return the n-th power as text, n > 0."""
         if self.index == 0:
-            return self.spelling if n == 1 else f"{self.spelling}^{n}"
+            return self.symbol if n == 1 else f"{self.symbol}^{n}"
         if self.index == 2 and n == 1:
-            return f"sqrt({self.spelling})"
-        base = self.spelling if self.spelling.isdigit() else f"({self.spelling})"
+            return f"sqrt({self.symbol})"
+        base = self.symbol if self.symbol.isdigit() else f"({self.symbol})"
         return f"{base}^({n}/{self.index})"
 
 
@@ -84,8 +84,8 @@ class NumberField:
         return self.name
 
     @cached_property
-    def _identity(self) -> tuple[Any, ...]:
-        """What makes two fields one: the same generators with the same enclosed roots, adjoined alike."""
+    def _identity(self) -> Key:
+        """A key that equal fields share: their generators with the enclosed roots, in order."""
         return self.name, str(self.modulus), self.named_roots
 
     def __eq__(self, other: object) -> bool:
@@ -145,7 +145,7 @@ class NumberField:
     def named_roots(self) -> tuple[tuple[str, tuple[str, ...], str], ...]:
         """(name, minimal polynomial, isolating decimal) of the generators that have a name."""
         return tuple(
-            (g.spelling, tuple(str(c) for c in g.minpoly.coeffs()), isolating(g.minpoly, g.enclosure))
+            (g.symbol, tuple(str(c) for c in g.minpoly.coeffs()), isolating(g.minpoly, g.enclosure))
             for g in self.generators
             if g.minpoly is not None
         )
@@ -173,7 +173,7 @@ class NumberField:
         return tuple((self._to_monomials * _columns([polynomial], self.degree)).entries())
 
     def text(self, x: Algebraic) -> str:
-        """Spell x in the generators, in the grammar of tableau files.
+        """Return x as text in the generators, in the grammar of tableau files.
 
         >>> from orderconds.ring.tower import Tower
         >>> tower = Tower()
@@ -189,7 +189,7 @@ class NumberField:
         text = " ".join(terms).removeprefix("+ ")
         return "-" + text[2:] if text.startswith("- ") else text or "0"
 
-    def key(self, x: Algebraic) -> tuple[Any, ...]:
+    def key(self, x: Algebraic) -> Key:
         """Return the coefficients of the representing polynomial."""
         return tuple((int(c.p), int(c.q)) for c in x.polynomial.coeffs())
 
@@ -262,7 +262,7 @@ class Algebraic:
         factor = _columns(self._multiples(), self.field.degree).charpoly().factor()[1][0][0]
         return factor / factor.leading_coefficient()
 
-    def _pair(self, other: Any) -> tuple[Algebraic, Algebraic] | None:
+    def _pair(self, other: object) -> tuple[Algebraic, Algebraic] | None:
         if isinstance(other, Algebraic):
             if other.field == self.field:
                 return self, other
@@ -273,7 +273,7 @@ class Algebraic:
             return self, Algebraic(self.field, fmpq_poly([other]))
         return None
 
-    def __add__(self, other: Any) -> Algebraic:
+    def __add__(self, other: object) -> Algebraic:
         if type(other) is Algebraic and other.field is self.field:  # in almost every sum
             return Algebraic(self.field, self.polynomial + other.polynomial)
         if (pair := self._pair(other)) is None:
@@ -283,19 +283,19 @@ class Algebraic:
 
     __radd__ = __add__
 
-    def __sub__(self, other: Any) -> Algebraic:
+    def __sub__(self, other: object) -> Algebraic:
         if (pair := self._pair(other)) is None:
             return NotImplemented
         x, y = pair
         return Algebraic(x.field, x.polynomial - y.polynomial)
 
-    def __rsub__(self, other: Any) -> Algebraic:
+    def __rsub__(self, other: Element) -> Algebraic:
         return (-self).__add__(other)
 
     def __neg__(self) -> Algebraic:
         return Algebraic(self.field, -self.polynomial)
 
-    def __mul__(self, other: Any) -> Algebraic:
+    def __mul__(self, other: object) -> Algebraic:
         if type(other) is Algebraic and other.field is self.field:
             return Algebraic(self.field, self.polynomial * other.polynomial % self.field.modulus)
         if isinstance(other, int | fmpq):
@@ -335,7 +335,7 @@ class Algebraic:
             image = image * fmpq_poly([0, 1]) % self.field.modulus
         return columns
 
-    def __truediv__(self, other: Any) -> Algebraic:
+    def __truediv__(self, other: object) -> Algebraic:
         if (pair := self._pair(other)) is None:
             return NotImplemented
         x, y = pair
@@ -343,7 +343,7 @@ class Algebraic:
             return Algebraic(x.field, x.polynomial / y.polynomial[0])
         return x * y.reciprocal()
 
-    def __rtruediv__(self, other: Any) -> Algebraic:
+    def __rtruediv__(self, other: Element) -> Algebraic:
         return self.reciprocal().__mul__(other)
 
     def __pow__(self, n: int) -> Algebraic:
@@ -359,7 +359,7 @@ class Algebraic:
     def __hash__(self) -> int:
         return hash(self.field.key(self))
 
-    def __lt__(self, other: Any) -> bool:
+    def __lt__(self, other: Element) -> bool:
         difference: Algebraic = self - other
         return difference.field.sign(difference) < 0
 
@@ -368,7 +368,7 @@ class Algebraic:
 
 
 def _term(c: fmpq, monomial: str) -> str:
-    """Spell the positive rational c times a monomial: ``5*sqrt(3)/6``."""
+    """Return the positive rational c times a monomial as text: ``5*sqrt(3)/6``."""
     if not monomial:
         return str(c)
     top = monomial if c.p == 1 else f"{c.p}*{monomial}"

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any
 
 from flint import arb, arb_mat, fmpq
 
 from orderconds.ring.balls import Balls
 from orderconds.ring.precision import working_bits
+from orderconds.ring.protocol import Element
 
 
 class Jets:
@@ -69,7 +69,7 @@ class Jets:
         return True if x.value.is_zero() and flat else None
 
     def text(self, x: Jet) -> str:
-        """Spell the value with what is known of it."""
+        """Return the value as text, with its radius."""
         return str(x.value.str(15))
 
     def key(self, x: Jet) -> tuple[str, ...]:
@@ -82,7 +82,7 @@ class Jets:
 
 
 class Jet:
-    """A value and its gradient, all flint balls; ``slopes`` None stands for a gradient that is zero.
+    """A value and its gradient, all flint balls; ``slopes`` None means that the gradient is zero.
 
     The gradient is a matrix of one row, on which flint computes at once.
     """
@@ -100,7 +100,7 @@ class Jet:
     def __repr__(self) -> str:
         return f"Jet({self.value.str(12)})"
 
-    def __add__(self, other: Any) -> Jet:
+    def __add__(self, other: Element) -> Jet:
         if not isinstance(other, Jet):
             return Jet(self.value + other, self.width, self.slopes)
         return Jet(self.value + other.value, self.width, _added(self.slopes, other.slopes))
@@ -110,13 +110,13 @@ class Jet:
     def __neg__(self) -> Jet:
         return Jet(-self.value, self.width, None if self.slopes is None else -self.slopes)
 
-    def __sub__(self, other: Any) -> Jet:
+    def __sub__(self, other: Element) -> Jet:
         return self.__add__(-other)
 
-    def __rsub__(self, other: Any) -> Jet:
+    def __rsub__(self, other: Element) -> Jet:
         return (-self).__add__(other)
 
-    def __mul__(self, other: Any) -> Jet:
+    def __mul__(self, other: Element) -> Jet:
         if not isinstance(other, Jet):
             return Jet(self.value * other, self.width, _scaled(self.slopes, other))
         x, y = self.value, other.value
@@ -131,12 +131,12 @@ class Jet:
         value = 1 / self.value
         return Jet(value, self.width, _scaled(self.slopes, -value * value))
 
-    def __truediv__(self, other: Any) -> Jet:
+    def __truediv__(self, other: Element) -> Jet:
         if not isinstance(other, Jet):
             return self.__mul__(1 / arb(other))
         return self.__mul__(other.reciprocal())
 
-    def __rtruediv__(self, other: Any) -> Jet:
+    def __rtruediv__(self, other: Element) -> Jet:
         return self.reciprocal().__mul__(other)
 
     def __pow__(self, n: int) -> Jet:
@@ -147,7 +147,7 @@ class Jet:
         return result
 
 
-def _scaled(slopes: arb_mat | None, factor: Any) -> arb_mat | None:
+def _scaled(slopes: arb_mat | None, factor: Element) -> arb_mat | None:
     return None if slopes is None else slopes * factor
 
 

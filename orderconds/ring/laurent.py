@@ -1,15 +1,16 @@
 """Laurent polynomials over Q: polynomials in which monomials, as the weights b_i, may be divided by.
 
-Families that divide by b_i (SPRK, VCG) are written out for a fixed number of stages over this ring. An
+Families that divide by b_i (SPRK, VCG) are expanded for a fixed number of stages over this ring. An
 element is a flint polynomial over a monomial without common factor, so equal elements are equal pairs.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
+
+from orderconds.ring.protocol import Element, Key
 
 Exponents = tuple[int, ...]
 
@@ -38,7 +39,7 @@ class LaurentPolynomials:
         """Return the constant p/q."""
         return Laurent(self, self._context.constant(fmpq(p, q)), self.unit)
 
-    def monomial(self, exponents: Exponents, scale: Any = 1) -> fmpq_mpoly:
+    def monomial(self, exponents: Exponents, scale: Element = 1) -> fmpq_mpoly:
         """Return scale times the product of the variables to these powers, none of them negative."""
         return self._context.from_dict({exponents: scale})
 
@@ -54,18 +55,18 @@ class LaurentPolynomials:
         )
 
     def text(self, x: Laurent) -> str:
-        """Spell x expanded, leading term first."""
-        return " + ".join(self._spell(*term) for term in self.terms(x)).replace("+ -", "- ") or "0"
+        """Return x expanded as text, leading term first."""
+        return " + ".join(self._render(*term) for term in self.terms(x)).replace("+ -", "- ") or "0"
 
-    def key(self, x: Laurent) -> tuple[Any, ...]:
+    def key(self, x: Laurent) -> Key:
         """Return the terms with integer numerators and denominators."""
         return tuple((exponents, int(c.p), int(c.q)) for exponents, c in self.terms(x))
 
     def approximate(self, x: Laurent, digits: int = 20) -> str:
-        """Spell x; its coefficients are rational and stay so."""
+        """Return x as text, with its rational coefficients unchanged."""
         return self.text(x)
 
-    def _spell(self, exponents: Exponents, c: fmpq) -> str:
+    def _render(self, exponents: Exponents, c: fmpq) -> str:
         powers = [n if e == 1 else f"{n}^{e}" for n, e in zip(self.names, exponents, strict=True) if e]
         sign = "-" if c < 0 else ""
         return sign + "*".join(powers if abs(c) == 1 and powers else [str(abs(c)), *powers])

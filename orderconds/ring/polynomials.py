@@ -1,16 +1,16 @@
-"""Polynomials over Q in named variables: conditions of a fixed number of stages, written out.
+"""Polynomials over Q in named variables: conditions expanded for a fixed number of stages.
 
 Elements are flint's fmpq_mpoly, unwrapped; variables and monomials are ordered as the names are given.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
 from orderconds.ring.decimals import rational_decimal
+from orderconds.ring.protocol import Key
 
 
 class Polynomials:
@@ -56,22 +56,22 @@ class Polynomials:
         return tuple((tuple(int(e) for e in exponents), c) for exponents, c in x.terms())
 
     def text(self, x: fmpq_mpoly) -> str:
-        """Spell x expanded, leading term first."""
-        return self._spell(x, str)
+        """Return x expanded as text, leading term first."""
+        return self._render(x, str)
 
-    def key(self, x: fmpq_mpoly) -> tuple[Any, ...]:
+    def key(self, x: fmpq_mpoly) -> Key:
         """Return the terms with integer numerators and denominators."""
         return tuple((exponents, int(c.p), int(c.q)) for exponents, c in self.terms(x))
 
     def approximate(self, x: fmpq_mpoly, digits: int = 20) -> str:
-        """Spell x with decimal coefficients."""
-        return self._spell(x, lambda c: rational_decimal(c, digits))
+        """Return x as text with decimal coefficients."""
+        return self._render(x, lambda c: rational_decimal(c, digits))
 
-    def _spell(self, x: fmpq_mpoly, number: Any) -> str:
-        spelled = []
+    def _render(self, x: fmpq_mpoly, number: Callable[[fmpq], str]) -> str:
+        terms = []
         for exponents, c in self.terms(x):
             powers = [n if e == 1 else f"{n}^{e}" for n, e in zip(self.names, exponents, strict=True) if e]
             factors = powers if abs(c) == 1 and powers else [number(abs(c)), *powers]
-            spelled.append(("- " if c < 0 else "+ ") + "*".join(factors))
-        text = " ".join(spelled).removeprefix("+ ")
+            terms.append(("- " if c < 0 else "+ ") + "*".join(factors))
+        text = " ".join(terms).removeprefix("+ ")
         return "-" + text[2:] if text.startswith("- ") else text or "0"

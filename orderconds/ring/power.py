@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any, TypeVar
+from typing import TypeVar
+
+from orderconds.ring.protocol import Element
 
 T = TypeVar("T")
 
@@ -13,15 +15,15 @@ def power(x: T, n: int, one: T) -> T:
     >>> power(3, 5, 1), power(2.0, -2, 1)
     (243, 0.25)
     """
-    base: Any = x
+    base: Element = x
+    total: Element = one
     if n < 0:
         base, n = 1 / base, -n
-    result: Any = one
     while n:
         if n & 1:
-            result = result * base
+            total = total * base
         n >>= 1
         if n:
             base = base * base
-    found: T = result
-    return found
+    result: T = total
+    return result

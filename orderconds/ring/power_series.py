@@ -5,10 +5,8 @@ Run over this ring, a step program yields the exact Taylor coefficients of its l
 
 from __future__ import annotations
 
-from typing import Any
-
 from orderconds.ring.power import power
-from orderconds.ring.protocol import Element, Ring
+from orderconds.ring.protocol import Element, Key, Ring
 
 
 class PowerSeries:
@@ -50,34 +48,33 @@ class PowerSeries:
         return Series(self, (*kept, *((self.base.zero,) * (self.order + 1 - len(kept)))))
 
     def is_zero(self, x: Series) -> bool | None:
-        """Decide that every kept coefficient vanishes; None where the base ring cannot tell."""
+        """Decide that every kept coefficient vanishes; None if the base ring cannot decide."""
         verdicts = [self.base.is_zero(c) for c in x.coefficients]
         return False if False in verdicts else None if None in verdicts else True
 
     def text(self, x: Series) -> str:
-        """Spell x by ascending powers of h; coefficients that are sums stand in parentheses."""
+        """Return x as text by ascending powers of h; coefficients that are sums are put in parentheses."""
         terms = []
         for k, c in enumerate(x.coefficients):
             if self.base.is_zero(c) is True:
                 continue
-            spelled = self.base.text(c)
+            text = self.base.text(c)
             if k == 0:
-                terms.append(spelled)
+                terms.append(text)
                 continue
-            if " " in spelled:
-                spelled = f"({spelled})"
+            if " " in text:
+                text = f"({text})"
             h = "h" if k == 1 else f"h^{k}"
-            terms.append({"1": h, "-1": f"-{h}"}.get(spelled, f"{spelled}*{h}"))
+            terms.append({"1": h, "-1": f"-{h}"}.get(text, f"{text}*{h}"))
         return " + ".join(terms).replace("+ -", "- ") if terms else "0"
 
-    def key(self, x: Series) -> tuple[Any, ...]:
+    def key(self, x: Series) -> Key:
         """Return the keys of the coefficients."""
         return tuple(self.base.key(c) for c in x.coefficients)
 
     def approximate(self, x: Series, digits: int = 20) -> str:
-        """Spell x with decimal coefficients."""
-        spelled = [self.base.approximate(c, digits) for c in x.coefficients]
-        return "[" + ", ".join(spelled) + "]"
+        """Return x as text with decimal coefficients."""
+        return "[" + ", ".join(self.base.approximate(c, digits) for c in x.coefficients) + "]"
 
     def valuation(self, x: Series) -> int:
         """Return the lowest power of h whose coefficient is not proved zero; order + 1 for zero."""
@@ -102,7 +99,7 @@ class Series:
     def __repr__(self) -> str:
         return f"Series({self.ring.text(self)})"
 
-    def _constant(self, other: Any) -> Element:
+    def _constant(self, other: Element) -> Element:
         """Return an operand that is no series as an element of the base ring."""
         return self.ring.base.rational(other) if isinstance(other, int) else other
 
@@ -111,7 +108,7 @@ class Series:
             raise TypeError(f"series of different rings: {self.ring} and {other.ring}")
         return other.coefficients
 
-    def __add__(self, other: Any) -> Series:
+    def __add__(self, other: Element) -> Series:
         if isinstance(other, Series):
             pairs = zip(self.coefficients, self._same(other), strict=True)
             return Series(self.ring, tuple(x + y for x, y in pairs))
@@ -122,16 +119,16 @@ class Series:
     def __neg__(self) -> Series:
         return Series(self.ring, tuple(-x for x in self.coefficients))
 
-    def __sub__(self, other: Any) -> Series:
+    def __sub__(self, other: Element) -> Series:
         if isinstance(other, Series):
             pairs = zip(self.coefficients, self._same(other), strict=True)
             return Series(self.ring, tuple(x - y for x, y in pairs))
         return Series(self.ring, (self.coefficients[0] - self._constant(other), *self.coefficients[1:]))
 
-    def __rsub__(self, other: Any) -> Series:
+    def __rsub__(self, other: Element) -> Series:
         return (-self).__add__(other)
 
-    def __mul__(self, other: Any) -> Series:
+    def __mul__(self, other: Element) -> Series:
         if not isinstance(other, Series):
             factor = self._constant(other)
             return Series(self.ring, tuple(x * factor for x in self.coefficients))
@@ -163,14 +160,14 @@ class Series:
             result.append(-first * total)
         return Series(self.ring, tuple(result))
 
-    def __truediv__(self, other: Any) -> Series:
+    def __truediv__(self, other: Element) -> Series:
         if isinstance(other, Series):
             self._same(other)
             return self * other.reciprocal()
         divisor = self._constant(other)
         return Series(self.ring, tuple(x / divisor for x in self.coefficients))
 
-    def __rtruediv__(self, other: Any) -> Series:
+    def __rtruediv__(self, other: Element) -> Series:
         return self.reciprocal().__mul__(other)
 
     def __pow__(self, n: int) -> Series:

@@ -1,7 +1,7 @@
 """The one place that touches flint's working precision, which is global to the process.
 
-Everything else asks for bits here and gets the caller's precision back afterwards, so two rings of different
-precision, or a user's own use of python-flint, never see each other.
+All other modules set the precision through this one, which restores the caller's precision afterwards. So two
+rings of different precision, or a user's own use of python-flint, do not affect each other.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class precision:  # noqa: N801 - reads as the statement it is: with precision(20
 
 
 def working_bits() -> int:
-    """Return the precision that balls are computed with here.
+    """Return the current working precision of balls.
 
     >>> with precision(99):
     ...     working_bits()

@@ -9,7 +9,11 @@ from __future__ import annotations
 from typing import Any, Protocol
 
 Element = Any
-"""An element of some ring; rings are duck-typed so that flint, mpmath and numpy objects serve unwrapped."""
+"""An element of some ring, or a second operand: rings are duck-typed, so that objects of flint, mpmath and
+NumPy serve unwrapped. This and :data:`Key` are the only places where a ring's types are left open."""
+
+Key = tuple[Any, ...]
+"""A key by which elements of one ring are compared: hashable, and totally ordered within the ring."""
 
 
 class Ring(Protocol):
@@ -23,13 +27,27 @@ class Ring(Protocol):
         """Return p/q in this ring."""
 
     def is_zero(self, x: Element) -> bool | None:
-        """Decide x = 0; None where the ring cannot tell (a ball that contains zero never proves zero)."""
+        """Decide x = 0; None if the ring cannot decide (a ball that contains zero never proves zero)."""
 
     def text(self, x: Element) -> str:
-        """Spell x exactly, in the grammar that tableau files use where one exists."""
+        """Return x as exact text, in the grammar of tableau files where that has a form for it."""
 
-    def key(self, x: Element) -> tuple[Any, ...]:
+    def key(self, x: Element) -> Key:
         """Return a hashable, totally ordered key; equal elements of this ring have equal keys."""
 
     def approximate(self, x: Element, digits: int = 20) -> str:
         """Return x as a decimal with that many significant digits, correctly rounded."""
+
+
+class RingWithRoots(Ring, Protocol):
+    """A ring in which real roots of elements can be taken."""
+
+    def root(self, x: Element, index: int) -> Element:
+        """Return the real root of x of that index."""
+
+
+class RealRing(Ring, Protocol):
+    """A ring of real numbers, each of which has a nearest double."""
+
+    def nearest_float(self, x: Element) -> float:
+        """Return the double nearest to x."""

@@ -31,7 +31,7 @@ class Rationals:
         return bool(x == 0)
 
     def text(self, x: fmpq) -> str:
-        """Spell x as ``p`` or ``p/q``."""
+        """Return x as ``p`` or ``p/q``."""
         return str(x)
 
     def key(self, x: fmpq) -> tuple[int, int]:

@@ -1,17 +1,16 @@
 """Residues modulo a prime, many samples at once: the ring in which ranks of conditions are computed.
 
-An element is a vector of independent residues; a random vector stands for as many random tableaux. The prime
-is below 2^31, so that products fit in 64 bits.
+An element is a vector of independent residues; a random vector represents one random tableau per entry. The
+prime is below 2^31, so that products fit in 64 bits.
 """
 
 from __future__ import annotations
-
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from orderconds.ring.power import power
+from orderconds.ring.protocol import Element
 
 PRIMES = (2147483647, 2147483629)
 """The two largest primes below 2^31."""
@@ -63,7 +62,7 @@ class Residues:
         return not x.values.any()
 
     def text(self, x: Residue) -> str:
-        """Spell the vector of residues."""
+        """Return the vector of residues as text."""
         return str(x.values)
 
     def key(self, x: Residue) -> tuple[int, ...]:
@@ -87,27 +86,27 @@ class Residue:
     def __repr__(self) -> str:
         return f"Residue({self.values} mod {self.ring.prime})"
 
-    def _values(self, other: Any) -> Any:
+    def _values(self, other: Element) -> NDArray[np.int64] | int:
         return other.values if isinstance(other, Residue) else int(other) % self.ring.prime
 
     def _wrap(self, values: NDArray[np.int64]) -> Residue:
         return Residue(self.ring, values % self.ring.prime)
 
-    def __add__(self, other: Any) -> Residue:
+    def __add__(self, other: Element) -> Residue:
         return self._wrap(self.values + self._values(other))
 
     __radd__ = __add__
 
-    def __sub__(self, other: Any) -> Residue:
+    def __sub__(self, other: Element) -> Residue:
         return self._wrap(self.values - self._values(other))
 
-    def __rsub__(self, other: Any) -> Residue:
+    def __rsub__(self, other: Element) -> Residue:
         return self._wrap(self._values(other) - self.values)
 
     def __neg__(self) -> Residue:
         return self._wrap(-self.values)
 
-    def __mul__(self, other: Any) -> Residue:
+    def __mul__(self, other: Element) -> Residue:
         return self._wrap(self.values * self._values(other))
 
     __rmul__ = __mul__
@@ -123,11 +122,11 @@ class Residue:
             square, n = square * square, n >> 1
         return result
 
-    def __truediv__(self, other: Any) -> Residue:
+    def __truediv__(self, other: Element) -> Residue:
         divisor = other if isinstance(other, Residue) else self.ring.rational(other)
         return self * divisor.reciprocal()
 
-    def __rtruediv__(self, other: Any) -> Residue:
+    def __rtruediv__(self, other: Element) -> Residue:
         return self.reciprocal().__mul__(other)
 
     def __pow__(self, n: int) -> Residue:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from functools import lru_cache
 
 from flint import arb, fmpq, fmpq_poly
@@ -20,17 +21,41 @@ def isolate(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_
     >>> factor, root(64).overlaps(arb(2).root(3))
     (x^3 + (-2), True)
     """
+    monic, k = _factor_and_place(coefficients, near, unit)
+    return monic, lambda bits: real_roots(monic, bits)[k]
+
+
+def place_of_root(minpoly: Sequence[Fraction], near: Fraction, unit: Fraction) -> tuple[list[Fraction], int]:
+    """Return the monic irreducible factor with the one real root in near +- unit, and the root's place.
+
+    Both polynomials have ascending coefficients; the place counts the real roots of the factor from 0, in
+    rising order. Raises ValueError when the interval holds no root or more than one.
+
+    >>> minpoly = [Fraction(-2), Fraction(0), Fraction(1)]
+    >>> coefficients, place = place_of_root(minpoly, Fraction(7, 5), Fraction(1, 10))
+    >>> [str(c) for c in coefficients], place
+    (['-2', '0', '1'], 1)
+    """
+    monic, place = _factor_and_place([_rational(x) for x in minpoly], _rational(near), _rational(unit))
+    return [Fraction(int(c.p), int(c.q)) for c in monic.coeffs()], place
+
+
+def _rational(x: Fraction) -> fmpq:
+    return fmpq(x.numerator, x.denominator)
+
+
+def _factor_and_place(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_poly, int]:
+    """Return the monic factor with the one real root in near +- unit, and the place of that root."""
     polynomial = fmpq_poly(list(coefficients))
     if polynomial.degree() < 1:
         raise ValueError("a constant polynomial has no root")
-    found = []
+    places = []
     for factor, _ in polynomial.factor()[1]:
         monic = factor / factor.leading_coefficient()
-        found += [(monic, k) for k, x in enumerate(real_roots(monic, 256)) if _meets(x, near, unit)]
-    if len(found) != 1:
-        raise ValueError(f"{len(found) or 'no'} real roots within {unit} of {near}")
-    monic, k = found[0]
-    return monic, lambda bits: real_roots(monic, bits)[k]
+        places += [(monic, k) for k, x in enumerate(real_roots(monic, 256)) if _meets(x, near, unit)]
+    if len(places) != 1:
+        raise ValueError(f"{len(places) or 'no'} real roots within {unit} of {near}")
+    return places[0]
 
 
 def isolating(monic: fmpq_poly, root: Enclosure) -> str:

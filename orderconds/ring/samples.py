@@ -11,11 +11,11 @@ from collections.abc import Sequence
 from functools import reduce
 from operator import mul
 from random import Random
-from typing import Any
 
 from flint import nmod_mat, nmod_poly
 
 from orderconds.ring.power import power
+from orderconds.ring.protocol import Element
 
 
 class Samples:
@@ -63,11 +63,11 @@ class Samples:
 
     def coordinates(self, x: Sample) -> list[int]:
         """Return as many residues as there are samples, a linear image of them that determines them."""
-        found = [int(c) for c in x.polynomial.coeffs()]
-        return found + [0] * (self.count - len(found))
+        coefficients = [int(c) for c in x.polynomial.coeffs()]
+        return coefficients + [0] * (self.count - len(coefficients))
 
     def text(self, x: Sample) -> str:
-        """Spell the samples."""
+        """Return the samples as text."""
         return str([int(x.polynomial(k)) for k in range(self.count)])
 
     def key(self, x: Sample) -> tuple[int, ...]:
@@ -90,23 +90,25 @@ class Sample:
     def __repr__(self) -> str:
         return f"Sample({self.ring.text(self)} mod {self.ring.prime})"
 
-    def __add__(self, other: Any) -> Sample:
+    def __add__(self, other: Element) -> Sample:
         return Sample(self.ring, self.polynomial + _plain(other))
 
     __radd__ = __add__
 
-    def __sub__(self, other: Any) -> Sample:
+    def __sub__(self, other: Element) -> Sample:
         return Sample(self.ring, self.polynomial - _plain(other))
 
-    def __rsub__(self, other: Any) -> Sample:
+    def __rsub__(self, other: Element) -> Sample:
         return Sample(self.ring, _plain(other) - self.polynomial)
 
     def __neg__(self) -> Sample:
         return Sample(self.ring, -self.polynomial)
 
-    def __mul__(self, other: Any) -> Sample:
-        found = self.polynomial * _plain(other)
-        return Sample(self.ring, found if found.degree() < self.ring.count else found % self.ring.modulus)
+    def __mul__(self, other: Element) -> Sample:
+        product = self.polynomial * _plain(other)
+        return Sample(
+            self.ring, product if product.degree() < self.ring.count else product % self.ring.modulus
+        )
 
     __rmul__ = __mul__
 
@@ -117,11 +119,11 @@ class Sample:
             raise ZeroDivisionError(f"a sample is zero modulo {self.ring.prime}")
         return Sample(self.ring, inverse)
 
-    def __truediv__(self, other: Any) -> Sample:
+    def __truediv__(self, other: Element) -> Sample:
         divisor = other if isinstance(other, Sample) else self.ring.rational(other)
         return self * divisor.reciprocal()
 
-    def __rtruediv__(self, other: Any) -> Sample:
+    def __rtruediv__(self, other: Element) -> Sample:
         return self.reciprocal().__mul__(other)
 
     def __pow__(self, n: int) -> Sample:
@@ -134,23 +136,31 @@ class Sample:
         return hash(self.ring.key(self))
 
 
-def _plain(x: Any) -> Any:
+def _plain(x: Element) -> Element:
     return x.polynomial if isinstance(x, Sample) else int(x)
 
 
-def pivots(columns: Sequence[Sequence[int]], prime: int) -> tuple[int, ...]:
-    """Return the places of the columns that are no combination of earlier ones modulo ``prime``.
+def echelon(
+    columns: Sequence[Sequence[int]], prime: int
+) -> tuple[tuple[int, ...], dict[int, dict[int, int]]]:
+    """Return the places of the columns that are no combination of earlier ones modulo ``prime``: pivots.
 
-    >>> pivots([[1, 1], [2, 2], [1, 3], [4, 6]], 101)
-    (0, 2)
+    With them every other column as a combination of pivots: column to {pivot: residue}.
+
+    >>> echelon([[1, 1], [2, 2], [1, 3], [4, 6]], 101)
+    ((0, 2), {1: {0: 2}, 3: {0: 3, 2: 1}})
     """
     if not columns:
-        return ()
+        return (), {}
     height = len(columns[0])
     matrix = nmod_mat(height, len(columns), [column[i] for i in range(height) for column in columns], prime)
     reduced, rank = matrix.rref()
-    found: list[int] = []
+    pivots: list[int] = []
+    dependent: dict[int, dict[int, int]] = {}
     for column in range(len(columns)):
-        if len(found) < rank and int(reduced[len(found), column]):
-            found.append(column)
-    return tuple(found)
+        if len(pivots) < rank and int(reduced[len(pivots), column]):
+            pivots.append(column)
+        else:
+            entries = ((pivot, int(reduced[row, column])) for row, pivot in enumerate(pivots))
+            dependent[column] = {pivot: value for pivot, value in entries if value}
+    return tuple(pivots), dependent

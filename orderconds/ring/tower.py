@@ -32,7 +32,7 @@ class DegreeError(ArithmeticError):
 
 
 class Tower:
-    """A growing number field; numbers made earlier stay valid, since they lift to the later fields.
+    """A growing number field; earlier numbers stay valid, because they lift to the later fields.
 
     >>> tower = Tower()
     >>> r = tower.root(tower.rational(2), 2)
@@ -49,7 +49,7 @@ class Tower:
         return self.field.rational(p, q)
 
     def constant(self, value: Fraction, unit: Fraction) -> Algebraic:
-        """Return an exact rational; a positive ``unit`` (a ball) does not belong here."""
+        """Return an exact rational; raise TypeError for a positive ``unit``, which means a ball."""
         if unit:
             raise TypeError("a ball has no place in a number field")
         return self.field.rational(value.numerator, value.denominator)
@@ -110,13 +110,13 @@ class Tower:
                 return inside.root(index)
 
         powers = [x] + [self.field.zero] * (index - 1)
-        spelling = x.field.text(x)
-        root = self._adjoin(powers, enclosure, lambda n: Generator(spelling, index, n, enclosure))
+        symbol = x.field.text(x)
+        root = self._adjoin(powers, enclosure, lambda n: Generator(symbol, index, n, enclosure))
         self._radicals.append((x, index, root))
         return root
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Algebraic:
-        """Return the one real root of ``minpoly`` (ascending) within ``unit`` of ``near``, spelled ``name``.
+        """Return the one real root of ``minpoly`` (ascending) within ``unit`` of ``near``.
 
         Raises ValueError where there is not exactly one, :class:`DegreeError`.
         """
@@ -238,13 +238,13 @@ def _in_powers_of(a: fmpq_poly, b: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
 
 def _factors(n: fmpz) -> list[tuple[fmpz, int]]:
     """Factor a positive integer, the part beyond 128 bits left whole once small primes are out."""
-    found = []
+    factors = []
     if n.bit_length() > 128:
         for prime in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37):
             exponent = 0
             while n % prime == 0:
                 n, exponent = n // prime, exponent + 1
             if exponent:
-                found.append((fmpz(prime), exponent))
-        return [*found, (n, 1)] if n > 1 else found
+                factors.append((fmpz(prime), exponent))
+        return [*factors, (n, 1)] if n > 1 else factors
     return [(prime, int(exponent)) for prime, exponent in n.factor()]

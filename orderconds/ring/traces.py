@@ -1,7 +1,7 @@
-"""Recorded arithmetic: elements are places in a straight-line program, whatever numbers run through it later.
+"""Recorded arithmetic: elements are places in a straight-line program, to be run later on any numbers.
 
-An engine that is run once over this ring leaves the list of its operations. Equal operations are recorded
-once, operations with constants 0 and 1 not at all.
+An engine that runs once over this ring records the list of its operations. Equal operations are recorded
+once, operations with the constants 0 and 1 not at all.
 """
 
 from __future__ import annotations
@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 from orderconds.ring.power import power
+from orderconds.ring.protocol import Element, RingWithRoots
 
 ADD, MULTIPLY, DIVIDE, ROOT, CONSTANT, INPUT = range(6)
 """Operations: x + y, x y, x / y of two places, the n-th root of one, a rational number, an input."""
@@ -68,7 +68,7 @@ class Traces:
         return str(x.constant) if x.constant is not None else f"%{x.place}"
 
     def key(self, x: Trace) -> tuple[str]:
-        """Return what tells elements apart."""
+        """Return the text, which identifies an element."""
         return (self.text(x),)
 
     def approximate(self, x: Trace, digits: int = 20) -> str:
@@ -107,10 +107,10 @@ class Trace:
         """Return the place, recording a constant."""
         return self.place if self.constant is None else self.ring.constant(self.constant)
 
-    def _lift(self, x: Any) -> Trace:
+    def _lift(self, x: Element) -> Trace:
         return x if isinstance(x, Trace) else Trace(self.ring, -1, Fraction(x))  # an int
 
-    def __add__(self, other: Any) -> Trace:
+    def __add__(self, other: Element) -> Trace:
         y = self._lift(other)
         if self.constant is not None and y.constant is not None:
             return Trace(self.ring, -1, self.constant + y.constant)
@@ -123,13 +123,13 @@ class Trace:
     def __neg__(self) -> Trace:
         return self * -1
 
-    def __sub__(self, other: Any) -> Trace:
+    def __sub__(self, other: Element) -> Trace:
         return self + -self._lift(other)
 
-    def __rsub__(self, other: Any) -> Trace:
+    def __rsub__(self, other: Element) -> Trace:
         return (-self).__add__(other)
 
-    def __mul__(self, other: Any) -> Trace:
+    def __mul__(self, other: Element) -> Trace:
         y = self._lift(other)
         if self.constant is not None and y.constant is not None:
             return Trace(self.ring, -1, self.constant * y.constant)
@@ -141,20 +141,22 @@ class Trace:
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Any) -> Trace:
+    def __truediv__(self, other: Element) -> Trace:
         y = self._lift(other)
         if y.constant is not None:
             return self * (1 / y.constant)
         return self.ring.zero if self.constant == 0 else self.ring.apply(DIVIDE, self, y)
 
-    def __rtruediv__(self, other: Any) -> Trace:
+    def __rtruediv__(self, other: Element) -> Trace:
         return self._lift(other) / self
 
     def __pow__(self, n: int) -> Trace:
         return power(self, n, self.ring.one)
 
 
-def evaluate(operations: Sequence[Operation], inputs: Sequence[Any], ring: Any) -> list[Any]:
+def evaluate(
+    operations: Sequence[Operation], inputs: Sequence[Element], ring: RingWithRoots
+) -> list[Element]:
     """Return the value of every operation, for inputs in any ring that divides.
 
     >>> from orderconds.ring import QQ
@@ -163,18 +165,18 @@ def evaluate(operations: Sequence[Operation], inputs: Sequence[Any], ring: Any) 
     >>> evaluate(R.operations, [QQ.rational(3)], QQ)[y.place]
     3
     """
-    found: list[Any] = []
+    values: list[Element] = []
     for operation in operations:
         if operation.kind == INPUT:
-            found.append(inputs[int(operation.value)])
+            values.append(inputs[int(operation.value)])
         elif operation.kind == CONSTANT:
-            found.append(ring.rational(operation.value.numerator, operation.value.denominator))
+            values.append(ring.rational(operation.value.numerator, operation.value.denominator))
         elif operation.kind == ADD:
-            found.append(found[operation.left] + found[operation.right])
+            values.append(values[operation.left] + values[operation.right])
         elif operation.kind == MULTIPLY:
-            found.append(found[operation.left] * found[operation.right])
+            values.append(values[operation.left] * values[operation.right])
         elif operation.kind == ROOT:
-            found.append(ring.root(found[operation.left], int(operation.value)))
+            values.append(ring.root(values[operation.left], int(operation.value)))
         else:
-            found.append(found[operation.left] / found[operation.right])
-    return found
+            values.append(values[operation.left] / values[operation.right])
+    return values

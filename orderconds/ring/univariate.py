@@ -1,4 +1,4 @@
-"""Polynomials over Q in one variable, the time s: what iterated integrals over [0, 1] are made of.
+"""Polynomials over Q in one variable, the time s: the integrands of iterated integrals over [0, 1].
 
 Elements are flint's ``fmpq_poly``, unwrapped; they carry ``+ - *`` themselves.
 """
@@ -6,15 +6,16 @@ Elements are flint's ``fmpq_poly``, unwrapped; they carry ``+ - *`` themselves.
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
+from typing import TypeAlias
 
 from flint import fmpq_poly
 
-UnivariatePolynomial = Any
-"""A flint ``fmpq_poly``, which ships no types."""
+UnivariatePolynomial: TypeAlias = fmpq_poly
+"""A polynomial over Q in one variable."""
 
 ZERO = fmpq_poly()
 ONE = fmpq_poly([1])
+VARIABLE = fmpq_poly([0, 1])
 
 
 def integral_from_zero(f: UnivariatePolynomial) -> UnivariatePolynomial:
@@ -44,3 +45,12 @@ def value_at_one(f: UnivariatePolynomial) -> Fraction:
     """
     value = f(1)
     return Fraction(int(value.p), int(value.q))
+
+
+def derivative(f: UnivariatePolynomial) -> UnivariatePolynomial:
+    """Return f'.
+
+    >>> derivative(VARIABLE * VARIABLE)
+    2*x
+    """
+    return f.derivative()

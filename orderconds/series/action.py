@@ -7,10 +7,10 @@ Expanding the step about (q0, mu1) gives each stage velocity and momentum as a s
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [u x v in stage j's group element]``,
 - ``psi_{L(w)}(i) = (1/b_i) [x reverse(w) in the update's]``,
 
-where Phi_w(i) is the coefficient of the word w in stage i's group element, and x stands once for a
+where Phi_w(i) is the coefficient of the word w in stage i's group element, and x is, once, a
 variation of the velocity of stage i. The method has order p iff ``sum_i b_i tau_t(i)`` has the exact flow's
-value for every tree with at most p vertices. How a family turns velocities into group elements is all that
-differs: products of exponentials here (VCG, VCF), one exponential of a Lie series in
+value for every tree with at most p vertices. Families differ only in the way in which velocities become group
+elements: products of exponentials here (VCG, VCF), one exponential of a Lie series in
 :mod:`orderconds.series.action_lie`.
 """
 
@@ -68,10 +68,10 @@ class ActionSeries(ABC):
 
     def tau(self, tree: Velocity) -> Stages:
         """Return tau_t at every stage."""
-        found = self._tau.get(tree)
-        if found is None:
-            found = self._tau[tree] = self._velocity(tree)
-        return found
+        values = self._tau.get(tree)
+        if values is None:
+            values = self._tau[tree] = self._velocity(tree)
+        return values
 
     def _velocity(self, tree: Velocity) -> Stages:
         factors = self.psi_product(tree.momenta)
@@ -82,21 +82,21 @@ class ActionSeries(ABC):
 
     def psi(self, tree: Momentum) -> Stages:
         """Return psi_p at every stage."""
-        found = self._psi.get(tree)
-        if found is None:
-            found = self._psi[tree] = (
+        values = self._psi.get(tree)
+        if values is None:
+            values = self._psi[tree] = (
                 self._force(tree) if isinstance(tree, Force) else self._transport(tree.word)
             )
-        return found
+        return values
 
     def psi_product(self, momenta: Momenta) -> Stages:
         """Return the product of psi_p over a multiset, at every stage."""
-        found = self._products.get(momenta)
-        if found is None:
+        values = self._products.get(momenta)
+        if values is None:
             rest, last = self.psi_product(momenta[:-1]), self.psi(momenta[-1])
-            found = [a * b for a, b in zip(rest, last, strict=True)] if momenta[:-1] else last
-            self._products[momenta] = found
-        return found
+            values = [a * b for a, b in zip(rest, last, strict=True)] if momenta[:-1] else last
+            self._products[momenta] = values
+        return values
 
     def _force(self, tree: Force) -> Stages:
         inserted = self.stage_insertions(tree.before, tree.after)
@@ -108,10 +108,10 @@ class ActionSeries(ABC):
 
     def stage_insertions(self, before: Word, after: Word) -> list[Stages]:
         """Return :meth:`insertion` for every stage j (outer) and varied stage i (inner)."""
-        found = self._insertions.get((before, after))
-        if found is None:
-            found = self._insertions[before, after] = self._stage_insertions(before, after)
-        return found
+        values = self._insertions.get((before, after))
+        if values is None:
+            values = self._insertions[before, after] = self._stage_insertions(before, after)
+        return values
 
     def _stage_insertions(self, before: Word, after: Word) -> list[Stages]:
         every = range(self.stages)

@@ -44,7 +44,7 @@ def class_count(vertices: int) -> int:
 
 
 def _generating_functions(order: int) -> tuple[list[int], list[int]]:
-    """Iterate the equations of T and P until their first coefficients stand."""
+    """Iterate the equations of T and P until their first coefficients are settled."""
     size = order + 1
 
     def times(a: list[int], b: list[int]) -> list[int]:

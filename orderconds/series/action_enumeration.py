@@ -1,8 +1,8 @@
-"""Every action tree with so many vertices once, simplest to read first, without making the costlier ones.
+"""Every action tree with a number of vertices once, simplest to read first, enumerated on demand.
 
 The cost of a tree is a sum of non-negative parts of its subtrees, so that all trees up to a limit consist
 of subtrees up to that limit; where the parts are tried in order of cost, the first one beyond the limit ends
-the search. A long list is made in bands of rising limits, and only as far as somebody reads it: of the 6331
+the search. A long list is enumerated in bands of rising limits, and only as far as it is read: of the 6331
 trees with six vertices, those that decide most methods are among the simplest few hundred.
 """
 
@@ -84,15 +84,15 @@ def multisets(vertices: int) -> tuple[Momenta, ...]:
 @cache
 def _velocities(vertices: int, limit: float) -> tuple[Velocity, ...]:
     """Return the g-valued trees that cost no more than ``limit``, in no particular order."""
-    found = []
+    trees = []
     for k in range(vertices):
         for cost, word in _words(k, limit):
             rest = limit - cost - mixing(word)
             for more, chosen in _multisets(vertices - 1 - k, limit) if rest >= 0 else ():
                 if more > rest:
                     break
-                found.append(canonical_velocity(word, chosen))
-    return tuple(found)
+                trees.append(canonical_velocity(word, chosen))
+    return tuple(trees)
 
 
 @cache
@@ -100,15 +100,15 @@ def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
     """Return the words whose nesting is no more than ``limit``, with it and by it."""
     if vertices == 0:
         return ((0, ()),)
-    found = []
+    words = []
     for k in range(1, vertices + 1):
         letters = _letters(k, limit)
         for cost, start in _words(vertices - k, limit):
             for more, letter in letters:
                 if cost + more > limit:
                     break
-                found.append((cost + more, (*start, letter)))
-    return tuple(sorted(found, key=lambda item: item[0]))
+                words.append((cost + more, (*start, letter)))
+    return tuple(sorted(words, key=lambda item: item[0]))
 
 
 @cache
@@ -124,7 +124,7 @@ def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
 @cache
 def _momenta(vertices: int, limit: float) -> Momenta:
     """Return the g*-valued trees that cost no more than ``limit``, simplest first."""
-    found: list[Momentum] = []
+    trees: list[Momentum] = []
     for j in range(vertices):
         for nested, before in _words(j, limit):
             if nested + 3 > limit:
@@ -135,9 +135,9 @@ def _momenta(vertices: int, limit: float) -> Momenta:
                     for cost, others in _multisets(vertices - 1 - j - k, limit) if rest >= 0 else ():
                         if cost > rest:
                             break
-                        found.append(canonical_force(before, after, others))
-    found += [transport(word) for _, word in _words(vertices, limit) if transport_cost(word) <= limit]
-    return tuple(sorted(found, key=lambda tree: tree.key))
+                        trees.append(canonical_force(before, after, others))
+    trees += [transport(word) for _, word in _words(vertices, limit) if transport_cost(word) <= limit]
+    return tuple(sorted(trees, key=lambda tree: tree.key))
 
 
 @cache

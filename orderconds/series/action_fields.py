@@ -8,7 +8,6 @@ the group any matrix group: a right-invariant derivative replaces q by (1 + eps 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
 
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.action_trees import Force, Momentum, Velocity, Word
@@ -16,7 +15,7 @@ from orderconds.series.action_trees import Force, Momentum, Velocity, Word
 Coordinates = tuple[Element, ...]
 """Coordinates of a vector in the chosen basis of g, or of a covector in the dual basis."""
 
-Matrix = tuple[tuple[Any, ...], ...]
+Matrix = tuple[tuple[Element, ...], ...]
 
 
 class Nilpotent:
@@ -32,7 +31,7 @@ class Nilpotent:
     def __init__(self, parts: Mapping[int, Element]) -> None:
         self.parts = dict(parts)
 
-    def __add__(self, other: Any) -> Nilpotent:
+    def __add__(self, other: Element) -> Nilpotent:
         parts = dict(self.parts)
         for mask, value in _parts(other).items():
             parts[mask] = parts[mask] + value if mask in parts else value
@@ -43,13 +42,13 @@ class Nilpotent:
     def __neg__(self) -> Nilpotent:
         return Nilpotent({mask: -value for mask, value in self.parts.items()})
 
-    def __sub__(self, other: Any) -> Nilpotent:
+    def __sub__(self, other: Element) -> Nilpotent:
         return self + Nilpotent({mask: -value for mask, value in _parts(other).items()})
 
-    def __rsub__(self, other: Any) -> Nilpotent:
+    def __rsub__(self, other: Element) -> Nilpotent:
         return (-self).__add__(other)
 
-    def __mul__(self, other: Any) -> Nilpotent:
+    def __mul__(self, other: Element) -> Nilpotent:
         parts: dict[int, Element] = {}
         for left, a in self.parts.items():
             for right, b in _parts(other).items():
@@ -61,7 +60,7 @@ class Nilpotent:
     __rmul__ = __mul__
 
 
-def _parts(x: Any) -> dict[int, Element]:
+def _parts(x: Element) -> dict[int, Element]:
     return x.parts if isinstance(x, Nilpotent) else {0: x}
 
 
@@ -86,7 +85,7 @@ class ActionFields:
     def __init__(
         self,
         ring: Ring,
-        hamiltonian: Callable[[Matrix, Coordinates], Any],
+        hamiltonian: Callable[[Matrix, Coordinates], Element],
         q: Matrix,
         mu: Coordinates,
         basis: Sequence[Matrix],
@@ -107,7 +106,7 @@ class ActionFields:
         for field in fields:
             q = _add(q, _times(_scaled(self.matrix(field), mask), q))
             mask <<= 1
-        mu: list[Any] = list(self.mu)
+        mu: list[Element] = list(self.mu)
         for covector in covectors:
             mu = [m + Nilpotent({mask: x}) for m, x in zip(mu, covector, strict=True)]
             mask <<= 1
@@ -132,26 +131,26 @@ class ActionFields:
 
     def velocity(self, tree: Velocity) -> Coordinates:
         """Return xi_t."""
-        found = self._velocity.get(tree)
-        if found is None:
+        components = self._velocity.get(tree)
+        if components is None:
             fields = [self.velocity(t) for t in tree.word]
             covectors = [self.covector(p) for p in tree.momenta]
-            found = tuple(self.derivative(fields, [*covectors, unit]) for unit in self.units)
-            self._velocity[tree] = found
-        return found
+            components = tuple(self.derivative(fields, [*covectors, unit]) for unit in self.units)
+            self._velocity[tree] = components
+        return components
 
     def covector(self, tree: Momentum) -> Coordinates:
         """Return m_p."""
-        found = self._covector.get(tree)
-        if found is None:
+        components = self._covector.get(tree)
+        if components is None:
             if isinstance(tree, Force):
                 before, after = ([self.velocity(t) for t in word] for word in (tree.before, tree.after))
                 covectors = [self.covector(p) for p in tree.momenta]
-                found = tuple(self.derivative([*before, unit, *after], covectors) for unit in self.units)
+                components = tuple(self.derivative([*before, unit, *after], covectors) for unit in self.units)
             else:
-                found = self.transported(tree.word)
-            self._covector[tree] = found
-        return found
+                components = self.transported(tree.word)
+            self._covector[tree] = components
+        return components
 
     def transported(self, word: Word) -> Coordinates:
         """Return the covector ``x -> <mu, ad t_1 ... ad t_k x>``."""
@@ -212,7 +211,7 @@ def _times(a: Matrix, b: Matrix) -> Matrix:
     return tuple(tuple(_dot(row, column) for column in columns) for row in a)
 
 
-def _dot(row: Sequence[Any], column: Sequence[Any]) -> Any:
+def _dot(row: Sequence[Element], column: Sequence[Element]) -> Element:
     terms = [x * y for x, y in zip(row, column, strict=True)]
     total = terms[0]
     for term in terms[1:]:

@@ -1,7 +1,7 @@
 """The action series of VRKMK: group elements are single exponentials of a Lie series in the stage velocities.
 
 ``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j``, the update ``Y`` alike with b_j (3.16). A variation of one
-stage's velocity is one more letter: it stands for that stage alone and occurs once, so the coefficient of
+stage's velocity is one more letter, which belongs to that stage alone and occurs once. So the coefficient of
 ``u x v`` is that of a word in which the letter x is written between u and v.
 """
 
@@ -14,18 +14,15 @@ from math import comb, factorial
 
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.action import ActionSeries, Exponential, Stages
-from orderconds.series.action_trees import Velocity, Word
+from orderconds.series.action_trees import Word
 from orderconds.series.b_series import Sums, sparse
 from orderconds.series.dexpinv import dexpinv_terms
 
 Terms = tuple[tuple[Fraction, int, int], ...]
 """Coefficients of X^n xi X^m, with m and n."""
 
-Letters = tuple[Velocity | None, ...]
-"""A word in which None, at most once, is the variation of the velocity of some stage."""
-
 Varied = dict[int, Element]
-"""The coefficient of a word with a variation, by the stage whose velocity is varied; zeros may be missing."""
+"""The coefficient of a word u x v, by the stage whose velocity x varies; zeros may be missing."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
@@ -49,11 +46,11 @@ class MuntheKaasActionSeries(ActionSeries):
         self._rows: tuple[list[Exponential], ...] = ([sparse(ring, row) for row in A], [sparse(ring, b)])
         self._sums = tuple(Sums(rows, ring.zero) for rows in self._rows)
         self._powers: dict[tuple[int, int, Word], Stages] = {}
-        self._varied_powers: dict[tuple[int, int, Letters], list[Varied]] = {}
+        self._varied_powers: dict[tuple[int, int, Word, Word], list[Varied]] = {}
         self._summands: dict[Word, Stages] = {}
-        self._varied_summands: dict[Letters, list[Varied]] = {}
+        self._varied_summands: dict[tuple[Word, Word], list[Varied]] = {}
         self._exponentials: dict[tuple[int, Word], Stages] = {}
-        self._varied_exponentials: dict[tuple[int, Letters], list[Varied]] = {}
+        self._varied_exponentials: dict[tuple[int, Word, Word], list[Varied]] = {}
         self._in_sight: dict[tuple[int, int], list[tuple[Element, int, int]]] = {}
         self._inverse_factorials: list[Element] = []
 
@@ -69,108 +66,116 @@ class MuntheKaasActionSeries(ActionSeries):
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
         """Return the coefficient of u x v there, x the variation of that stage's velocity."""
         update, place = (1, 0) if row == self.stages else (0, row)
-        return self._varied_exponential(update, (*before, None, *after))[place].get(stage, self.ring.zero)
+        return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
 
     def _stage_insertions(self, before: Word, after: Word) -> list[Stages]:
         zero, every = self.ring.zero, range(self.stages)
-        found = self._varied_exponential(0, (*before, None, *after))
-        return [[row.get(i, zero) for i in every] for row in found]
+        rows = self._varied_exponential(0, before, after)
+        return [[row.get(i, zero) for i in every] for row in rows]
 
     def _exponential(self, update: int, word: Word) -> Stages:
-        found = self._exponentials.get((update, word))
-        if found is None:
-            found = self._power(update, 1, word)
+        values = self._exponentials.get((update, word))
+        if values is None:
+            values = self._power(update, 1, word)
             for n in range(2, len(word) + 1):
                 q = self._inverse_factorial(n)
-                found = [x + y * q for x, y in zip(found, self._power(update, n, word), strict=True)]
-            self._exponentials[update, word] = found
-        return found
+                values = [x + y * q for x, y in zip(values, self._power(update, n, word), strict=True)]
+            self._exponentials[update, word] = values
+        return values
 
-    def _varied_exponential(self, update: int, word: Letters) -> list[Varied]:
-        found = self._varied_exponentials.get((update, word))
-        if found is None:
-            found = [dict(row) for row in self._varied_power(update, 1, word)]
-            for n in range(2, len(word) + 1):
+    def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
+        """Return the coefficient of the word u x v, x a variation, in every exp(X_i), or in exp(Y)."""
+        key = (update, before, after)
+        totals = self._varied_exponentials.get(key)
+        if totals is None:
+            totals = [dict(row) for row in self._varied_power(update, 1, before, after)]
+            for n in range(2, len(before) + len(after) + 2):
                 q = self._inverse_factorial(n)
-                for total, power in zip(found, self._varied_power(update, n, word), strict=True):
+                for total, power in zip(totals, self._varied_power(update, n, before, after), strict=True):
                     _add(total, [(i, x * q) for i, x in power.items()])
-            self._varied_exponentials[update, word] = found
-        return found
+            self._varied_exponentials[key] = totals
+        return totals
 
     def _power(self, update: int, n: int, word: Word) -> Stages:
         """Return the coefficient of a word, of n letters at least, in every X_i^n, or in Y^n."""
-        found = self._powers.get((update, n, word))
-        if found is None:
+        values = self._powers.get((update, n, word))
+        if values is None:
             if n == 1:
-                found = self._sums[update](self._summand(word))
+                values = self._sums[update](self._summand(word))
             else:
-                found = [self.ring.zero] * len(self._rows[update])
+                values = [self.ring.zero] * len(self._rows[update])
                 for cut in range(1, len(word) - n + 2):
                     heads, tails = self._power(update, 1, word[:cut]), self._power(update, n - 1, word[cut:])
-                    found = [total + x * y for total, x, y in zip(found, heads, tails, strict=True)]
-            self._powers[update, n, word] = found
-        return found
+                    values = [total + x * y for total, x, y in zip(values, heads, tails, strict=True)]
+            self._powers[update, n, word] = values
+        return values
 
-    def _varied_power(self, update: int, n: int, word: Letters) -> list[Varied]:
-        """Return the same for a word with a variation."""
-        found = self._varied_powers.get((update, n, word))
-        if found is None:
-            found = [{} for _ in self._rows[update]]
+    def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
+        """Return the coefficient of u x v, x a variation, in every X_i^n, or in Y^n."""
+        key = (update, n, before, after)
+        totals = self._varied_powers.get(key)
+        if totals is None:
+            totals = [{} for _ in self._rows[update]]
             if n == 1:
-                summands = self._varied_summand(word)
-                for total, row in zip(found, self._rows[update], strict=True):
+                summands = self._varied_summand(before, after)
+                for total, row in zip(totals, self._rows[update], strict=True):
                     for j, a in row:
                         _add(total, [(i, a * x) for i, x in summands[j].items()])
-            for cut in range(1, len(word) - n + 2) if n > 1 else ():
-                head, tail = word[:cut], word[cut:]
-                if None in head:
-                    varied = self._varied_power(update, 1, head)
-                    plain = self._power(update, n - 1, tail)  # type: ignore[arg-type]  # None occurs once
-                    for total, power, y in zip(found, varied, plain, strict=True):
-                        _add(total, [(i, x * y) for i, x in power.items()])
-                else:
-                    plain = self._power(update, 1, head)  # type: ignore[arg-type]
-                    varied = self._varied_power(update, n - 1, tail)
-                    for total, y, power in zip(found, plain, varied, strict=True):
-                        _add(total, [(i, y * x) for i, x in power.items()])
-            self._varied_powers[update, n, word] = found
-        return found
+            else:
+                self._add_products(totals, update, n, before, after)
+            self._varied_powers[key] = totals
+        return totals
+
+    def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
+        """Add the coefficients of u x v in X_i X_i^(n-1): the first factor takes a head of the word."""
+        for cut in range(1, len(before) + len(after) + 3 - n):
+            rest = cut - len(before) - 1  # letters of v in the head, if x lies there
+            if rest >= 0:
+                varied = self._varied_power(update, 1, before, after[:rest])
+                plain = self._power(update, n - 1, after[rest:])
+            else:
+                plain = self._power(update, 1, before[:cut])
+                varied = self._varied_power(update, n - 1, before[cut:], after)
+            for total, power, y in zip(totals, varied, plain, strict=True):
+                _add(total, [(i, x * y) for i, x in power.items()])
 
     def _summand(self, word: Word) -> Stages:
         """Return the coefficient of a word in every dexpinv_{(r),X_j} xi_j."""
-        found = self._summands.get(word)
-        if found is None:
-            found = [self.ring.zero] * self.stages
+        values = self._summands.get(word)
+        if values is None:
+            values = [self.ring.zero] * self.stages
             for place, letter in enumerate(word):
                 inner = self._around(word[:place], word[place + 1 :])
                 if inner is not None:
-                    found = [
-                        total + x * y for total, x, y in zip(found, inner, self.tau(letter), strict=True)
+                    values = [
+                        total + x * y for total, x, y in zip(values, inner, self.tau(letter), strict=True)
                     ]
-            self._summands[word] = found
-        return found
+            self._summands[word] = values
+        return values
 
-    def _varied_summand(self, word: Letters) -> list[Varied]:
-        """Return the same for a word with a variation."""
-        found = self._varied_summands.get(word)
-        if found is None:
-            found = [{} for _ in range(self.stages)]
-            for place, letter in enumerate(word):
-                before, behind = word[:place], word[place + 1 :]
-                if letter is None:
-                    inner = self._around(before, behind)  # type: ignore[arg-type]  # the only variation
-                    for j, x in enumerate(inner or ()):
-                        _add(found[j], [(j, x)])
-                    continue
-                rows = self._varied_around(before, behind)
-                for total, row, value in zip(found, rows, self.tau(letter), strict=True):
-                    _add(total, [(i, x * value) for i, x in row.items()])
-            self._varied_summands[word] = found
-        return found
+    def _varied_summand(self, before: Word, after: Word) -> list[Varied]:
+        """Return the coefficient of u x v, x a variation, in every dexpinv_{(r),X_j} xi_j."""
+        totals = self._varied_summands.get((before, after))
+        if totals is None:
+            totals = [{} for _ in range(self.stages)]
+            for place, letter in enumerate(before):
+                rows = self._varied_behind(before[:place], before[place + 1 :], after)
+                self._add_multiples(totals, rows, self.tau(letter))
+            for j, x in enumerate(self._around(before, after) or ()):
+                _add(totals[j], [(j, x)])
+            for place, letter in enumerate(after):
+                rows = self._varied_before(before, after[:place], after[place + 1 :])
+                self._add_multiples(totals, rows, self.tau(letter))
+            self._varied_summands[before, after] = totals
+        return totals
+
+    def _add_multiples(self, totals: list[Varied], rows: list[Varied], scales: Stages) -> None:
+        for total, row, scale in zip(totals, rows, scales, strict=True):
+            _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
         """Return what dexpinv_{(r),X_j} adds to a letter between two words, None where that is zero."""
-        found = None
+        values = None
         for q, m, n in self._present(len(before), len(behind)):
             if m and n:
                 around = zip(self._power(0, m, before), self._power(0, n, behind), strict=True)
@@ -180,23 +185,27 @@ class MuntheKaasActionSeries(ActionSeries):
                 term = [q * x for x in powers]
             else:
                 term = [q] * self.stages
-            found = term if found is None else [x + y for x, y in zip(found, term, strict=True)]
-        return found
+            values = term if values is None else [x + y for x, y in zip(values, term, strict=True)]
+        return values
 
-    def _varied_around(self, before: Letters, behind: Letters) -> list[Varied]:
-        """Return the same where one of the words has a variation."""
-        found: list[Varied] = [{} for _ in range(self.stages)]
-        for q, m, n in self._present(len(before), len(behind)):
-            if None in before:
-                first = self._varied_power(0, m, before)
-                last = self._power(0, n, behind) if n else None  # type: ignore[arg-type]
-                for j, (total, power) in enumerate(zip(found, first, strict=True)):
-                    _add(total, [(i, q * x * last[j] if last else q * x) for i, x in power.items()])
-            else:
-                scales = [q * x for x in self._power(0, m, before)] if m else [q] * self.stages  # type: ignore[arg-type]
-                for total, y, power in zip(found, scales, self._varied_power(0, n, behind), strict=True):
-                    _add(total, [(i, y * x) for i, x in power.items()])
-        return found
+    def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
+        """Return what dexpinv_{(r),X_j} adds to a letter between the words u x v and ``behind``."""
+        totals: list[Varied] = [{} for _ in range(self.stages)]
+        for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
+            varied = self._varied_power(0, m, before, after)
+            last = self._power(0, n, behind) if n else None
+            for j, (total, power) in enumerate(zip(totals, varied, strict=True)):
+                _add(total, [(i, q * x * last[j] if last else q * x) for i, x in power.items()])
+        return totals
+
+    def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
+        """Return what dexpinv_{(r),X_j} adds to a letter between the words ``first`` and u x v."""
+        totals: list[Varied] = [{} for _ in range(self.stages)]
+        for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
+            scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages
+            for total, y, power in zip(totals, scales, self._varied_power(0, n, before, after), strict=True):
+                _add(total, [(i, y * x) for i, x in power.items()])
+        return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
         """Return the terms of dexpinv that see a letter between words of these lengths.

@@ -3,7 +3,7 @@
 A condition of order n is superfluous if its value, for every method **and for the flow**, is the same
 combination of the other values of order n and of products of values of lower order. The values at many
 random methods and at the flow decide that, vectorised; greedy pivots in the canonical order keep the
-simplest trees. Were the flow left out, a family that cannot reach an order would not be told so (VRKMK with
+simplest trees. Without the flow, a condition that a family cannot meet would count as dependent (VRKMK with
 dexpinv cut too early).
 """
 
@@ -25,7 +25,7 @@ from orderconds.series.action_trees import Velocity
 from orderconds.series.monomials import products
 
 RandomSeries = Callable[[Residues, np.random.Generator], ActionSeries]
-"""Makes the action series of random methods of a family, one a sample."""
+"""A function that returns the action series of random methods of a family, one a sample."""
 
 SPARE_SAMPLES = 24
 """Rows beyond the largest possible rank, so that chance does not hide a dependence."""
@@ -47,8 +47,8 @@ def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity,
     >>> independent_trees(partial(get("vcg").random_series, order=2), 2)
     ((o,), (o(o),))
     """
-    found = [_independent(family, order, prime) for prime in PRIMES]
-    return max(found, key=lambda trees: [len(of_order) for of_order in trees])
+    by_prime = [_independent(family, order, prime) for prime in PRIMES]
+    return max(by_prime, key=lambda trees: [len(of_order) for of_order in trees])
 
 
 def _independent(family: RandomSeries, order: int, prime: int) -> tuple[tuple[Velocity, ...], ...]:
@@ -76,7 +76,7 @@ def sample(
     >>> from orderconds.families import get
     >>> from orderconds.series.action_trees import velocity
     >>> values = sample(partial(get("vcg").random_series, order=1), 1, [velocity()], 101)[velocity()].values
-    >>> values.size, int(values[-1])  # the flow stands last
+    >>> values.size, int(values[-1])  # the flow is the last sample
     (26, 1)
     """
     count = _largest_rank(order) + SPARE_SAMPLES

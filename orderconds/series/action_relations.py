@@ -25,7 +25,7 @@ Polynomial = tuple[tuple[Fraction, tuple[Velocity, ...]], ...]
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
-    """Return what the value of each dependent tree of the last order equals.
+    """Return the polynomial that each dependent tree of the last order equals.
 
     ``independent`` are the independent trees of each order 1, 2, ..., by
     :func:`orderconds.series.action_rank.independent_trees`. Exact unless chance, about one in 10^8, hides a
@@ -45,16 +45,16 @@ def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -
     monomials = tuple(_monomials(tuple(chain.from_iterable(independent)), order))
     others = tuple(tree for tree in representatives if (tree,) not in set(monomials))
     modular = [_coefficients(family, order, monomials, others, prime) for prime in PRIMES]
-    found: dict[Velocity, Polynomial] = {tree: ((Fraction(1), (tree,)),) for tree in independent[-1]}
+    polynomials: dict[Velocity, Polynomial] = {tree: ((Fraction(1), (tree,)),) for tree in independent[-1]}
     for place, tree in enumerate(others):
         both = [values[place] for values in modular]
-        found[tree] = tuple(
+        polynomials[tree] = tuple(
             (rational_number([values.get(k, 0) for values in both], PRIMES), monomial)
             for k, monomial in enumerate(monomials)
             if any(k in values for values in both)
         )
     return {
-        tree: found[of_class[0]]
+        tree: polynomials[of_class[0]]
         for of_class in classes(order)
         for tree in of_class
         if tree not in independent[-1]
@@ -76,8 +76,8 @@ def _coefficients(
         for tree in rest:
             column = column * values[tree]
         columns.append(column)
-    found = combinations([*columns, *(values[tree] for tree in trees)])
-    return [found[len(monomials) + place] for place in range(len(trees))]
+    dependent = combinations([*columns, *(values[tree] for tree in trees)])
+    return [dependent[len(monomials) + place] for place in range(len(trees))]
 
 
 def _monomials(trees: Sequence[Velocity], vertices: int, start: int = 0) -> Iterator[tuple[Velocity, ...]]:

@@ -1,6 +1,6 @@
 """Root switching: trees that are one unrooted tree have one condition, whatever the method.
 
-A force that hangs on the root vertex can be made the root instead: ``o(w | M, H(u*v | N))`` and ``o(u o(w |
+A force that hangs on the root vertex can become the root instead: ``o(w | M, H(u*v | N))`` and ``o(u o(w |
 M) v | N)`` have equal coefficients, for every method and for the flow, because the sum over the stages of
 the edge between them may be taken last. So one tree of each class decides.
 """
@@ -40,26 +40,26 @@ def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
 
 
 def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
-    """Yield the classes one after the other, that of the simplest tree first; each is made once.
+    """Yield the classes one after the other, that of the simplest tree first; each is computed once.
 
     >>> next(classes_in_turn(7))[0]
     o(o o o o o o)
     """
-    made, more = _listing(vertices)
+    listed, more = _listing(vertices)
     place = 0
     while True:
-        if place == len(made):
+        if place == len(listed):
             of_class = next(more, None)
             if of_class is None:
                 return
-            made.append(of_class)
-        yield made[place]
+            listed.append(of_class)
+        yield listed[place]
         place += 1
 
 
 @cache
 def _listing(vertices: int) -> tuple[list[tuple[Velocity, ...]], Iterator[tuple[Velocity, ...]]]:
-    """Return the classes made so far, and what makes the others."""
+    """Return the classes computed so far, and the iterator over the others."""
     return [], _classes(vertices)
 
 

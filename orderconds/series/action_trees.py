@@ -1,4 +1,4 @@
-"""The trees of the action series on T*G: what a variational Lie group method composes out of one Hamiltonian.
+"""The trees of the action series on T*G, by which a variational Lie group method is expanded.
 
 Every vertex is a copy of H, except that a :class:`Transport` costs nothing. Two mutually recursive kinds:
 
@@ -20,9 +20,9 @@ from math import factorial, prod
 
 
 class _Node:
-    """What the three kinds share: number of copies of H, a reading cost, symmetry, canonical text.
+    """The common part of the three kinds: number of copies of H, a reading cost, canonical text.
 
-    The text is made when somebody asks: most trees are only counted and compared.
+    The text is computed on demand, since most trees are only counted and compared.
     """
 
     __slots__ = ("_key", "_text", "cost", "vertices")
@@ -37,21 +37,21 @@ class _Node:
 
     @property
     def text(self) -> str:
-        """The canonical text, by which trees are told apart."""
+        """The canonical text, which identifies a tree."""
         if self._text is None:
-            self._text = self._spelled()
+            self._text = self._render()
         return self._text
 
     @property
     def key(self) -> tuple[int, int, int, str]:
-        """What trees are sorted by: simplest to read first."""
+        """The sort key of trees: simplest to read first."""
         if self._key is None:
             text = self.text
             self._key = (self.vertices, self.cost, len(text), text)
         return self._key
 
-    def _spelled(self) -> str:
-        raise TypeError("a kind of tree says how it is spelled")
+    def _render(self) -> str:
+        raise TypeError("a kind of tree defines its text")
 
     def __str__(self) -> str:
         return self.text
@@ -60,7 +60,7 @@ class _Node:
 
 
 class Velocity(_Node):
-    """The g-valued tree t = (w, M); made by :func:`velocity`.
+    """The g-valued tree t = (w, M); use :func:`velocity`, which interns it.
 
     >>> tree = velocity((velocity(),), (force(), force()))
     >>> tree, tree.vertices, tree.symmetry
@@ -81,10 +81,10 @@ class Velocity(_Node):
             vertices += p.vertices
             cost += p.cost
         self._describe(vertices, cost)
-        # A bushy tree reads better than a tall one: what stands inside letters counts double.
+        # A bushy tree reads better than a tall one: costs inside letters count double.
         self.nesting = 2 + 2 * cost if vertices > 1 else 0
 
-    def _spelled(self) -> str:
+    def _render(self) -> str:
         inner = _inside(" ".join([t.text for t in self.word]), self.momenta)
         return f"o({inner})" if inner else "o"
 
@@ -95,7 +95,7 @@ class Velocity(_Node):
 
 
 class Force(_Node):
-    """The g*-valued tree H(u * v | M); made by :func:`force`.
+    """The g*-valued tree H(u * v | M); use :func:`force`, which interns it.
 
     >>> tree = force((), (velocity(),))
     >>> tree, tree.vertices
@@ -109,7 +109,7 @@ class Force(_Node):
         vertices = 1 + sum([child.vertices for child in (*before, *after, *momenta)])
         self._describe(vertices, force_cost(before, after) + sum([p.cost for p in momenta]))
 
-    def _spelled(self) -> str:
+    def _render(self) -> str:
         letters = " ".join([*[t.text for t in self.before], "*", *[t.text for t in self.after]])
         return f"f({_inside(letters, self.momenta)})"
 
@@ -120,7 +120,7 @@ class Force(_Node):
 
 
 class Transport(_Node):
-    """The g*-valued tree L(w), w not empty; made by :func:`transport`.
+    """The g*-valued tree L(w), w not empty; use :func:`transport`, which interns it.
 
     >>> tree = transport((velocity(), velocity()))
     >>> tree, tree.vertices
@@ -133,7 +133,7 @@ class Transport(_Node):
         self.word = word
         self._describe(sum([letter.vertices for letter in word]), transport_cost(word))
 
-    def _spelled(self) -> str:
+    def _render(self) -> str:
         return f"L({' '.join([t.text for t in self.word])})"
 
     @property
@@ -244,7 +244,7 @@ def force(before: Word = (), after: Word = (), momenta: Momenta = ()) -> Force:
 
 
 def hamiltonian(tree: Velocity) -> str:
-    """Return the elementary Hamiltonian that a tree names; ``m`` stands for mu, ``ad(x) y = [x, y]``.
+    """Return the elementary Hamiltonian that a tree names; ``m`` means mu, ``ad(x) y = [x, y]``.
 
     Arguments before the semicolon are right-invariant derivatives in q, the first one acting first.
 

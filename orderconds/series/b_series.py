@@ -2,20 +2,36 @@
 
 Each subtree has one vector over the stages, computed once: the product over its branches of
 ``sum_j a_ij tau_branch(j)``. Where nodes are the roots of one rational polynomial the vectors are polynomials
-(:mod:`orderconds.series.nodal`).
+(:mod:`orderconds.ring.nodal`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Sequence
 from functools import lru_cache
-from typing import Any, Generic, TypeVar
+from typing import Generic, Protocol, TypeVar
 
+from orderconds.ring.nodal import Matrix, NodalAlgebra, nodal_algebra
 from orderconds.ring.protocol import Element, Ring
-from orderconds.series.nodal import Matrix, NodalAlgebra, nodal_algebra
 from orderconds.trees.levels import Tree, children
 
 TreeT = TypeVar("TreeT", bound=Hashable)
+
+
+class StageAlgebra(Protocol):
+    """Vectors over the stages of one method, in a representation of its own."""
+
+    one: Element
+    """The vector of ones."""
+
+    def multiply(self, x: Element, y: Element) -> Element:
+        """Return the componentwise product."""
+
+    def apply(self, kind: int, x: Element) -> Element:
+        """Return A x, where A is the matrix of that number."""
+
+    def weigh(self, x: Element) -> Element:
+        """Return b.x."""
 
 
 class ElementaryWeights(Generic[TreeT]):
@@ -40,18 +56,18 @@ class ElementaryWeights(Generic[TreeT]):
         branches: Callable[[TreeT], Sequence[tuple[int, TreeT]]],
     ) -> None:
         self._branches = branches
-        self._stages: Any = nodal_algebra(ring, matrices, b) or StageVectors(ring, matrices, b)
+        self._stages: StageAlgebra = nodal_algebra(ring, matrices, b) or StageVectors(ring, matrices, b)
         self._ring = ring
         self._rational = isinstance(self._stages, NodalAlgebra)
-        self._vectors: dict[TreeT, Any] = {}
-        self._sums: dict[tuple[int, TreeT], Any] = {}
+        self._vectors: dict[TreeT, Element] = {}
+        self._sums: dict[tuple[int, TreeT], Element] = {}
 
     def __call__(self, tree: TreeT) -> Element:
         """Return the elementary weight of a tree."""
-        found = self._stages.weigh(self._vector(tree))
-        return self._ring.rational(found.p, found.q) if self._rational else found
+        weight = self._stages.weigh(self._vector(tree))
+        return self._ring.rational(weight.p, weight.q) if self._rational else weight
 
-    def _vector(self, tree: TreeT) -> Any:
+    def _vector(self, tree: TreeT) -> Element:
         """Return tau_tree(i) for each stage i."""
         if tree not in self._vectors:
             vector = self._stages.one
@@ -60,7 +76,7 @@ class ElementaryWeights(Generic[TreeT]):
             self._vectors[tree] = vector
         return self._vectors[tree]
 
-    def _summed(self, branch: tuple[int, TreeT]) -> Any:
+    def _summed(self, branch: tuple[int, TreeT]) -> Element:
         if branch not in self._sums:
             kind, tree = branch
             self._sums[branch] = self._stages.apply(kind, self._vector(tree))
@@ -92,8 +108,8 @@ class StageVectors:
 
     def weigh(self, x: Sequence[Element]) -> Element:
         """Return b.x."""
-        found: Element = self._b(x)[0]
-        return found
+        weight: Element = self._b(x)[0]
+        return weight
 
 
 class Sums:
@@ -129,10 +145,10 @@ class Sums:
 
     def __call__(self, x: Sequence[Element]) -> list[Element]:
         """Return the sum of each row."""
-        found = [self._zero]
+        values = [self._zero]
         for before, place, weight in self._steps:
-            found.append(found[before] + weight * x[place])
-        return [found[end] for end in self._ends]
+            values.append(values[before] + weight * x[place])
+        return [values[end] for end in self._ends]
 
 
 def runge_kutta_series(

@@ -4,11 +4,11 @@ An argument u_i is there before the stage value it leads to, so that no letter o
 than q_(i-1). Let N be the number of brackets, in any program for u_1, ..., u_i, that have a letter from q_m
 to q_(i-1). Older brackets and single letters give an argument no word of two letters and more that holds one
 of these, so N is at least the dimension of the span of such words in the arguments. Further, the first such
-bracket is [x + sum c_n q_n, y + sum d_n q_n], x and y of older letters. Its part in which they stand but once
-is sum_n ad_(P_n) q_n, where all P_n = d_n x - c_n y are Lie elements. If such parts of the arguments span d
-dimensions and only for zero are all P_n Lie elements, that of the first bracket is not among them, and N is
-at least d + 1. For the letters before q_m and those from q_m to q_(i-1), the brackets are others: bounds add
-up.
+bracket is [x + sum c_n q_n, y + sum d_n q_n], x and y of older letters. Its part in which they occur only
+once is sum_n ad_(P_n) q_n, where all P_n = d_n x - c_n y are Lie elements. If such parts of the arguments
+span d dimensions and only for zero are all P_n Lie elements, that of the first bracket is not among them, and
+N is at least d + 1. For the letters before q_m and those from q_m to q_(i-1), the brackets are others: bounds
+add up.
 """
 
 from __future__ import annotations
@@ -20,18 +20,18 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 
 
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
-    """Return P_n for n >= ``first``, sum_n ad_(P_n) q_n the part of x in which such letters stand but once.
+    """Return P_n for n >= ``first``, sum_n ad_(P_n) q_n the part of x in which these letters occur once.
 
     They are read off the words that end in q_n; constants in them are left out.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}
     """
-    found = dict[int, Polynomial]()
+    factors = dict[int, Polynomial]()
     for word, value in x.items():
         if len(word) > 1 and word[-1] >= first and all(letter < first for letter in word[:-1]):
-            found.setdefault(word[-1], {})[word[:-1]] = value
-    return found
+            factors.setdefault(word[-1], {})[word[:-1]] = value
+    return factors
 
 
 def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
@@ -54,7 +54,7 @@ def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
 
 
 def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Element]]) -> int:
-    """Return a number of brackets below which no program makes u_1, ..., u_s and u.
+    """Return a lower bound for the number of brackets in any program for u_1, ..., u_s and u.
 
     The arguments of the stages count up to one grade below the largest, u, the last, up to the largest.
 
@@ -66,7 +66,7 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     bounds, last = [0], len(arguments) - 1
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
-        # With u, what is beyond the grade of the stages would be known of u alone.
+        # The part of u above the grade of the stages has no counterpart in them.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))
@@ -83,8 +83,8 @@ def _needed(algebra: GradedAlgebra, span: Sequence[Mapping[Word, Element]], firs
             {(*w, n): value for n, p in factors.items() for w, value in beyond_lie(algebra, p).items()}
         )
     nested = [{word: v for word, v in x.items() if len(word) > 1 and max(word) >= first} for x in span]
-    once = _rank(ring, parts)
-    return max(_rank(ring, nested), once + (0 < once == _rank(ring, beyond)))
+    single = _rank(ring, parts)
+    return max(_rank(ring, nested), single + (0 < single == _rank(ring, beyond)))
 
 
 def _rank(ring: Ring, columns: Sequence[Polynomial]) -> int:

@@ -67,7 +67,7 @@ def fewest_brackets(
     """Return arguments with few brackets that keep ``order`` of an explicit tableau (A, b).
 
     ``ring`` must decide zero and divide. The order is kept where the tableau has it. Coefficients that the
-    order leaves free are zero at first, then, in so many ``attempts``, small random values, always the same;
+    order leaves free are zero at first, then, ``attempts`` times, small random values, always the same;
     if all take more than ``least`` brackets, one more is granted, and so on. Raises
     :class:`~orderconds.errors.InputError` for an implicit tableau.
 
@@ -110,8 +110,8 @@ def fewest_brackets(
 def _graded_bases(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int
 ) -> list[tuple[int, list[Element]]]:
-    """Return for each j the grade of q_j and its row over k_1, ..., k_j, in which k_j stands once."""
-    series, found = DexpinvSeries(ring, A, b), list[tuple[int, list[Element]]]()
+    """Return for each j the grade of q_j and its row over k_1, ..., k_j, in which k_j occurs once."""
+    series, bases = DexpinvSeries(ring, A, b), list[tuple[int, list[Element]]]()
     trees = [[*ordered_trees(n)] for n in range(1, order)]
     values = [{t: series.stage(j, branches(t)) for of_size in trees for t in of_size} for j in range(len(b))]
     for j in range(len(b)):
@@ -125,23 +125,23 @@ def _graded_bases(
                 break
             row = [*(ring.zero - x for x in combination), ring.one]
             grade += 1
-        found.append((grade, row))
-    return found
+        bases.append((grade, row))
+    return bases
 
 
 def _arguments(
     algebra: GradedAlgebra, rows: Sequence[Sequence[Element]], bases: Sequence[tuple[int, list[Element]]]
 ) -> list[Polynomial]:
     """Return u_1, ..., u_s and u over h in the letters q."""
-    ring, values, pulled, found = algebra.ring, list[Polynomial](), list[Polynomial](), list[Polynomial]()
+    ring, values, pulled, arguments = algebra.ring, list[Polynomial](), list[Polynomial](), list[Polynomial]()
     for j, (_, row) in enumerate(bases):
         earlier = [(ring.zero - x, value) for x, value in zip(row, values, strict=False)]
         values.append(algebra.combine((ring.one, {(j,): ring.one}), *earlier))
     for j, coefficients in enumerate(rows):
-        found.append(algebra.combine(*zip(coefficients, pulled, strict=False)))
+        arguments.append(algebra.combine(*zip(coefficients, pulled, strict=False)))
         if j < len(values):
-            pulled.append(algebra.dexpinv(found[-1], values[j]))
-    return found
+            pulled.append(algebra.dexpinv(arguments[-1], values[j]))
+    return arguments
 
 
 def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> int:
@@ -154,7 +154,7 @@ def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int
     The brackets in u_j hold no value newer than those in u_i do; for both, ad_P q in the newest q takes two,
     but for the combination P is a Lie element. With it and u_i, u_j is there.
     """
-    one, found = algebra.ring.one, dict[int, list[Polynomial]]()
+    one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
     for i, argument in enumerate(stages):
         excess = beyond_lie(algebra, newest_factors(argument, i - 1).get(i - 1, {}))
@@ -164,8 +164,8 @@ def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int
             ratio = solve(algebra.ring, [excess], also) if also else None
             if ratio is not None and all(max(word) < i for word in nested):
                 combination = algebra.combine((one, nested), (algebra.ring.zero - ratio[0], argument))
-                found.setdefault(i, []).append(combination)
-    return found
+                shared.setdefault(i, []).append(combination)
+    return shared
 
 
 @dataclass(frozen=True)
@@ -252,10 +252,10 @@ class _Search:
             for sweep in range(self.algebra.largest):
                 reach = limit - 1 if fixed_left and not sweep else limit
                 columns = self._columns(shape, right, left)
-                found = self._solved(shape, columns, argument, reach, left)
-                if found is None:
+                solution = self._solved(shape, columns, argument, reach, left)
+                if solution is None:
                     break
-                numbers = {name: x for (name, _), x in zip(columns, found, strict=True)}
+                numbers = {name: x for (name, _), x in zip(columns, solution, strict=True)}
                 numbers |= {("left", 0, n): x for n, x in left.items()}
                 brackets, before = len(self.brackets), len(self.pool)
                 row, value, used = self._built(shape, numbers)
@@ -300,8 +300,8 @@ class _Search:
                 numerator, denominator = self._random.choice((-2, -1, 1, 2)), self._random.choice((1, 2, 3))
                 moved[n] = self.ring.rational(numerator, denominator)
         shift = [(self.ring.zero - x, column) for x, column in zip(moved, columns, strict=True)]
-        found = solve(self.ring, columns, self.algebra.combine((self.ring.one, target), *shift))
-        return None if found is None else [x + y for x, y in zip(found, moved, strict=True)]
+        solution = solve(self.ring, columns, self.algebra.combine((self.ring.one, target), *shift))
+        return None if solution is None else [x + y for x, y in zip(solution, moved, strict=True)]
 
     def _left_factor(self, left: Mapping[int, Element]) -> Polynomial:
         more = ((x, self.pool[n][0]) for n, x in left.items())

@@ -62,47 +62,47 @@ class DexpinvSeries:
         """Return the coefficient of ``word`` in every exp(u_i), or in that of the step."""
         if not word:
             return [self._ring.one] * len(self._rows[step])
-        found = self._exponentials.get((step, word))
-        if found is None:
-            found = self._power(step, 1, word)
+        values = self._exponentials.get((step, word))
+        if values is None:
+            values = self._power(step, 1, word)
             for n in range(2, word.count(0) + 1):
                 q = self._inverse_factorial(n)
-                found = [x + y * q for x, y in zip(found, self._power(step, n, word), strict=True)]
-            self._exponentials[step, word] = found
-        return found
+                values = [x + y * q for x, y in zip(values, self._power(step, n, word), strict=True)]
+            self._exponentials[step, word] = values
+        return values
 
     def _power(self, step: int, n: int, word: Forest) -> list[Element]:
         """Return the coefficient of ``word``, of n letters at least, in every u_i^n, or in the step's."""
-        found = self._powers.get((step, n, word))
-        if found is None:
+        values = self._powers.get((step, n, word))
+        if values is None:
             if n == 1:
-                found = self._rows[step](self._dexpinv(word))
+                values = self._rows[step](self._dexpinv(word))
             else:
-                found = [self._ring.zero] * len(self._rows[step])
+                values = [self._ring.zero] * len(self._rows[step])
                 cuts = _cuts(word)
                 for cut in cuts[: len(cuts) + 2 - n]:
                     heads, tails = self._power(step, 1, word[:cut]), self._power(step, n - 1, word[cut:])
-                    found = [total + x * y for total, x, y in zip(found, heads, tails, strict=True)]
-            self._powers[step, n, word] = found
-        return found
+                    values = [total + x * y for total, x, y in zip(values, heads, tails, strict=True)]
+            self._powers[step, n, word] = values
+        return values
 
     def _dexpinv(self, word: Forest) -> list[Element]:
         """Return the coefficient of ``word`` in every dexpinv_{(r),u_j} k_j."""
-        found = self._summands.get(word)
-        if found is None:
-            found = [self._ring.zero] * self._stages
+        sums = self._summands.get(word)
+        if sums is None:
+            sums = [self._ring.zero] * self._stages
             pointed = _pointed(word)
             for place, (first, tree, rest) in enumerate(pointed):
                 inner = self._around(place, word[:first], len(pointed) - 1 - place, word[rest:])
                 if inner is not None:
                     values = self._exponential(0, branches(tree))
-                    found = [total + x * y for total, x, y in zip(found, inner, values, strict=True)]
-            self._summands[word] = found
-        return found
+                    sums = [total + x * y for total, x, y in zip(sums, inner, values, strict=True)]
+            self._summands[word] = sums
+        return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return what dexpinv makes of a letter k_j between two words of so many letters, None for zero."""
-        found = None
+        """Return the coefficient that dexpinv gives a letter k_j between two words, None for zero."""
+        values = None
         for q, m, n in self._present(before, behind):
             if m and n:
                 around = zip(self._power(0, m, start), self._power(0, n, end), strict=True)
@@ -111,25 +111,25 @@ class DexpinvSeries:
                 term = [q * x for x in (self._power(0, m, start) if m else self._power(0, n, end))]
             else:
                 term = [q] * self._stages
-            found = term if found is None else [x + y for x, y in zip(found, term, strict=True)]
-        return found
+            values = term if values is None else [x + y for x, y in zip(values, term, strict=True)]
+        return values
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms u^n k u^m of dexpinv that see a letter between words of so many letters.
+        """Return the terms u^n k u^m of dexpinv that contribute to a letter between words of these lengths.
 
         ad_u^k x = sum comb(k, m) (-1)^m u^(k-m) x u^m, and u^m, rightmost, acts first. A word is in u^m only
         if it has m letters at least, and the empty one in u^0 alone.
         """
-        found = self._in_sight.get((before, behind))
-        if found is None:
+        terms_kept = self._in_sight.get((before, behind))
+        if terms_kept is None:
             longest = before + behind
             terms = dexpinv_terms(longest if self._cutoff is None else min(longest, self._cutoff))
-            found = self._in_sight[before, behind] = [
+            terms_kept = self._in_sight[before, behind] = [
                 (self._ring.rational(q.numerator, q.denominator), m, n)
                 for q, m, n in terms
                 if m <= before and n <= behind and bool(m) is bool(before) and bool(n) is bool(behind)
             ]
-        return found
+        return terms_kept
 
     def _inverse_factorial(self, n: int) -> Element:
         while len(self._inverse_factorials) <= n:

@@ -19,7 +19,7 @@ from orderconds.words.shuffle import Word
 class ProductOfExponentials:
     """Values on words of ``count`` exponentials; ``letter(J, k)`` is the coefficient of letter k in X_J.
 
-    None stands for a coefficient that is zero by construction.
+    None means a coefficient that is zero by construction.
 
     >>> from orderconds.ring import QQ
     >>> strang = [(1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))]
@@ -40,15 +40,15 @@ class ProductOfExponentials:
 
     def _sweep(self, word: Word) -> list[Element]:
         """Return the coefficients of ``word`` in the products of the first 0, 1, ... exponentials."""
-        found = self._partial.get(word)
-        if found is None:
+        values = self._partial.get(word)
+        if values is None:
             whole = len(word)
             heads = [self._sweep(word[:end]) for end in range(whole - 1, -1, -1)]
             letters = [self._letters(k) for k in word[::-1]]
             factorials = [self._inverse_factorial(r) for r in range(whole + 1)]
-            found = [self._ring.zero]
+            values = [self._ring.zero]
             for J in range(self._count):
-                value, run = found[-1], None
+                value, run = values[-1], None
                 # The last r letters come from this exponential, those before from earlier ones.
                 for r, letter in enumerate(letters, start=1):
                     x = letter[J]
@@ -57,16 +57,16 @@ class ProductOfExponentials:
                     run = x if r == 1 else run * x
                     share = run if r == whole else heads[r - 1][J] * run
                     value = value + (share if r == 1 else share * factorials[r])
-                found.append(value)
-            self._partial[word] = found
-        return found
+                values.append(value)
+            self._partial[word] = values
+        return values
 
     def _letters(self, k: int) -> list[Element | None]:
         """Return the coefficients of a letter in all exponents."""
-        found = self._known.get(k)
-        if found is None:
-            found = self._known[k] = [self._letter(J, k) for J in range(self._count)]
-        return found
+        coefficients = self._known.get(k)
+        if coefficients is None:
+            coefficients = self._known[k] = [self._letter(J, k) for J in range(self._count)]
+        return coefficients
 
     def _inverse_factorial(self, n: int) -> Element:
         while len(self._inverse_factorials) <= n:

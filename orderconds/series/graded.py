@@ -68,7 +68,7 @@ class GradedAlgebra:
         return result
 
     def cut(self, x: Mapping[Word, Element], limit: int) -> Polynomial:
-        """Return x without what is above a grade."""
+        """Return x without the words above a grade."""
         return {word: value for word, value in x.items() if self.grade(word) <= limit}
 
 
@@ -89,10 +89,10 @@ def solve(
     pivots: list[int] = []
     for n in range(width):
         done = len(pivots)
-        found = next((r for r in range(done, len(rows)) if ring.is_zero(rows[r][n]) is not True), None)
-        if found is None:
+        pivot_row = next((r for r in range(done, len(rows)) if ring.is_zero(rows[r][n]) is not True), None)
+        if pivot_row is None:
             continue
-        rows[done], rows[found] = rows[found], rows[done]
+        rows[done], rows[pivot_row] = rows[pivot_row], rows[done]
         pivot = rows[done][n]
         rows[done] = [x if ring.is_zero(x) is True else x / pivot for x in rows[done]]
         for r, row in enumerate(rows):

@@ -95,11 +95,11 @@ class ExponentialsSeries:
 
     def stage_values(self, tree: Tree) -> list[Element]:
         """Return the coefficient of a tree in k_1, ..., k_s."""
-        found = self._values.get(tree)
-        if found is None:
+        values = self._values.get(tree)
+        if values is None:
             word = self._word(branches(tree))
-            found = self._values[tree] = [word[end] for end in self._ends]
-        return found
+            values = self._values[tree] = [word[end] for end in self._ends]
+        return values
 
     def _way_to(self, end: int) -> list[tuple[int, int, int]]:
         way = []
@@ -110,10 +110,10 @@ class ExponentialsSeries:
 
     def _word(self, word: Forest) -> list[Element]:
         """Return the coefficients of a word at all places."""
-        found = self._words.get(word)
-        if found is None:
-            found = self._words[word] = self._along(word, self._places)
-        return found
+        values = self._words.get(word)
+        if values is None:
+            values = self._words[word] = self._along(word, self._places)
+        return values
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
         """Return the coefficients of a word that is not empty, right at ``places``."""
@@ -123,9 +123,9 @@ class ExponentialsSeries:
         heads = [self._word(word[:start]) for start in starts[:0:-1]]
         letters = [self._letter(tree) for tree in trees_of(word)[::-1]]
         factorials = [self._inverse_factorial(r) for r in range(whole + 1)]
-        found = [self._ring.zero] * (len(self._places) + 1)
+        values = [self._ring.zero] * (len(self._places) + 1)
         for place, before, row in places:
-            coefficient, run = found[before], None
+            coefficient, run = values[before], None
             for r, letter in enumerate(letters, start=1):
                 number = letter[row]
                 if number is None:
@@ -133,18 +133,18 @@ class ExponentialsSeries:
                 run = number if r == 1 else run * number
                 share = run if r == whole else heads[r - 1][before] * run
                 coefficient = coefficient + (share if r == 1 else share * factorials[r])
-            found[place] = coefficient
-        return found
+            values[place] = coefficient
+        return values
 
     def _letter(self, tree: Tree) -> list[Element | None]:
         """Return the coefficient of a tree in the exponent of each row, None for zero."""
-        found = self._letters.get(tree)
-        if found is None:
+        coefficients = self._letters.get(tree)
+        if coefficients is None:
             values, zero = self.stage_values(tree), self._ring.zero
             sums = [sum([x * values[j] for j, x in row], zero) for row in self._rows]
-            found = [None if self._ring.is_zero(x) is True else x for x in sums]
-            self._letters[tree] = found
-        return found
+            coefficients = [None if self._ring.is_zero(x) is True else x for x in sums]
+            self._letters[tree] = coefficients
+        return coefficients
 
     def _inverse_factorial(self, n: int) -> Element:
         while len(self._inverse_factorials) <= n:
@@ -190,8 +190,8 @@ def forest_residuals(series: ForestSeries, ring: Ring, order: int) -> dict[Fores
     >>> [str(x) for x in forest_residuals(ExponentialsSeries(QQ, [[]], [one]), QQ, 2).values()]
     ['-1/2', '0']
     """
-    found = {}
+    residuals = {}
     for forest, value in forest_values(series, order).items():
         exact = exact_value(forest)
-        found[forest] = value - ring.rational(exact.numerator, exact.denominator)
-    return found
+        residuals[forest] = value - ring.rational(exact.numerator, exact.denominator)
+    return residuals

@@ -2,7 +2,7 @@
 
 A condition is superfluous if its left-hand side, for every method, is a combination of simpler ones of its
 order and of products of lower ones, **and** the exact flow's values obey the same relation. The exact flow
-therefore stands among the samples; where it breaks the relation (RKMK(0) at order 3) the condition cannot
+is therefore one of the samples; where it breaks the relation (RKMK(0) at order 3) the condition cannot
 be met and stays.
 """
 
@@ -20,7 +20,7 @@ from orderconds.trees.counts import ordered_forest_count
 from orderconds.trees.levels import Forest
 
 RandomSeries = Callable[[Residues, np.random.Generator], ForestSeries]
-"""Makes the series of random methods of a family, one a sample."""
+"""A function that returns the series of random methods of a family, one a sample."""
 
 SPARE_SAMPLES = 20
 """Rows beyond the largest possible rank, so that chance does not hide a dependence."""
@@ -32,7 +32,7 @@ def independent_forests(
     """Return those of ``candidates``, one sequence for each order 1, 2, ..., that are independent.
 
     Computed modulo two primes; a rank modulo a prime can only be too small, so the larger set is kept.
-    Without the exact flow among the samples the result tells which left-hand sides are independent.
+    Without the exact flow among the samples the result says which left-hand sides are independent.
 
     >>> from orderconds.trees.ordered import ordered_forests
     >>> from orderconds.series.dexpinv import DexpinvSeries
@@ -42,8 +42,8 @@ def independent_forests(
     >>> independent_forests(random_series, [[*ordered_forests(1)], [*ordered_forests(2)]])
     ((b'\\x00',), (b'\\x00\\x01',))
     """
-    found = [_independent(family, candidates, prime, with_exact_flow) for prime in PRIMES]
-    return max(found, key=lambda forests: [len(of_order) for of_order in forests])
+    by_prime = [_independent(family, candidates, prime, with_exact_flow) for prime in PRIMES]
+    return max(by_prime, key=lambda forests: [len(of_order) for of_order in forests])
 
 
 def _independent(

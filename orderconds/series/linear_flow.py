@@ -1,6 +1,6 @@
 """Products of exponentials or Cayley transforms of elements given by their values on words.
 
-Letter k stands for X_k, the coefficient of t^(k-1) in A, and weighs k; words are in the order of action.
+Letter k is X_k, the coefficient of t^(k-1) in A, and has weight k; words are in the order of action.
 """
 
 from __future__ import annotations

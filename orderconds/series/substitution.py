@@ -1,9 +1,9 @@
 """Substitution: the series of a step when the field f is replaced by another one that is a series itself.
 
-For B-series a tree is parted in connected pieces, which the field values, and the tree that remains when each
-piece shrinks to a vertex, which the step values (Chartier, Hairer and Vilmart, Found. Comput. Math. 10 (2010)
-407, Theorem 3.2). For Lie-Butcher series f -> f~ extends to forests by concatenation and left grafting
-(Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
+For B-series a tree is parted in connected components, which the field values, and the tree that remains when
+each component shrinks to a vertex, which the step values (Chartier, Hairer and Vilmart, Found. Comput. Math.
+10 (2010) 407, Theorem 3.2). For Lie-Butcher series f -> f~ extends to forests by concatenation and left
+grafting (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
 """
 
 from __future__ import annotations
@@ -12,9 +12,10 @@ from collections.abc import Callable
 from functools import lru_cache
 from itertools import product
 
+from orderconds.errors import InputError
 from orderconds.ring.protocol import Element
-from orderconds.series.characters import ROOTED, Character
-from orderconds.series.modified import VectorField
+from orderconds.series.characters import ROOTED, Character, exact_flow
+from orderconds.series.modified_equations import VectorField
 from orderconds.trees.grafting import left_graft
 from orderconds.trees.levels import Forest, Tree, branches, children, rooted_at_new_vertex, trees_of
 from orderconds.trees.ordered import ordered_forests
@@ -29,7 +30,7 @@ def substituted(field: VectorField, step: Character) -> Character:
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.characters import exact_flow
-    >>> from orderconds.series.modified import modified_field
+    >>> from orderconds.series.modified_equations import modified_field
     >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
     >>> again = substituted(modified_field(euler), exact_flow(QQ, ROOTED))
     >>> [str(again(tree)) for tree in (b"\\0", b"\\0\\1", b"\\0\\1\\1", b"\\0\\1\\2")]
@@ -51,46 +52,81 @@ def substituted(field: VectorField, step: Character) -> Character:
     return Character(step.ring, step.algebra, value)
 
 
-def _by_partitions(field: VectorField, step: Character, tree: Tree) -> Element:
+def modifying_field(step: Character) -> VectorField:
+    """Return the field to which ``step`` must be applied so that the result is the exact flow of f.
+
+    A method applied to this *modifying* field is a method of any order (Chartier, Hairer and Vilmart, Math.
+    Comp. 76 (2007) 1941). ``step`` must be a consistent B-series; for another one this raises
+    :class:`~orderconds.errors.InputError`.
+
+    >>> from orderconds.ring import QQ
+    >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
+    >>> field = modifying_field(euler)
+    >>> [str(field(tree)) for tree in (b"\\0", b"\\0\\1", b"\\0\\1\\1", b"\\0\\1\\2")]
+    ['1', '1/2', '1/3', '1/6']
+    """
+    if step.algebra is not ROOTED:
+        raise InputError("a Lie-Butcher series", where="modifying field", expected="a B-series")
+    if step.ring.is_zero(step(b"\0") - step.ring.one) is False:
+        raise InputError(
+            f"weights that sum to {step.ring.text(step(bytes(1)))}",
+            where="modifying field",
+            expected="a consistent method, whose weights sum to 1",
+        )
+    flow = exact_flow(step.ring, ROOTED)
+    field = VectorField(step.ring, ROOTED, lambda tree: step.ring.zero)
+
+    def value(tree: Tree) -> Element:
+        # In the whole tree as one component the step has the value 1, so that this term is the field's.
+        return flow(tree) - _by_partitions(field, step, tree, whole=False)
+
+    field.define(value)
+    return field
+
+
+def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bool = True) -> Element:
+    """Sum over the partitions of a tree; without ``whole`` the tree as one component is left out."""
     result = field.ring.zero
-    for pieces, skeleton in partitions(tree):
+    for components, skeleton in partitions(tree):
+        if len(components) == 1 and not whole:
+            continue
         term = step(skeleton)
-        for piece in pieces:
-            term = term * field(piece)
+        for component in components:
+            term = term * field(component)
         result = result + term
     return result
 
 
 @lru_cache(maxsize=1 << 12)
 def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
-    r"""Return the pieces and the skeleton of a canonical tree for each set of edges that may be taken away.
+    r"""Return the components and the skeleton of a canonical tree for each set of cut edges.
 
     >>> partitions(b"\0\1")
     (((b'\x00\x01',), b'\x00'), ((b'\x00', b'\x00'), b'\x00\x01'))
     """
-    found = []
+    parts = []
     for choice in product((False, True), repeat=len(tree) - 1):
-        root, pieces, skeleton, _ = _parted(tree, choice)
-        found.append(((root, *pieces), skeleton))
-    return tuple(found)
+        root, components, skeleton, _ = _parted(tree, choice)
+        parts.append(((root, *components), skeleton))
+    return tuple(parts)
 
 
 def _parted(tree: Tree, cut: tuple[bool, ...]) -> tuple[Tree, list[Tree], Tree, tuple[bool, ...]]:
-    """Return the root's piece, the others and the skeleton; one flag of ``cut`` for each edge in preorder."""
-    joined: list[Tree] = []
-    pieces: list[Tree] = []
+    """Return the component of the root, the others and the skeleton; ``cut`` flags the edges in preorder."""
+    attached: list[Tree] = []
+    components: list[Tree] = []
     skeletons: list[Tree] = []
     for child in children(tree):
         taken, cut = cut[0], cut[1:]
         root, others, skeleton, cut = _parted(child, cut)
-        pieces += others
+        components += others
         if taken:
-            pieces.append(root)
+            components.append(root)
             skeletons.append(skeleton)
         else:
-            joined.append(root)
+            attached.append(root)
             skeletons += children(skeleton)
-    return _tree(joined), pieces, _tree(skeletons), cut
+    return _tree(attached), components, _tree(skeletons), cut
 
 
 def _tree(below: list[Tree]) -> Tree:

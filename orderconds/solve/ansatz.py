@@ -1,7 +1,7 @@
-"""An ansatz: a tableau file whose decimals are what is to be found.
+"""An ansatz: a tableau file whose decimals are the unknowns of a search.
 
-The layout of a family with so many stages, its coefficients named a21, b1, ... and related by constraints, is
-spelled as a file. The same text then runs through every engine: over recorded programs for the search, over
+The coefficients of a family with a number of stages, named a21, b1, ... and related by constraints, are
+written as a file. The same text then runs through every engine: over recorded programs for the search, over
 residues for ranks, over balls for the proof.
 """
 
@@ -9,20 +9,26 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 from orderconds import families
 from orderconds.errors import InputError
-from orderconds.solve.wishes import Wishes
-from orderconds.tableau import Tableau
-from orderconds.tableau.unknowns import Spelled
+from orderconds.families import Family
+from orderconds.ring.protocol import Element
+from orderconds.solve.spec import Spec
+from orderconds.tableau import Method, Tableau
+from orderconds.tableau.unknowns import RootedRing, Spelled
+
+if TYPE_CHECKING:
+    from orderconds.solve.parametrise import Layout
 
 
 @dataclass(frozen=True)
 class Ansatz:
-    """Spelled coefficients: ``numbers`` by name, of them ``free`` are unknown, and ``body`` that uses them.
+    """Coefficients as text: ``numbers`` by name, the names of unknown ones in ``free``, and the ``body``.
 
-    ``cells`` are the coefficients of the file, by name, as spelled in ``numbers`` or as constants.
+    ``cells`` are the names of the coefficients that are not constants.
     """
 
     family: str
@@ -35,7 +41,7 @@ class Ansatz:
     tail: tuple[str, ...] = ()
 
     def text(self, values: Mapping[str, str], head: Sequence[str] = (), foot: Sequence[str] = ()) -> str:
-        """Return the file with these spellings for the free coefficients."""
+        """Return the file with these texts for the free coefficients."""
         spelled = {**{name: values[name] for name in self.free}, **self.numbers}
         numbers = [f'{name} = "{spelled[name]}"' for name in sorted(spelled, key=_place)]
         table = ["", "[numbers]", *numbers] if numbers else []
@@ -54,77 +60,77 @@ class Ansatz:
             )
         return proof.spelled
 
-    def method(self, values: Sequence[Any], ring: Any) -> Any:
+    def method(self, values: Sequence[Element], ring: RootedRing) -> Method:
         """Return the method with these elements of a ring for the free coefficients."""
         spelled = self._spelled
         known = {u.constant: x for u, x in zip(spelled.decimals(), self._sorted(values), strict=True)}
         return spelled.method(ring, known)[0]
 
-    def _sorted(self, values: Sequence[Any]) -> list[Any]:
+    def _sorted(self, values: Sequence[Element]) -> list[Element]:
         """Return the values in the order in which the file names them."""
         return [x for _, x in sorted(zip(self.free, values, strict=True), key=lambda pair: _place(pair[0]))]
 
-    @property
+    @cached_property
     def _spelled(self) -> Spelled:
-        found: Spelled | None = self.__dict__.get("_parsed")
-        if found is None:
-            found = self.spelled()
-            object.__setattr__(self, "_parsed", found)
-        return found
+        return self.spelled()
 
-    def coefficients(self, values: Sequence[Any], ring: Any) -> list[Any]:
+    def coefficients(self, values: Sequence[Element], ring: RootedRing) -> list[Element]:
         """Return every coefficient that is no constant, in the order of ``cells``."""
         spelled = self._spelled
         known = {u.constant: x for u, x in zip(spelled.decimals(), self._sorted(values), strict=True)}
         return [spelled.number(name, ring, known) for name in self.cells]
 
 
-def _place(name: str) -> tuple[Any, ...]:
+def _place(name: str) -> tuple[bool, bool, str, list[int]]:
     """Sort names by their letters, then by their indices as numbers."""
     letters = name.rstrip("0123456789_")
     return (letters != "m", letters != "b", letters, [int(x) for x in name[len(letters) :].split("_") if x])
 
 
-def ansatz(family: str, wishes: Wishes, structure: str = "full", name: str = "found") -> Ansatz:
-    """Return the ansatz of a family, by its label, with these wishes.
+def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found") -> Ansatz:
+    """Return the ansatz of a family, by its label, for a specification.
 
-    Raises :class:`~orderconds.errors.InputError` for wishes that contradict each other or that the family
+    Raises :class:`~orderconds.errors.InputError` for options that contradict each other or that the family
     cannot meet.
 
-    >>> found = ansatz("rk", Wishes(stages=2, explicit=True, fix=("a21=1/2",)))
+    >>> found = ansatz("rk", Spec(stages=2, explicit=True, fix=("a21=1/2",)))
     >>> found.free, found.body[2]
     (('b1', 'b2'), 'A = [[], ["1/2"]]')
     """
-    from orderconds.solve.layouts import LAYOUTS
-
-    layout = LAYOUTS.get(families.get(family).name)
-    if layout is None:
-        raise InputError(
-            f"no search in family {family!r}", where="solve", expected=f"one of {', '.join(LAYOUTS)}"
-        )
-    if wishes.stages < 1:
-        raise InputError(f"{wishes.stages} stages", where="--stages", expected="at least one")
-    return layout(family, wishes, structure, name)
+    found = families.get(family)
+    layout = _layout(found)
+    if spec.stages < 1:
+        raise InputError(f"{spec.stages} stages", where="--stages", expected="at least one")
+    return layout.ansatz(found, spec, structure, name)
 
 
-def structures(family: str, wishes: Wishes) -> tuple[str, ...]:
+def structures(family: str, spec: Spec) -> tuple[str, ...]:
     """Return the structures in which a search of this family begins, the most promising first.
 
-    >>> structures("vcg", Wishes(stages=3)), structures("cg", Wishes(stages=3))
+    >>> structures("vcg", Spec(stages=3)), structures("cg", Spec(stages=3))
     (('abscissae', 'full'), ('full',))
     """
-    name = families.get(family).name
-    if name == "vcf" and wishes.symmetric:
-        return ("symmetric gauss", "symmetric abscissae", "symmetric")
-    if name in ("vcg", "vcf") and not wishes.explicit:
-        return ("abscissae", "full")
-    return ("symmetric",) if name == "cf" and wishes.symmetric else ("full",)
+    found = families.get(family)
+    return _layout(found).structures(found, spec)
+
+
+def _layout(family: Family) -> Layout:
+    from orderconds.solve.parametrise import LAYOUTS
+
+    if family.unknowns not in LAYOUTS:
+        searched = [n for n in families.names() if families.family_class(n).unknowns in LAYOUTS]
+        raise InputError(
+            f"no search in family {family.label()!r}",
+            where="solve",
+            expected=f"one of {', '.join(searched)}",
+        )
+    return LAYOUTS[family.unknowns]
 
 
 def renamed(found: Ansatz, name: str) -> Ansatz:
     """Return the same ansatz with another name in its file.
 
-    >>> renamed(ansatz("rk", Wishes(stages=1)), "mine").body[0]
+    >>> renamed(ansatz("rk", Spec(stages=1)), "mine").body[0]
     'name = "mine"'
     """
     body = (f'name = "{name}"', *found.body[1:])

@@ -1,8 +1,8 @@
 """Numbers known to many digits as elements of one number field: relations found by lattice reduction.
 
 A real number near a root of a polynomial with small integer coefficients shows as a short vector of the
-lattice spanned by (e_k, N x^k), with N large (Lenstra, Lenstra and Lovasz 1982). What is found is a guess,
-which whoever asks has to verify in the field.
+lattice spanned by (e_k, N x^k), with N large (Lenstra, Lenstra and Lovasz 1982). The result is a guess,
+which the caller has to verify in the field.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ MAX_TEXT = 160
 
 @dataclass(frozen=True)
 class Spelling:
-    """A number spelled for a tableau file; ``root`` defines the number ``r`` that it refers to."""
+    """A number as text for a tableau file; ``root`` defines the number ``r`` that it refers to."""
 
     text: str
     root: tuple[str, ...] = ()

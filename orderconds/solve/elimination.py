@@ -11,14 +11,22 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Any
+from typing import TYPE_CHECKING, cast
 
-from flint import fmpq, fmpq_mat
+from flint import fmpq, fmpq_mat, fmpq_mpoly
 
 from orderconds.conditions import OrderCondition
-from orderconds.ring.laurent import LaurentPolynomials
+from orderconds.ring.laurent import Laurent, LaurentPolynomials
 from orderconds.ring.polynomials import Polynomials
 from orderconds.solve.problem import Problem
+
+if TYPE_CHECKING:
+    import sympy
+
+    from orderconds.tableau.unknowns import RootedRing
+
+Member = tuple[OrderCondition, fmpq_mpoly]
+"""A condition with its equation."""
 
 MAX_VARIABLES = 3
 """Conditions in more coefficients than this are not eliminated."""
@@ -51,7 +59,7 @@ class Infeasible:
             return f"{self.consequence} = 0 is false"
         return f"{self.consequence} = 0 has no real root (Sturm)"
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, object]:
         """Return the proof as plain data."""
         return {
             "conditions": [{"order": c.order, "tree": c.tree, "expression": str(c)} for c in self.conditions],
@@ -65,11 +73,11 @@ class Infeasible:
 def infeasible(problem: Problem) -> Infeasible | None:
     """Return a proof that no real method solves the conditions, or None where this finds none.
 
-    >>> from orderconds.solve.wishes import Wishes
+    >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem
-    >>> print(infeasible(find_problem("vcg", 3, Wishes(stages=2), "full")).reason)
+    >>> print(infeasible(find_problem("vcg", 3, Spec(stages=2), "full")).reason)
     3*b2^2 - 3*b2 + 1 = 0 has no real root (Sturm)
-    >>> print(infeasible(find_problem("rk", 3, Wishes(stages=2, explicit=True), "full")).reason)
+    >>> print(infeasible(find_problem("rk", 3, Spec(stages=2, explicit=True), "full")).reason)
     1 = 0 is false
     """
     names = problem.ansatz.free
@@ -77,8 +85,8 @@ def infeasible(problem: Problem) -> Infeasible | None:
         return None
     ring = LaurentPolynomials(names) if problem.family.needs_nonzero_weights else Polynomials(names)
     try:
-        values = problem.residuals(ring.generators, ring, _conditions(problem))
-    except (AttributeError, ArithmeticError, TypeError, ValueError):  # quotients by more than monomials
+        values = problem.residuals(ring.generators, cast("RootedRing", ring), _conditions(problem))
+    except (AttributeError, ArithmeticError, TypeError, ValueError):  # no monomials
         return None
     plain = Polynomials(names)
     system = [(c, _numerator(x, plain)) for c, x in zip(_conditions(problem), values, strict=True)]
@@ -95,19 +103,19 @@ def _conditions(problem: Problem) -> tuple[OrderCondition, ...]:
     return tuple(c for n in range(1, min(problem.order, MAX_ORDER) + 1) for c in problem.family.conditions(n))
 
 
-def _numerator(x: Any, plain: Polynomials) -> Any:
+def _numerator(x: Laurent | fmpq_mpoly, plain: Polynomials) -> fmpq_mpoly:
     """Return a polynomial that vanishes with ``x`` wherever ``x`` is defined."""
-    numerator = getattr(x, "numerator", x)
+    numerator = x.numerator if isinstance(x, Laurent) else x
     return plain.zero.context().from_dict({tuple(map(int, e)): c for e, c in numerator.terms()})
 
 
-def _support(x: Any) -> frozenset[int]:
+def _support(x: fmpq_mpoly) -> frozenset[int]:
     return frozenset(k for exponents, _ in x.terms() for k, e in enumerate(exponents) if e)
 
 
 def _subsystems(
-    system: Sequence[tuple[OrderCondition, Any]], plain: Polynomials
-) -> Iterator[tuple[tuple[int, ...], list[tuple[OrderCondition, Any]]]]:
+    system: Sequence[Member], plain: Polynomials
+) -> Iterator[tuple[tuple[int, ...], list[Member]]]:
     """Yield sets of few variables with the conditions that hold no others, fewest first."""
     supports = sorted({_support(x) for _, x in system if len(_support(x)) <= MAX_VARIABLES}, key=sorted)
     wanted = {*supports, *(x | y for x, y in combinations(supports, 2) if len(x | y) <= MAX_VARIABLES)}
@@ -118,8 +126,8 @@ def _subsystems(
 
 
 def _consequence(
-    problem: Problem, variables: Sequence[int], members: Sequence[Any], plain: Polynomials
-) -> Any:
+    problem: Problem, variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
+) -> fmpq_mpoly | None:
     """Return a polynomial of the ideal without admissible real roots, or None."""
     import sympy
 
@@ -142,7 +150,7 @@ def _consequence(
     return None
 
 
-def _sympy(x: Any, variables: Sequence[int], symbols: Sequence[Any]) -> Any:
+def _sympy(x: fmpq_mpoly, variables: Sequence[int], symbols: Sequence[sympy.Symbol]) -> sympy.Expr:
     import sympy
 
     return sum(
@@ -152,7 +160,7 @@ def _sympy(x: Any, variables: Sequence[int], symbols: Sequence[Any]) -> Any:
     )
 
 
-def _flint(polynomial: Any, plain: Polynomials) -> Any:
+def _flint(polynomial: sympy.Poly, plain: Polynomials) -> fmpq_mpoly:
     """Return a univariate sympy polynomial, its coefficients whole and without common factor."""
     place = plain.names.index(polynomial.gen.name)
     found = plain.zero
@@ -163,8 +171,8 @@ def _flint(polynomial: Any, plain: Polynomials) -> Any:
 
 def _certificate(
     variables: Sequence[int],
-    members: Sequence[tuple[OrderCondition, Any]],
-    consequence: Any,
+    members: Sequence[Member],
+    consequence: fmpq_mpoly,
     plain: Polynomials,
 ) -> Infeasible | None:
     """Return multipliers for the consequence, by linear algebra; None where they are too large."""
@@ -186,8 +194,12 @@ def _certificate(
 
 
 def _multipliers(
-    variables: Sequence[int], members: Sequence[Any], consequence: Any, degree: int, plain: Polynomials
-) -> list[Any] | None:
+    variables: Sequence[int],
+    members: Sequence[fmpq_mpoly],
+    consequence: fmpq_mpoly,
+    degree: int,
+    plain: Polynomials,
+) -> list[fmpq_mpoly] | None:
     """Return polynomials m_k of at most this degree with sum_k m_k f_k = consequence, or None."""
     monomials = [plain.one]
     frontier = [plain.one]

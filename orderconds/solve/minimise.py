@@ -28,9 +28,9 @@ PATIENCE = 12
 def minimise(problem: Problem, point: Floats, steps: int = MAX_STEPS) -> tuple[Floats, float]:
     """Return a nearby solution of least principal error, and the error; ``point`` solves the conditions.
 
-    >>> from orderconds.solve.wishes import Wishes
+    >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem
-    >>> problem = find_problem("rk", 2, Wishes(stages=2, explicit=True), "full")
+    >>> problem = find_problem("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> point, error = minimise(problem, np.array([0.0, 1.0, 0.5]))
     >>> np.round(point, 6).tolist(), round(error, 6)  # Ralston's 2/3
     ([0.25, 0.75, 0.666667], 0.166667)

@@ -16,51 +16,51 @@ from math import ceil
 
 from orderconds.errors import InputError
 from orderconds.solve.linear import Constraint, equal, named, zero
-from orderconds.solve.wishes import Wishes
+from orderconds.solve.spec import Spec
 
 Path = list[list[str]]
 Paths = tuple[list[Path], Path, list[str], list[Constraint]]
 """Stages, update, all names, constraints."""
 
 
-def full_paths(wishes: Wishes) -> Paths:
+def full_paths(spec: Spec) -> Paths:
     """Return stages and update with every coefficient free; an explicit method's first stage is y0.
 
-    >>> stages, update, names, _ = full_paths(Wishes(stages=2, explicit=True, exponentials=1, inner=1))
+    >>> stages, update, names, _ = full_paths(Spec(stages=2, explicit=True, exponentials=1, inner=1))
     >>> stages, update
     ([[], [['a2_1_1', 'a2_1_2']]], [['b1_1', 'b1_2']])
     """
-    if wishes.symmetric:
+    if spec.symmetric:
         raise InputError("--symmetric", where="structure full", expected="structure symmetric")
-    every = range(1, wishes.stages + 1)
-    update = [[f"b{J}_{j}" for j in every] for J in range(1, wishes.exponentials + 1)]
-    numbers = range(1, wishes.inner + 1)
+    every = range(1, spec.stages + 1)
+    update = [[f"b{J}_{j}" for j in every] for J in range(1, spec.exponentials + 1)]
+    numbers = range(1, spec.inner + 1)
     stages = [
-        [] if wishes.explicit and i == 1 else [[named("a", i, J, j) for j in every] for J in numbers]
+        [] if spec.explicit and i == 1 else [[named("a", i, J, j) for j in every] for J in numbers]
         for i in every
     ]
     names = [x for line in update for x in line] + [x for path in stages for line in path for x in line]
     constraints = []
     for i, path in enumerate(stages, start=1):
         for line in path:
-            if wishes.explicit or wishes.dirk:
-                last = i if wishes.dirk else i - 1
-                constraints += [zero(x, "--dirk" if wishes.dirk else "--explicit") for x in line[last:]]
+            if spec.explicit or spec.dirk:
+                last = i if spec.dirk else i - 1
+                constraints += [zero(x, "--dirk" if spec.dirk else "--explicit") for x in line[last:]]
     return stages, update, names, constraints
 
 
-def symmetric_paths(wishes: Wishes) -> Paths:
+def symmetric_paths(spec: Spec) -> Paths:
     """Return stages that leave a symmetric update in pairs, with ``inner`` exponentials at most in each.
 
-    >>> stages, update, names, _ = symmetric_paths(Wishes(stages=2))
+    >>> stages, update, names, _ = symmetric_paths(Spec(stages=2))
     >>> stages[0], update
     ([['b1_1', 'b1_2'], ['a1_2_1', 'a1_2_2']], [['b1_1', 'b1_2'], ['b2_1', 'b2_2']])
     """
-    if wishes.explicit:
+    if spec.explicit:
         raise InputError(
             "--explicit with --symmetric", where="constraints", expected="one of them: no symmetric method is"
         )
-    s, m, inner = wishes.stages, wishes.exponentials, wishes.inner
+    s, m, inner = spec.stages, spec.exponentials, spec.inner
     every = range(1, s + 1)
     update = [[f"b{J}_{j}" for j in every] for J in range(1, m + 1)]
     names = [x for line in update for x in line]

@@ -5,43 +5,44 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Any
 
 import numpy as np
 
 from orderconds import families
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
-from orderconds.families import Family, in_ring
-from orderconds.proof.spelling import independent_conditions
+from orderconds.families import Family
+from orderconds.proof.subfamily import independent_conditions
+from orderconds.ring.protocol import Element, Ring
 from orderconds.ring.traces import Trace, Traces
 from orderconds.solve.ansatz import Ansatz, ansatz
+from orderconds.solve.spec import Spec
 from orderconds.solve.tape import Floats, Tape
-from orderconds.solve.wishes import Wishes
-from orderconds.tableau import RungeKutta
+from orderconds.tableau import CommutatorFree, Method, RungeKutta
+from orderconds.tableau.unknowns import RootedRing
 
 SMALLEST = 0.01
-"""What is asked to be positive is at least this."""
+"""Coefficients required to be positive are at least this."""
 
 
 @dataclass(frozen=True)
 class Problem:
-    """All that a search needs to know; equal problems of one process share their programs.
+    """The equations of one search; equal problems of one process share their programs.
 
-    >>> problem = find_problem("rk", 2, Wishes(stages=2, explicit=True), "full")
+    >>> problem = find_problem("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> problem.ansatz.free, problem.tape.size
     (('b1', 'b2', 'a21'), 2)
     """
 
     label: str
     order: int
-    wishes: Wishes
+    spec: Spec
     structure: str
 
     @cached_property
     def ansatz(self) -> Ansatz:
-        """Return the spelled coefficients."""
-        return ansatz(self.label, self.wishes, self.structure)
+        """Return the coefficients as a file with unknowns."""
+        return ansatz(self.label, self.spec, self.structure)
 
     @cached_property
     def family(self) -> Family:
@@ -68,17 +69,19 @@ class Problem:
         ring = Traces(len(self.ansatz.free))
         return list(self.residuals(ring.inputs, ring, self.conditions))
 
-    def residuals(self, values: Sequence[Any], ring: Any, conditions: Sequence[OrderCondition]) -> list[Any]:
+    def residuals(
+        self, values: Sequence[Element], ring: RootedRing, conditions: Sequence[OrderCondition]
+    ) -> list[Element]:
         """Return left-hand sides less right-hand sides for free coefficients in any ring."""
         method = self.ansatz.method(values, ring)
-        return list(families.residuals(self.family, method, ring, conditions))
+        return list(self.family.residuals(method, ring, conditions))
 
     @cached_property
     def error(self) -> Tape:
         """Return the residuals of the next order as a program; their 2-norm is the principal error."""
         ring = Traces(len(self.ansatz.free))
         method = self.ansatz.method(ring.inputs, ring)
-        return Tape(principal_residuals(self.family, method, ring, self.order + 1), len(self.ansatz.free))
+        return Tape(self.family.principal_residuals(method, ring, self.order + 1), len(self.ansatz.free))
 
     @cached_property
     def coefficients(self) -> Tape:
@@ -90,10 +93,10 @@ class Problem:
 
     @cached_property
     def positive(self) -> tuple[int, ...]:
-        """Return the places, among ``coefficients``, of what is asked to be positive."""
+        """Return the places, among ``coefficients``, of those required to be positive."""
         names = self.ansatz.cells
         found: list[int] = []
-        for wish in self.wishes.positive:
+        for wish in self.spec.positive:
             if wish == "b":
                 places = list(range(len(names), self.coefficients.size))
             else:
@@ -111,8 +114,8 @@ class Problem:
             places = list(self.positive)
             rows.append(np.maximum(0.0, SMALLEST - values[:, places]))
             derivatives.append(-slopes[:, places])
-        if self.wishes.size is not None:
-            rows.append(np.maximum(0.0, np.abs(values) - float(self.wishes.size)))
+        if self.spec.size is not None:
+            rows.append(np.maximum(0.0, np.abs(values) - float(self.spec.size)))
             derivatives.append(slopes * np.sign(values)[..., None])
         if not rows:
             return values[:, :0], slopes[:, :0]
@@ -134,38 +137,17 @@ class Problem:
 
 
 @lru_cache(maxsize=8)
-def find_problem(label: str, order: int, wishes: Wishes, structure: str) -> Problem:
-    """Return the problem, made once in a process.
+def find_problem(label: str, order: int, spec: Spec, structure: str) -> Problem:
+    """Return the problem, created once in a process.
 
-    >>> wishes = Wishes(stages=2)
-    >>> find_problem("rk", 2, wishes, "full") is find_problem("rk", 2, wishes, "full")
+    >>> spec = Spec(stages=2)
+    >>> find_problem("rk", 2, spec, "full") is find_problem("rk", 2, spec, "full")
     True
     """
-    return Problem(label, order, wishes, structure)
+    return Problem(label, order, spec, structure)
 
 
-def principal_residuals(family: Family, method: Any, ring: Any, order: int) -> list[Any]:
-    """Return the residuals of one order whose 2-norm measures a method's error.
-
-    For variational families those of all rooted action trees, as expanded about (q0, mu1) and not scaled;
-    else those of the family's independent conditions.
-
-    >>> from orderconds.ring import QQ
-    >>> from orderconds.tableau import Tableau, find
-    >>> midpoint = Tableau.load(find("gauss1"))
-    >>> len(principal_residuals(families.get("vcg"), midpoint.method, QQ, 3))
-    17
-    """
-    if getattr(family, "trees", "") != "action":
-        return list(families.residuals(family, method, ring, family.conditions(order)))
-    from orderconds.series.action_enumeration import velocities
-    from orderconds.series.action_exact import condition
-
-    series: Any = family.series(method, ring)  # type: ignore[attr-defined]  # action families have it
-    return [series.condition(t) - in_ring(ring, condition(t)) for t in velocities(order)]
-
-
-def _weights(method: Any, ring: Any) -> list[Any]:
+def _weights(method: Method, ring: Ring) -> list[Element]:
     if isinstance(method, RungeKutta):
         return list(method.b)
-    return list(method.as_runge_kutta(ring).b) if hasattr(method, "update") else []
+    return list(method.as_runge_kutta(ring).b) if isinstance(method, CommutatorFree) else []

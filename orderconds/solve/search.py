@@ -8,20 +8,23 @@ nothing. Processes get strings and numbers, and make their own programs.
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from orderconds.errors import InputError
+from orderconds.input_file import MAX_WRITTEN_BYTES, content_of, reason
+from orderconds.output_file import write_files
+from orderconds.processes import in_processes
+from orderconds.solve.cluster import on_cluster
 from orderconds.solve.least_squares import least_squares, rank
 from orderconds.solve.minimise import minimise
 from orderconds.solve.problem import Problem, find_problem
+from orderconds.solve.spec import Spec
 from orderconds.solve.tape import Floats
-from orderconds.solve.wishes import Wishes
 
 BATCH = 64
 """Starts of a batch."""
@@ -43,25 +46,29 @@ SINGULAR = 1e6
 
 @dataclass(frozen=True)
 class Search:
-    """What is searched: everything that the result depends on."""
+    """A search: everything that its result depends on."""
 
     family: str
     order: int
-    wishes: Wishes
+    spec: Spec
     structure: str
     seed: int = 0
     minimised: bool = False
 
-    def described(self) -> dict[str, Any]:
+    def described(self) -> dict[str, object]:
         """Return the search as plain data, as a checkpoint keeps it."""
         record = asdict(self)
-        record["wishes"] = {key: str(x) if key == "size" else x for key, x in record["wishes"].items()}
+        record["spec"] = {key: str(x) if key == "size" else x for key, x in record["spec"].items()}
         return dict(json.loads(json.dumps(record)))
+
+
+BatchRecord = tuple[int, str, list[tuple[str, list[str]]]]
+"""A batch as plain data: number, least norm, solutions; doubles as hexadecimal text."""
 
 
 @dataclass(frozen=True)
 class Batch:
-    """What a batch found: ``solutions`` as (score, free coefficients), the best first.
+    """The result of a batch: ``solutions`` as (score, free coefficients), the best first.
 
     The score is the principal error, or the largest coefficient where that would cost too much. ``best`` is
     the least residual norm of all starts.
@@ -71,12 +78,13 @@ class Batch:
     best: float
     solutions: tuple[tuple[float, tuple[float, ...]], ...] = ()
 
-    def as_json(self) -> list[Any]:
+    def as_json(self) -> BatchRecord:
         """Return plain data; doubles keep all their bits."""
-        return [self.number, self.best.hex(), [[s.hex(), [x.hex() for x in p]] for s, p in self.solutions]]
+        solutions = [(s.hex(), [x.hex() for x in p]) for s, p in self.solutions]
+        return self.number, self.best.hex(), solutions
 
     @staticmethod
-    def read(record: Sequence[Any]) -> Batch:
+    def read(record: BatchRecord) -> Batch:
         """Return the batch that :meth:`as_json` wrote."""
         number, best, solutions = record
         read = tuple((float.fromhex(s), tuple(map(float.fromhex, p))) for s, p in solutions)
@@ -84,14 +92,14 @@ class Batch:
 
 
 def run_batch(search: Search, number: int) -> Batch:
-    """Return what batch ``number`` finds.
+    """Return the result of batch ``number``.
 
-    >>> search = Search("rk", 2, Wishes(stages=2, explicit=True), "full")
+    >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> found = run_batch(search, 0)
     >>> len(found.solutions) > 0, found == run_batch(search, 0)
     (True, True)
     """
-    problem = find_problem(search.family, search.order, search.wishes, search.structure)
+    problem = find_problem(search.family, search.order, search.spec, search.structure)
     generator = np.random.default_rng([search.seed, number])
     points, norms = least_squares(problem.system, problem.starts(generator, BATCH))
     solved = np.flatnonzero(norms < POLISHED)
@@ -110,7 +118,7 @@ def run_batch(search: Search, number: int) -> Batch:
 
 
 def _score(problem: Problem, point: Floats) -> float:
-    """Return by what solutions are compared; less is better."""
+    """Return the score of a solution; less is better."""
     if problem.order <= CHEAP:
         return float(np.linalg.norm(problem.error.values(point[None])[0]))
     return float(np.abs(problem.coefficients.values(point[None])).max())
@@ -125,14 +133,21 @@ class Checkpoint:
     batches: dict[int, Batch] = field(default_factory=dict)
 
     def load(self) -> None:
-        """Read what an interrupted search left; raises InputError where it was another search."""
+        """Read the batches of an interrupted search; raises InputError where it was another search."""
         if self.path is None or not self.path.exists():
             return
         try:
-            record = json.loads(self.path.read_text(encoding="utf-8"))
+            record = json.loads(content_of(self.path, limit=MAX_WRITTEN_BYTES, own=True))
             same = record["search"] == self.search.described()
             batches = [Batch.read(x) for x in record["batches"]] if same else []
-        except (OSError, ValueError, KeyError, TypeError):
+        except OSError as problem:
+            raise InputError(
+                f"a checkpoint that cannot be used: {reason(problem)}",
+                where=str(self.path),
+                expected="a file of yours that an interrupted search left",
+                hint="delete it, or name another file",
+            ) from None
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
             raise InputError(
                 "no checkpoint of a search", where=str(self.path), expected="what an interrupted search left"
             ) from None
@@ -162,7 +177,7 @@ class Checkpoint:
 
 
 def write_whole(path: Path, text: str) -> None:
-    """Write a file under another name first, so that nobody ever sees half of it.
+    """Write a file under another name first, so that a half-written file is never visible.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -170,16 +185,12 @@ def write_whole(path: Path, text: str) -> None:
     ...     (Path(folder) / "x").read_text()
     'text'
     """
-    if path.exists() and not path.is_file():
+    if path.is_symlink() or (path.exists() and not path.is_file()):
         raise InputError("no regular file", where=str(path), expected="a file that can be written")
-    partial = path.with_name(f".{path.name}.partial")
     try:
-        partial.write_text(text, encoding="utf-8")
-        os.replace(partial, path)
+        write_files({path: text.encode()})
     except OSError as problem:
-        partial.unlink(missing_ok=True)
-        reason = (problem.strerror or "unwritable").lower()
-        raise InputError(reason, where=str(path), expected="a file that can be written") from None
+        raise InputError(reason(problem), where=str(path), expected="a file that can be written") from None
 
 
 def batches(
@@ -191,7 +202,7 @@ def batches(
     ``cluster``, are started for the others. Raises :class:`~orderconds.errors.InputError` for a cluster that
     does not answer.
 
-    >>> search = Search("rk", 2, Wishes(stages=2, explicit=True), "full")
+    >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> [batch.number for batch in batches(search, 2, Checkpoint(None, search))]
     [0, 1]
     """
@@ -212,35 +223,8 @@ def _computed(
     rest = numbers[alone:]
     if not rest:
         return
-    import joblib
-
-    jobs = [joblib.delayed(run_batch)(search, number) for number in rest]
-    if cluster is None:
-        yield from joblib.Parallel(n_jobs=processes, return_as="generator", pre_dispatch=processes)(jobs)
-        return
-    with _client(cluster), joblib.parallel_config(backend="dask"):
-        yield from joblib.Parallel(return_as="generator")(jobs)
-
-
-def _client(address: str) -> Any:
-    """Return a client of a dask cluster."""
-    try:
-        from distributed import Client
-    except ImportError:
-        raise InputError(
-            "dask's distributed is not installed",
-            where="--dask",
-            expected="pip install 'orderconds[cluster]'",
-        ) from None
-    try:
-        return Client(address, timeout=3)
-    except (OSError, ValueError, TimeoutError) as problem:
-        reason = str(problem).splitlines()[0] if str(problem) else type(problem).__name__
-        raise InputError(
-            f"no cluster answers ({reason})",
-            where=f"--dask {address}",
-            expected="tcp://host:port of a scheduler",
-        ) from None
+    work = partial(run_batch, search)
+    yield from in_processes(work, rest, processes) if cluster is None else on_cluster(work, rest, cluster)
 
 
 Reported = Callable[[str], object]

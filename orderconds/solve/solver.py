@@ -1,4 +1,4 @@
-"""The whole way: refuse what cannot be, search, and write the best method that can be proved."""
+"""A search from start to end: prove infeasibility, or search and write the best method that can be proved."""
 
 from __future__ import annotations
 
@@ -6,17 +6,16 @@ import shlex
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from orderconds.errors import InputError
 from orderconds.proof.krawczyk import NotProved
 from orderconds.solve.abscissae import WHERE
 from orderconds.solve.ansatz import structures
+from orderconds.solve.certify_solution import Found, certify_solution
 from orderconds.solve.elimination import Infeasible, infeasible
-from orderconds.solve.finish import Found, finish
-from orderconds.solve.problem import find_problem
+from orderconds.solve.problem import Problem, find_problem
 from orderconds.solve.search import BATCH, Batch, Checkpoint, Search, batches
-from orderconds.solve.wishes import Wishes
+from orderconds.solve.spec import Spec
 
 PLAIN, MINIMISED = 4096, 1024
 """Starts in each structure, where the principal error is not minimised, and where it is."""
@@ -24,7 +23,7 @@ PLAIN, MINIMISED = 4096, 1024
 
 @dataclass
 class Outcome:
-    """What a search came to: a method, a proof that there is none, or neither.
+    """The outcome of a search: a method, a proof that there is none, or neither.
 
     ``best`` is the least residual norm of all starts, ``tried`` says in words what was done.
     """
@@ -38,11 +37,11 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Order:
-    """What is to be solved, and how much work may be spent on it."""
+    """A search and the work that may be spent on it."""
 
     family: str
     order: int
-    wishes: Wishes
+    spec: Spec
     seed: int = 0
     minimised: bool = False
     starts: int | None = None
@@ -54,10 +53,10 @@ class Order:
     def command(self) -> str:
         """Return the command line that repeats the search.
 
-        >>> Order("cg", 3, Wishes(stages=3, explicit=True)).command()
+        >>> Order("cg", 3, Spec(stages=3, explicit=True)).command()
         'orderconds solve cg --stages 3 --order 3 --explicit'
         """
-        w = self.wishes
+        w = self.spec
         words = ["orderconds", "solve", self.family, "--stages", str(w.stages), "--order", str(self.order)]
         words += [f"--{key}" for key in ("explicit", "dirk", "symmetric", "fsal", "rkn") if getattr(w, key)]
         for option, values in (("--fix", w.fix), ("--positive", w.positive)):
@@ -75,17 +74,17 @@ class Order:
 
 
 def solve(order: Order, report: Callable[[str], object] = str) -> Outcome:
-    """Return what is found; ``report`` is told how far the search is.
+    """Return the outcome; ``report`` receives lines about the progress.
 
-    Raises :class:`~orderconds.errors.InputError` for wishes that make no sense.
+    Raises :class:`~orderconds.errors.InputError` for contradictory options.
 
-    >>> outcome = solve(Order("cg", 3, Wishes(stages=3, explicit=True)))
+    >>> outcome = solve(Order("cg", 3, Spec(stages=3, explicit=True)))
     >>> outcome.found.certificate
     'exact'
     """
     outcome = Outcome()
     applicable = list(_applicable(order))
-    full = find_problem(order.family, order.order, order.wishes, applicable[-1])
+    full = find_problem(order.family, order.order, order.spec, applicable[-1])
     report("eliminating")
     outcome.none = infeasible(full)
     if outcome.none is not None:
@@ -98,11 +97,11 @@ def solve(order: Order, report: Callable[[str], object] = str) -> Outcome:
 
 
 def _applicable(order: Order) -> list[str]:
-    """Return the structures that the wishes allow; raises InputError where there is none."""
+    """Return the structures that the specification allows; raises InputError where there is none."""
     found, refusal = [], None
-    for structure in structures(order.family, order.wishes):
+    for structure in structures(order.family, order.spec):
         try:
-            problem = find_problem(order.family, order.order, order.wishes, structure)
+            problem = find_problem(order.family, order.order, order.spec, structure)
             _ = problem.ansatz.spelled()
             _ = problem.positive
         except InputError as problem:
@@ -117,10 +116,10 @@ def _applicable(order: Order) -> list[str]:
 
 
 def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[str], object]) -> None:
-    problem = find_problem(order.family, order.order, order.wishes, structure)
-    search = Search(order.family, order.order, order.wishes, structure, order.seed, order.minimised)
+    problem = find_problem(order.family, order.order, order.spec, structure)
+    search = Search(order.family, order.order, order.spec, structure, order.seed, order.minimised)
     path = order.checkpoint
-    if path is not None and structure != structures(order.family, order.wishes)[0]:
+    if path is not None and structure != structures(order.family, order.spec)[0]:
         path = path.with_name(f"{path.name}.{structure}")
     checkpoint = Checkpoint(path, search)
     checkpoint.load()
@@ -153,13 +152,13 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
 
 
 def _finished(
-    problem: Any, seen: list[Batch], order: Order, source: str, refused: str
+    problem: Problem, seen: list[Batch], order: Order, source: str, refused: str
 ) -> tuple[Found | None, str]:
     """Return the best solution that can be proved, or why the last could not be."""
     solutions = sorted((s for batch in seen for s in batch.solutions), key=lambda found: found[0])
     for _, point in solutions[:8]:
         try:
-            return finish(problem, point, order.name, source, minimised=order.minimised), refused
+            return certify_solution(problem, point, order.name, source, minimised=order.minimised), refused
         except NotProved as problem_met:
             refused = str(problem_met)
     return None, refused

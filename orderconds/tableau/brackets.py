@@ -9,15 +9,15 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping
 from functools import cache
-from typing import Any
+from typing import Union
 
 from msgspec import Struct
 
 from orderconds.errors import TableauError
 from orderconds.ring.protocol import Element, Ring
 
-Term = Any
-"""An ``int`` (a node, counted from 0), a ``str`` (a named element), a Bracket or a Product."""
+Term = Union[int, str, "Bracket", "Product"]
+"""A node (counted from 0), a named element, a bracket or a product."""
 Nodes = tuple[int, ...]
 NodeSeries = dict[Nodes, Element]
 """Coefficients of words of nodes in the order of action: (i, j) is the product A_j A_i."""

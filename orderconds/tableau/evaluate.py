@@ -7,9 +7,9 @@ everything balls. Equal spellings in one file denote one number and share one el
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from typing import Any, Protocol
+from typing import Protocol
 
 from msgspec import Struct
 
@@ -95,7 +95,7 @@ def evaluate_in(
     return _Evaluation(scalars, numbers, where).all(expressions)
 
 
-def _shared(values: Mapping[str, Element], lift: Any) -> dict[str, Element]:
+def _shared(values: Mapping[str, Element], lift: Callable[[Element], Element]) -> dict[str, Element]:
     """Lift every value once, so that shared elements stay shared."""
     lifted = {id(x): lift(x) for x in values.values()}
     return {key: lifted[id(x)] for key, x in values.items()}

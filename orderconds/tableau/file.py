@@ -14,19 +14,15 @@ import msgspec
 from msgspec import Struct
 
 from orderconds.errors import InputError, TableauError
+from orderconds.input_file import read_bytes
 from orderconds.tableau.evaluate import Definition, NamedRoot, evaluate
+from orderconds.tableau.file_format import Claim, CutoffClaim, Format, Number, ProofEntry, RootEntry
 from orderconds.tableau.formats import (
     FORMATS,
-    Claim,
     CommutatorFreeFile,
-    CutoffClaim,
     EmbeddedEntry,
     EmbeddedProduct,
-    Format,
     LowStorage,
-    Number,
-    ProofEntry,
-    RootEntry,
     StageEntry,
 )
 from orderconds.tableau.grammar import Chain, Constant, Expression, parse
@@ -34,7 +30,6 @@ from orderconds.tableau.properties import PROPERTIES
 from orderconds.tableau.record import Claims, File, OrderClaim, Tableau
 from orderconds.tableau.unknowns import Proof, Spelled
 
-MAX_BYTES = 1_000_000
 MAX_NAME = 64
 KEYS = frozenset(("family", "A", "b", "stage", "update", "low_storage", "gamma", "alpha", "exponents"))
 """A file with one of these keys is meant as a tableau."""
@@ -78,23 +73,14 @@ def text_of(path: str | Path) -> str:
 
 
 def bytes_of(path: str | Path) -> bytes:
-    """Return what a file holds, refused where it is too large for a tableau, or has no end.
+    """Return the content of a regular file, refused where it is too large for a tableau.
 
     >>> from orderconds.tableau import find
     >>> bytes_of(find("kutta3"))[:4]
     b'name'
     """
-    try:
-        with Path(path).open("rb") as stream:  # devices and pipes tell no size beforehand
-            read = stream.read(MAX_BYTES + 1)
-    except OSError as problem:
-        reason = (problem.strerror or "unreadable").lower()
-        raise TableauError(reason, where=str(path), expected="a tableau file") from None
-    if len(read) > MAX_BYTES:
-        raise TableauError(
-            "a file too large for a tableau", where=str(path), expected=f"at most {MAX_BYTES} bytes"
-        )
-    return read.removeprefix(BOM_UTF8)  # some editors and spreadsheets put one before the text
+    content = read_bytes(path, "a tableau file", error=TableauError)
+    return content.removeprefix(BOM_UTF8)  # some editors and spreadsheets put one before the text
 
 
 def meant_as_tableau(path: str | Path) -> bool:
@@ -135,7 +121,7 @@ def loads(text: str, where: str = "<text>", path: str | None = None) -> Tableau:
     return from_data(data, where, path)
 
 
-def from_data(data: Mapping[str, Any], where: str = "<data>", path: str | None = None) -> Tableau:
+def from_data(data: Mapping[str, object], where: str = "<data>", path: str | None = None) -> Tableau:
     """Return the tableau of a file's keys and values, as TOML or JSON give them.
 
     >>> from_data({"name": "euler", "family": "rk", "A": [[]], "b": ["1"]}).method
@@ -168,7 +154,7 @@ def from_data(data: Mapping[str, Any], where: str = "<data>", path: str | None =
     )
 
 
-def _converted(data: Mapping[str, Any], where: str) -> Format:
+def _converted(data: Mapping[str, object], where: str) -> Format:
     """Return the typed file, its format chosen by ``family``."""
     family = data.get("family")
     if not isinstance(family, str) or family not in FORMATS:
@@ -181,7 +167,9 @@ def _converted(data: Mapping[str, Any], where: str) -> Format:
         raise _explained(str(problem), kind, "", where) from None
 
 
-def _each(table: Mapping[str, Any], kind: Any, struct: type[Struct], key: str, where: str) -> dict[str, Any]:
+def _each(
+    table: Mapping[str, object], kind: Any, struct: type[Struct], key: str, where: str
+) -> dict[str, Any]:
     """Return the entries of a table typed one by one, so that a message can name the entry."""
     result = {}
     for name, value in table.items():

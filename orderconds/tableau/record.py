@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
 
 from msgspec import Struct
 
@@ -56,7 +55,7 @@ class Claims:
 class File(Struct, frozen=True):
     """What a file spells: its keys and values, and the method, embedded row and claims that were read."""
 
-    data: Mapping[str, Any]
+    data: Mapping[str, object]
     spelled: Spelled
     method: Method
     embedded: LowerOrder | None

@@ -11,12 +11,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import Any
+from typing import Protocol, cast
 
 from flint import fmpq
 from msgspec import Struct
 
-from orderconds.ring import QQ, Balls
+from orderconds.ring import QQ, Balls, NumberField
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.methods import RungeKutta
 
@@ -29,6 +29,13 @@ LARGEST = 100
 
 EFFORT = 10**11
 """How many pairs of bits may be multiplied over other fields, a second or so: Euclid's remainders swell."""
+
+
+class SignedRing(Ring, Protocol):
+    """A ring whose elements have signs."""
+
+    def sign(self, x: Element) -> int | None:
+        """Return the sign, None where the ring cannot tell."""
 
 
 class StabilityFunction(Struct, frozen=True):
@@ -58,10 +65,10 @@ def stability(method: RungeKutta, ring: Ring) -> dict[str, bool | None]:
     return {"a_stable": a_stable, "l_stable": l_stable}
 
 
-def _decided(method: RungeKutta, ring: Any) -> tuple[bool, bool]:
+def _decided(method: RungeKutta, ring: Ring) -> tuple[bool, bool]:
     if _largest_block(method, ring) > LARGEST:
         raise _Undecided
-    from orderconds.series.nodal import nodal_algebra
+    from orderconds.ring.nodal import nodal_algebra
     from orderconds.tableau.rational_stability import determinant, stable
 
     if ring is QQ:
@@ -72,13 +79,13 @@ def _decided(method: RungeKutta, ring: Any) -> tuple[bool, bool]:
         maps = algebra.rational_maps()
         if (verdict := stable(*map(determinant, maps))) is not None:
             return verdict
-    ring = _Limited(ring)
-    R = stability_function(method, ring)
-    a_stable = poles_right(R.denominator, ring) and bounded_on_axis(R, ring)
+    limited = cast("SignedRing", _Limited(ring))
+    R = stability_function(method, limited)
+    a_stable = poles_right(R.denominator, limited) and bounded_on_axis(R, limited)
     return a_stable, a_stable and len(R.numerator) < len(R.denominator)
 
 
-def stability_of_midpoints(gamma: Sequence[Element], ring: Any) -> dict[str, bool | None]:
+def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bool | None]:
     """Return the same of composed midpoints, R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
 
     |R| = 1 on the axis and at infinity. A negative step is a pole on the left, unless a positive one
@@ -87,7 +94,8 @@ def stability_of_midpoints(gamma: Sequence[Element], ring: Any) -> dict[str, boo
     >>> stability_of_midpoints([QQ.rational(1, 2), QQ.rational(1, 2)], QQ)
     {'a_stable': True, 'l_stable': False}
     """
-    signs = [ring.sign(x) for x in gamma]
+    signed = cast("SignedRing", ring)
+    signs = [signed.sign(x) for x in gamma]
     if all(sign in (0, 1) for sign in signs):
         return {"a_stable": True, "l_stable": False}
     for x, sign in zip(gamma, signs, strict=True):
@@ -101,7 +109,7 @@ def stability_of_midpoints(gamma: Sequence[Element], ring: Any) -> dict[str, boo
         if sign == -1 and partner is not None:
             left.pop(partner)
             left.pop(next(i for i, y in enumerate(left) if y is x))
-    return {"a_stable": all(ring.sign(x) >= 0 for x in left), "l_stable": False}
+    return {"a_stable": all(signed.sign(x) in (0, 1) for x in left), "l_stable": False}
 
 
 class _Undecided(Exception):
@@ -109,16 +117,16 @@ class _Undecided(Exception):
 
 
 class _Limited:
-    """A number field that gives up after so much work."""
+    """A number field with a bound on its work."""
 
-    def __init__(self, ring: Any) -> None:
+    def __init__(self, ring: Ring) -> None:
         self.ring, self.left = ring, EFFORT
 
-    def __getattr__(self, name: str) -> Any:
+    def __getattr__(self, name: str) -> object:
         return getattr(self.ring, name)
 
     def spend(self, work: int) -> None:
-        """Take off so many pairs of bits."""
+        """Subtract the cost of an operation, in pairs of bits."""
         self.left -= work
         if self.left < 0:
             raise _Undecided
@@ -130,10 +138,11 @@ def _bits(x: Element) -> int:
     return max((int(fmpq(c).p).bit_length() + int(fmpq(c).q).bit_length() for c in coefficients), default=1)
 
 
-def _spend(ring: Any, count: int, numbers: Sequence[Element], quadratic: bool) -> None:
-    """Account for so many products of such numbers; quotients make it quadratic in their length."""
+def _spend(ring: Ring, count: int, numbers: Sequence[Element], quadratic: bool) -> None:
+    """Charge for ``count`` products of these numbers; quotients make it quadratic in their length."""
     if isinstance(ring, _Limited) and not isinstance(ring.ring, Balls):
-        degree = ring.modulus.degree() if hasattr(ring.ring, "modulus") else 1
+        field = ring.ring
+        degree = int(field.modulus.degree()) if isinstance(field, NumberField) else 1
         bits = 1000 + degree * max(map(_bits, numbers), default=1)
         ring.spend(count * bits * (bits if quadratic else 1000))
 
@@ -147,7 +156,7 @@ def _largest_block(method: RungeKutta, ring: Ring) -> int:
     return max(sizes)
 
 
-def _sign(x: Element, ring: Any) -> int:
+def _sign(x: Element, ring: SignedRing) -> int:
     sign = ring.sign(x)
     if sign is None:
         raise _Undecided
@@ -199,7 +208,7 @@ def _block_determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial
     return _trimmed(coefficients, ring)
 
 
-def poles_right(Q: Sequence[Element], ring: Any) -> bool:
+def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
     """Say whether every zero of Q has positive real part: Routh's scheme of Q(-z) has no change of sign.
 
     >>> [poles_right([QQ.rational(x) for x in Q], QQ) for Q in ((2, -3, 1), (1, 0, 1))]
@@ -217,7 +226,7 @@ def poles_right(Q: Sequence[Element], ring: Any) -> bool:
     return True
 
 
-def bounded_on_axis(R: StabilityFunction, ring: Any) -> bool:
+def bounded_on_axis(R: StabilityFunction, ring: SignedRing) -> bool:
     """Say whether |R(iy)| <= 1 for all real y: E(y^2) has no zero of odd multiplicity at a positive y^2.
 
     >>> from orderconds.tableau import Tableau, find
@@ -245,7 +254,7 @@ def _modulus(p: Sequence[Element], ring: Ring) -> Polynomial:
     return [x + y for x, y in zip(*_padded(square, rest, ring), strict=True)]
 
 
-def positive_roots(p: Sequence[Element], ring: Any) -> int:
+def positive_roots(p: Sequence[Element], ring: SignedRing) -> int:
     """Return how many different zeros p has beyond 0, by Sturm's chain.
 
     >>> positive_roots([QQ.rational(x) for x in (2, -3, 1)], QQ)
@@ -258,7 +267,7 @@ def positive_roots(p: Sequence[Element], ring: Any) -> int:
     return _changes([q[0] for q in chain], ring) - _changes([q[-1] for q in chain], ring)
 
 
-def _changes(values: Sequence[Element], ring: Any) -> int:
+def _changes(values: Sequence[Element], ring: SignedRing) -> int:
     signs = [sign for x in values if (sign := _sign(x, ring))]
     return sum(x != y for x, y in pairwise(signs))
 

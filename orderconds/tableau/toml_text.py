@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from typing import TypeGuard
 
 WIDTH = 110
 """Lists of lists on longer lines are broken by rows."""
@@ -15,7 +15,7 @@ WIDTH = 110
 _BARE = re.compile(r"[A-Za-z0-9_-]+", re.ASCII)
 
 
-def toml_text(data: Mapping[str, Any]) -> str:
+def toml_text(data: Mapping[str, object]) -> str:
     """Return TOML that reads back as ``data``: strings, integers, booleans, lists and tables of them.
 
     >>> print(toml_text({"b": ["1"], "stage": [{}, {"exp": [["1"]]}], "claims": {"rk": 1}}), end="")
@@ -29,46 +29,46 @@ def toml_text(data: Mapping[str, Any]) -> str:
     return "\n".join([*_entries(data), *_headings("", data)]) + "\n"
 
 
-def _entries(table: Mapping[str, Any]) -> Iterator[str]:
+def _entries(table: Mapping[str, object]) -> Iterator[str]:
     """Yield the lines of what needs no heading of its own."""
     for key, value in table.items():
         if not _headed(key, value):
             yield _line(key, value)
 
 
-def _headed(key: str, value: Any) -> bool:
+def _headed(key: str, value: object) -> bool:
     """Whether a value stands under a heading: tables do, but for a short embedded row."""
-    if _blocks(key, value):
+    if _blocks(value, key):
         return True
     return isinstance(value, Mapping) and not (key == "embedded" and len(_line(key, value)) <= WIDTH)
 
 
-def _line(key: str, value: Any) -> str:
+def _line(key: str, value: object) -> str:
     line = f"{_key(key)} = {inline(value)}"
     if len(line) <= WIDTH or not _rows(value):
         return line
     return "\n".join([f"{_key(key)} = [", *(f"  {inline(row)}," for row in value), "]"])
 
 
-def _headings(prefix: str, table: Mapping[str, Any]) -> Iterator[str]:
+def _headings(prefix: str, table: Mapping[str, object]) -> Iterator[str]:
     for key, value in table.items():
         name = f"{prefix}{_key(key)}"
-        if isinstance(value, Mapping) and _headed(key, value):
-            yield f"[{name}]"
-            yield from _entries(value)
-            yield from _headings(f"{name}.", value)
-        elif _blocks(key, value):
+        if _blocks(value, key):
             for entry in value:
                 yield f"[[{name}]]"
                 yield from (_line(inner, x) for inner, x in entry.items())
+        elif isinstance(value, Mapping) and _headed(key, value):
+            yield f"[{name}]"
+            yield from _entries(value)
+            yield from _headings(f"{name}.", value)
 
 
-def _blocks(key: str, value: Any) -> bool:
+def _blocks(value: object, key: str) -> TypeGuard[list[Mapping[str, object]]]:
     """Whether a list of tables stands as ``[[key]]``: the stages of a method do."""
     return key == "stage" and isinstance(value, list) and all(isinstance(x, Mapping) for x in value)
 
 
-def _rows(value: Any) -> bool:
+def _rows(value: object) -> TypeGuard[list[object]]:
     return isinstance(value, list) and any(isinstance(row, list) for row in value)
 
 
@@ -76,7 +76,7 @@ def _key(key: str) -> str:
     return key if _BARE.fullmatch(key) else quoted(key)
 
 
-def inline(value: Any) -> str:
+def inline(value: object) -> str:
     """Return one value on one line.
 
     >>> inline([["1/2"], {"order": 2}, True])

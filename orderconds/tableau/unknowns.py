@@ -1,6 +1,6 @@
 """The rounded decimals of a file as unknowns of equations, and what the file says of their proof.
 
-A decimal with ``~`` stands for a number that nobody can spell exactly. With a ``[proof]`` table it is an
+A decimal with ``~`` approximates a number without a known closed form. With a ``[proof]`` table it is an
 unknown: the true method solves the order conditions that the table names, near the decimals of the file.
 
 ::
@@ -17,15 +17,15 @@ An unknown is named as under ``numbers``, or by its place (``A[2][1]``). Equal s
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any, Protocol
+from typing import Protocol, cast
 
 from msgspec import Struct
 
 from orderconds.ring.protocol import Element, Ring
-from orderconds.tableau.evaluate import Definition, evaluate_in, rounded_and_exact
+from orderconds.tableau.evaluate import Definition, Scalars, evaluate_in, rounded_and_exact
 from orderconds.tableau.grammar import Constant, Expression, Name
 from orderconds.tableau.methods import LowerOrder
 from orderconds.tableau.products import Method
@@ -125,9 +125,9 @@ class _Substituted:
     def root(self, x: Element, index: int) -> Element:
         return self.ring.root(x, index)
 
-    def named_root(self, minpoly: Any, near: Fraction, unit: Fraction, name: str) -> Element:
-        found: Any = self.ring
-        return found.named_root(minpoly, near, unit, name)
+    def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Element:
+        return cast("Scalars", self.ring).named_root(minpoly, near, unit, name)
 
     def size(self, x: Element) -> int:
-        return 0  # what explodes was refused when the file was read
+        size = getattr(self.ring, "size", None)
+        return 0 if size is None else int(size(x))  # jets and residues do not grow

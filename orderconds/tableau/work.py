@@ -3,8 +3,8 @@
 Evaluations are those of a step after another: stages that enter the update, an explicit first-same-as-last
 stage not counted again. Of an implicit method they are those of one sweep of its iteration. Equal exponents
 are one exponential, applied where it is needed; brackets are those of dexpinv applied stage by stage, without
-simplification (dexpinv of the zero argument needs none). Of a Magnus method they are the commutators that it
-spells, each once, and an exponential may be a Cayley transform.
+simplification (dexpinv of the zero argument needs none). Of a Magnus method they are its commutators, each
+counted once, and an exponential may be a Cayley transform.
 """
 
 from __future__ import annotations
@@ -18,11 +18,6 @@ from orderconds.tableau.methods import CommutatorFree, PartitionedRungeKutta, Ru
 from orderconds.tableau.products import Magnus
 from orderconds.tableau.properties import explicit, fsal
 from orderconds.tableau.record import Tableau
-
-SINGLE = ("cg", "vcg")
-"""One stage in each exponential."""
-FREE = ("cf", "vcf")
-WITH_BRACKETS = ("rkmk", "vrkmk")
 
 
 @dataclass(frozen=True)
@@ -38,40 +33,89 @@ class Work:
         return asdict(self)
 
 
-def work(tableau: Tableau, family: str, cutoff: int | None = None) -> Work | None:
-    """Return what a step of ``tableau`` read as ``family`` costs, or None for a format that is not counted.
+def evaluations(tableau: Tableau) -> Work | None:
+    """Return the field evaluations of a step, None for a format of which they are not counted.
 
-    >>> from orderconds.tableau import Tableau, find
-    >>> heun = Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], [1]]\\nb = ["1/2", "1/2"]')
-    >>> work(heun, "cg"), work(heun, "rkmk", 1)
-    (Work(evaluations=2, exponentials=3, brackets=0), Work(evaluations=2, exponentials=2, brackets=1))
+    >>> from orderconds.tableau import find
+    >>> evaluations(Tableau.load(find("rk4")))
+    Work(evaluations=4, exponentials=None, brackets=None)
     """
-    ring = tableau.ring
-    if isinstance(tableau.method, Magnus):
-        return _linear(tableau.method, ring)
-    method = tableau.read_as(("cf", "rk", "prk") if family in FREE else ("rk", "cf", "prk"))
+    method, ring = tableau.read_as(("rk", "cf", "prk")), tableau.ring
+    if isinstance(method, RungeKutta):
+        return Work(_stages_evaluated(method, ring))
     if isinstance(method, CommutatorFree):
-        rows = [row for stage in (*method.stages, method.update) for row in stage.exponentials]
-        used = sum(any(ring.is_zero(row[j]) is not True for row in rows) for j in range(len(method.stages)))
-        return Work(used, _distinct(rows, ring), 0) if family in FREE else Work(used)
-    if isinstance(method, PartitionedRungeKutta):
-        return Work(method.s)
-    if not isinstance(method, RungeKutta):
+        rows = _rows(method)
+        return Work(sum(any(ring.is_zero(row[j]) is not True for row in rows) for j in range(method.s)))
+    return Work(method.s) if isinstance(method, PartitionedRungeKutta) else None
+
+
+def commutator_free_work(tableau: Tableau) -> Work | None:
+    """Return the cost of a step of exponentials; a Butcher tableau has one stage in each exponential.
+
+    >>> heun = Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], [1]]\\nb = ["1/2", "1/2"]')
+    >>> commutator_free_work(heun)
+    Work(evaluations=2, exponentials=3, brackets=0)
+    """
+    method, ring = tableau.read_as(("cf", "rk")), tableau.ring
+    counted = evaluations(tableau)
+    if counted is None:
         return None
-    evaluations = method.s - (1 if explicit(method, ring) and fsal(method, ring) else 0)
-    if family in SINGLE or family in FREE:
-        free = method.as_crouch_grossman(ring)
-        rows = [row for stage in (*free.stages, free.update) for row in stage.exponentials]
-        return Work(evaluations, _distinct(rows, ring), 0)
-    if family in WITH_BRACKETS:
-        moved = [any(ring.is_zero(x) is not True for x in row) for row in method.A]
-        exponentials = _distinct([row for row, moves in zip(method.A, moved, strict=True) if moves], ring)
-        return Work(evaluations, exponentials + 1, sum(moved) * _nested(cutoff))
-    return Work(evaluations)
+    if isinstance(method, RungeKutta):
+        method = method.as_crouch_grossman(ring)
+    if not isinstance(method, CommutatorFree):
+        return counted
+    return Work(counted.evaluations, _distinct(_rows(method), ring), 0)
+
+
+def crouch_grossman_work(tableau: Tableau) -> Work | None:
+    """Return the cost of a step of a Butcher tableau with one exponential for each coefficient.
+
+    >>> from orderconds.tableau import find
+    >>> crouch_grossman_work(Tableau.load(find("cg3")))
+    Work(evaluations=3, exponentials=6, brackets=0)
+    """
+    if isinstance(tableau.method, CommutatorFree):
+        return evaluations(tableau)
+    return commutator_free_work(tableau)
+
+
+def munthe_kaas_work(tableau: Tableau, cutoff: int | None) -> Work | None:
+    """Return the cost of a step with dexpinv cut after the power ``cutoff``.
+
+    >>> heun = Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], [1]]\\nb = ["1/2", "1/2"]')
+    >>> munthe_kaas_work(heun, 1)
+    Work(evaluations=2, exponentials=2, brackets=1)
+    """
+    method, ring = tableau.read_as(("rk",)), tableau.ring
+    if not isinstance(method, RungeKutta):
+        return evaluations(tableau)
+    moved = [row for row in method.A if any(ring.is_zero(x) is not True for x in row)]
+    count = len(moved) * _nested(cutoff)
+    return Work(_stages_evaluated(method, ring), _distinct(moved, ring) + 1, count)
+
+
+def magnus_work(tableau: Tableau) -> Work | None:
+    """Return the nodes, different exponents and commutators of a Magnus method, None for other methods.
+
+    >>> from orderconds.tableau import find
+    >>> magnus_work(Tableau.load(find("magnus4")))
+    Work(evaluations=2, exponentials=1, brackets=1)
+    """
+    if not isinstance(tableau.method, Magnus):
+        return None
+    return _linear(tableau.method, tableau.ring)
+
+
+def _stages_evaluated(method: RungeKutta, ring: Ring) -> int:
+    return method.s - (1 if explicit(method, ring) and fsal(method, ring) else 0)
+
+
+def _rows(method: CommutatorFree) -> list[tuple[Element, ...]]:
+    return [row for stage in (*method.stages, method.update) for row in stage.exponentials]
 
 
 def _linear(method: Magnus, ring: Ring) -> Work:
-    """Count what the exponents of a Magnus method use: nodes, different exponents, brackets spelled."""
+    """Count the nodes, the different exponents and the brackets of a Magnus method."""
     elements = dict(method.elements)
     used: dict[Term, None] = {}
 

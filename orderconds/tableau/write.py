@@ -136,11 +136,11 @@ class _Radicals:
     def __init__(self, ring: Any) -> None:
         self.text: Spell = ring.text
         generators = getattr(ring, "generators", ())
-        nested = any("sqrt" in g.spelling for g in generators) and all(g.index == 2 for g in generators)
+        nested = any("sqrt" in g.symbol for g in generators) and all(g.index == 2 for g in generators)
         self.names = {g.power(1): f"r{k + 1}" for k, g in enumerate(generators)} if nested else {}
         inside = list(self.names)
         self.numbers = {
-            self.names[x]: f"sqrt({self._named(g.spelling, inside[:k])})"
+            self.names[x]: f"sqrt({self._named(g.symbol, inside[:k])})"
             for k, (x, g) in enumerate(zip(inside, generators, strict=False))
         }
 

@@ -2,5 +2,5 @@
 
 ``rooted`` enumerates unordered rooted trees, ``ordered`` planar ones and their forests, ``directed`` rooted
 and free trees whose edges carry a direction; ``levels`` holds what all level sequences share, ``counts``
-the numbers that generating functions foretell.
+their numbers by generating functions.
 """

@@ -1,6 +1,6 @@
 """Rooted trees with vertices of two colours: the trees of P-series (HLW III.2.1).
 
-Colour 0 (black) stands for the first part y of a partitioned system, colour 1 (white) for the second, z.
+Colour 0 (black) belongs to the first part y of a partitioned system, colour 1 (white) to the second, z.
 Encoding: bytes in preorder, ``2 level + colour``, branches in falling order. Apart from the colour of
 the root this is that of :mod:`orderconds.trees.directed`: an edge that leads to a white vertex carries
 the second method's coefficient.
@@ -38,12 +38,12 @@ def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
     >>> [text(tree) for n in (1, 2, 3) for tree in alternating_free_trees(n)]
     ['.', 'o', '[o]', '[oo]', '(..)']
     """
-    found: dict[BicolouredTree, BicolouredTree] = {}
+    chosen: dict[BicolouredTree, BicolouredTree] = {}
     for tree in free_trees(vertices):
         for colour in (0, 1):
             every = sorted(bicoloured_rootings(alternating(colour, tree)), key=lambda t: (max(t) >> 1, t))
-            found.setdefault(min(every), every[0])
-    return tuple(found.values())
+            chosen.setdefault(min(every), every[0])
+    return tuple(chosen.values())
 
 
 def alternating(colour: int, tree: Tree) -> BicolouredTree:
@@ -57,7 +57,7 @@ def alternating(colour: int, tree: Tree) -> BicolouredTree:
 
 
 def canonical(tree: BicolouredTree) -> BicolouredTree:
-    """Return the encoding whose branches stand in falling order at every vertex.
+    """Return the encoding whose branches are in falling order at every vertex.
 
     >>> canonical(bytes((0, 2, 3))) == canonical(bytes((0, 3, 2)))
     True

@@ -18,14 +18,14 @@ def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
     divided = [
         sum(d * counts[d - 1] for d in range(1, n + 1) if n % d == 0) for n in range(1, len(counts) + 1)
     ]
-    found = [1]
+    multisets = [1]
     for n in range(1, len(counts) + 1):
-        found.append(sum(divided[k - 1] * found[n - k] for k in range(1, n + 1)) // n)
-    return tuple(found[1:])
+        multisets.append(sum(divided[k - 1] * multisets[n - k] for k in range(1, n + 1)) // n)
+    return tuple(multisets[1:])
 
 
 def rooted_tree_count(vertices: int, kinds: int = 1) -> int:
-    """Count rooted trees whose edges are of so many kinds (A000081; A000151 for two kinds).
+    """Count rooted trees whose edges are of ``kinds`` kinds (A000081; A000151 for two kinds).
 
     >>> [rooted_tree_count(n) for n in range(1, 9)], [rooted_tree_count(n, kinds=2) for n in range(1, 7)]
     ([1, 1, 2, 4, 9, 20, 48, 115], [1, 2, 7, 26, 107, 458])
@@ -110,7 +110,7 @@ def lyndon_word_count(weight: int, letters: Callable[[int], int]) -> int:
     words = [1]
     for n in range(1, weight + 1):
         words.append(sum(letters(k) * words[n - k] for k in range(1, n + 1)))
-    found: list[int] = []
+    lyndon: list[int] = []
     for n in range(1, weight + 1):
-        found.append(words[n] - euler_transform([*found, 0])[-1])
-    return found[-1] if found else 0
+        lyndon.append(words[n] - euler_transform([*lyndon, 0])[-1])
+    return lyndon[-1] if lyndon else 0

@@ -1,10 +1,10 @@
 """Rooted and free trees whose edges carry a direction: the trees of symplectic partitioned methods.
 
-The edge from parent i to child j is of kind 0 when it stands for a_ij (it points away from the root) and of
-kind 1 when it stands for ahat_ij (it points to the root). As b_i ahat_ij = b_i b_j - b_j a_ji, moving the
+The edge from parent i to child j is of kind 0 when it carries a_ij (it points away from the root) and of
+kind 1 when it carries ahat_ij (it points to the root). As b_i ahat_ij = b_i b_j - b_j a_ji, moving the
 root across an edge changes its kind, not its direction, so that conditions belong to free trees.
 
-Encoding: bytes in preorder, ``2 level + kind``; branches stand in falling order.
+Encoding: bytes in preorder, ``2 level + kind``; branches are in falling order.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ def branches(tree: DirectedTree) -> tuple[Branch, ...]:
     ((0, b'\x00'), (1, b'\x00'))
     """
     starts = [place for place in range(1, len(tree)) if tree[place] >> 1 == 1]
-    found = []
+    pairs = []
     for start, end in pairwise([*starts, len(tree)]):
         child = tree[start:end].translate(_LOWERED)
-        found.append((child[0], b"\0" + child[1:]))
-    return tuple(found)
+        pairs.append((child[0], b"\0" + child[1:]))
+    return tuple(pairs)
 
 
 def joined(below: tuple[Branch, ...] | list[Branch]) -> DirectedTree:
@@ -94,7 +94,7 @@ def directed_rooted_trees(vertices: int) -> tuple[DirectedTree, ...]:
 
 
 def directed_rooted_trees_in_turn(vertices: int) -> Iterator[DirectedTree]:
-    """Yield the same trees; the first come before the others have been made.
+    """Yield the same trees one by one, without enumerating all of them first.
 
     >>> text(next(directed_rooted_trees_in_turn(50))).count("[")
     49
@@ -177,9 +177,9 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
     heights = below[:]
     for place in range(1, len(tree)):
         up = parents[place]
-        beside = [below[n] + 1 for n in range(1, len(tree)) if parents[n] == up and n != place]
-        # What lies above a vertex: beyond its parent, or in the branches beside it.
-        beyond = max([*beside, 0 if up == 0 else above[up]])
+        siblings = [below[n] + 1 for n in range(1, len(tree)) if parents[n] == up and n != place]
+        # The height above a vertex: beyond its parent, or in the neighbouring branches.
+        beyond = max([*siblings, 0 if up == 0 else above[up]])
         above[place] = beyond + 1
         heights[place] = max(below[place], above[place])
     simplest = min([(heights[place], hats[place]) for place in places])
@@ -187,7 +187,7 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
 
 
 def _rooted_at(tree: DirectedTree, place: int) -> DirectedTree:
-    """Return the tree rooted at the vertex that stands there in preorder, in canonical order."""
+    """Return the tree rooted at the vertex with this place in preorder, in canonical order."""
     behind: list[Branch] = []
     while place:
         start = 1

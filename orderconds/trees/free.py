@@ -38,7 +38,7 @@ def essential_free_trees(vertices: int) -> tuple[Tree, ...]:
 
 
 def superfluous(tree: Tree) -> bool:
-    r"""Tell whether some edge parts a tree in two equal rooted trees.
+    r"""Say whether some edge parts a tree in two equal rooted trees.
 
     >>> superfluous(b"\0\1"), superfluous(b"\0\1\1")
     (True, False)

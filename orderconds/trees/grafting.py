@@ -1,7 +1,7 @@
 """Products of trees: Butcher's product, and grafting, which differentiates elementary differentials.
 
 Unordered trees form the free pre-Lie algebra under grafting (Chapoton and Livernet 2001): F(u > v) is the
-derivative of F(v) in the direction F(u). Ordered trees graft to the left of what hangs there, since the
+derivative of F(v) in the direction F(u). Ordered trees graft to the left of the existing branches, since the
 newest frozen field acts first (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 """
 
@@ -50,7 +50,7 @@ def graft(u: Tree, v: Tree) -> Counter[Tree]:
 def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
     r"""Return, with repetitions, all forests that arise when every tree of ``word`` is hung from ``onto``.
 
-    Each tree goes to any vertex; what goes to one vertex keeps its order and stands left of what hung there.
+    Each tree goes to any vertex. Trees at one vertex keep their order and come left of its own branches.
 
     >>> left_graft(b"\0", b"\0\1")
     (b'\x00\x01\x02', b'\x00\x01\x01')
@@ -60,19 +60,19 @@ def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
     if not onto:
         return ()
     first, rest = trees_of(onto)[0], onto[len(trees_of(onto)[0]) :]
-    found = []
-    for here, there in deshuffles(word):
-        for front in _left_graft_tree(here, first):
-            found += [front + behind for behind in left_graft(there, rest)]
-    return tuple(found)
+    grafted = []
+    for first_part, second_part in deshuffles(word):
+        for front in _left_graft_tree(first_part, first):
+            grafted += [front + behind for behind in left_graft(second_part, rest)]
+    return tuple(grafted)
 
 
 def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
-    """Hang a word from one tree: part of it from the root, in front, the rest from what is above."""
-    found = []
+    """Hang a word from one tree: one part from the root, in front, the other from the branches."""
+    grafted = []
     for root, above in deshuffles(word):
-        found += [rooted_at_new_vertex(root + grown) for grown in left_graft(above, branches(tree))]
-    return found
+        grafted += [rooted_at_new_vertex(root + grown) for grown in left_graft(above, branches(tree))]
+    return grafted
 
 
 def deshuffles(word: Forest) -> tuple[tuple[Forest, Forest], ...]:

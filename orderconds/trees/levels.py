@@ -72,7 +72,7 @@ def density(forest: Forest) -> int:
 def symmetry(tree: Tree) -> int:
     r"""Return sigma, the order of the group of symmetries of an unordered rooted tree (HLW III.1, Def. 1.7).
 
-    The tree must be canonical (see :func:`canonical`), so that equal subtrees stand as equal bytes.
+    The tree must be canonical (see :func:`canonical`), so that equal subtrees have equal bytes.
 
     >>> symmetry(b"\0\1\1\1")
     6

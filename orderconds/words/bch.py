@@ -11,10 +11,15 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import lru_cache
 from itertools import groupby
-from typing import Any
 
-from flint import fmpq_poly
-
+from orderconds.ring.univariate import (
+    ONE,
+    VARIABLE,
+    UnivariatePolynomial,
+    derivative,
+    integral_from_zero,
+    value_at_one,
+)
 from orderconds.words.lie import standard_factors
 from orderconds.words.lyndon import lyndon_words
 from orderconds.words.shuffle import Word
@@ -58,34 +63,33 @@ def goldberg(word: str) -> Fraction:
 
 @lru_cache(maxsize=1 << 14)
 def _integral(runs: tuple[int, ...]) -> Fraction:
-    t, m = fmpq_poly([0, 1]), len(runs)
+    t, m = VARIABLE, len(runs)
     integrand = t ** (m // 2) * (t - 1) ** ((m - 1) // 2)
     for run in runs:
         integrand = integrand * _run_polynomial(run)
-    value = integrand.integral()(1)
-    return Fraction(int(value.p), int(value.q))
+    return value_at_one(integral_from_zero(integrand))
 
 
 @lru_cache(maxsize=64)
-def _run_polynomial(s: int) -> Any:
+def _run_polynomial(s: int) -> UnivariatePolynomial:
     if s == 1:
-        return fmpq_poly([1])
-    return (fmpq_poly([0, -1, 1]) * _run_polynomial(s - 1)).derivative() / s
+        return ONE
+    return derivative(VARIABLE * (VARIABLE - 1) * _run_polynomial(s - 1)) / s
 
 
 def _coordinates(words: list[str], expansions: dict[str, Expansion]) -> dict[str, Fraction]:
     """Return the coordinates of the degree of ``words``, its Lyndon words in rising order."""
-    found: dict[str, Fraction] = {}
+    coordinates: dict[str, Fraction] = {}
     of_multidegree: dict[int, list[str]] = {}
     for word in words:
         lower = of_multidegree.setdefault(word.count("A"), [])
         value = goldberg(word)
         for smaller in lower:
-            if found[smaller]:
-                value -= found[smaller] * _coefficient(smaller, word, expansions)
-        found[word] = value
+            if coordinates[smaller]:
+                value -= coordinates[smaller] * _coefficient(smaller, word, expansions)
+        coordinates[word] = value
         lower.append(word)
-    return found
+    return coordinates
 
 
 def _coefficient(bracketed: str, word: str, expansions: dict[str, Expansion]) -> int:

@@ -9,11 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import factorial
-from typing import Any
 
+from orderconds.ring.protocol import Element
 from orderconds.words.shuffle import Word
 
-Element = Any
 Function = Callable[[Word], Element]
 
 

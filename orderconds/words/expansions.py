@@ -1,6 +1,6 @@
 """The flow of Y' = A(t) Y, A(t) = X_1 + t X_2 + t^2 X_3 + ..., in words: Magnus, Fer, Cayley expansions.
 
-Letter k stands for X_k and weighs k; values are those at t = 1, since a word of weight n carries t^n. Words
+Letter k is X_k and has weight k; values are those at t = 1, since a word of weight n carries t^n. Words
 are written in the order of action: the word k_1 ... k_n is the product X_{k_n} ... X_{k_1}
 (:func:`orderconds.words.lie.backwards` turns one into the other). Iserles, Munthe-Kaas, Noersett and Zanna,
 Acta Numerica 9 (2000) 215, Sections 4 to 6; Blanes, Casas, Oteo and Ros, Physics Reports 470 (2009) 151.

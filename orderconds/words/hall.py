@@ -1,18 +1,18 @@
 """Hall bases of free Lie algebras with any grading, and the rewriting of brackets in them.
 
-Brackets are ordered by weight, then as they are found. A bracket [x, y] of basis elements belongs to the
-basis iff x < y, and y is a letter or y = [y', y''] with y' <= x (M. Hall, Proc. AMS 1 (1950) 575; Bourbaki,
-Lie Groups and Lie Algebras, II.2.11). Other brackets are rewritten by antisymmetry and Jacobi's identity.
+Brackets are ordered by weight, then by the order of their construction. A bracket [x, y] of basis elements
+belongs to the basis iff x < y, and y is a letter or y = [y', y''] with y' <= x (M. Hall, Proc. AMS 1 (1950)
+575; Bourbaki, Lie Groups and Lie Algebras, II.2.11). Other brackets are rewritten by antisymmetry and
+Jacobi's identity.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from fractions import Fraction
-from typing import Any
 
 from orderconds.words.lie import Bracket, lyndon_coordinates, standard_bracketing
-from orderconds.words.shuffle import Word
+from orderconds.words.shuffle import Letter, Word
 
 Coordinates = dict[Bracket, Fraction]
 
@@ -20,7 +20,7 @@ Coordinates = dict[Bracket, Fraction]
 class HallBasis:
     """The Hall basis of the free Lie algebra on ``letters``, to a weight.
 
-    ``letters`` stand in rising order; ``weigh`` gives each its weight, a positive integer.
+    ``letters`` are in rising order; ``weigh`` gives each its weight, a positive integer.
 
     >>> HallBasis("AB", 4).of_weight(4)
     (('A', ('A', ('A', 'B'))), ('B', ('A', ('A', 'B'))), ('B', ('B', ('A', 'B'))))
@@ -29,7 +29,7 @@ class HallBasis:
     """
 
     def __init__(
-        self, letters: Sequence[Hashable], weight: int, weigh: Callable[[Any], int] = lambda letter: 1
+        self, letters: Sequence[Hashable], weight: int, weigh: Callable[[Letter], int] = lambda letter: 1
     ) -> None:
         if any(weigh(letter) < 1 for letter in letters):
             raise ValueError("letters need positive weights")
@@ -37,11 +37,11 @@ class HallBasis:
         self._place: dict[Bracket, int] = {}
         self._of_weight: list[tuple[Bracket, ...]] = [()]
         for n in range(1, weight + 1):
-            found = [letter for letter in letters if weigh(letter) == n]
+            candidates = [letter for letter in letters if weigh(letter) == n]
             for m in range(1, n // 2 + 1):
                 pairs = ((x, y) for x in self._of_weight[m] for y in self._of_weight[n - m])
-                found += [pair for pair in pairs if self._place[pair[0]] < self._place[pair[1]]]
-            kept = tuple(x for x in found if self._belongs(x))
+                candidates += [pair for pair in pairs if self._place[pair[0]] < self._place[pair[1]]]
+            kept = tuple(x for x in candidates if self._belongs(x))
             self._place |= {x: len(self._place) + k for k, x in enumerate(kept)}
             self._of_weight.append(kept)
         self._known: dict[tuple[Bracket, Bracket], Coordinates] = {}

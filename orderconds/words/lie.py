@@ -2,36 +2,40 @@
 
 The standard bracketing of a Lyndon word w is w plus greater words of the same letters, so that coordinates
 follow from the coefficients of Lyndon words by forward substitution (Reutenauer, Free Lie Algebras, Thm
-5.1). Here a product xy is the word xy; words in the order of action are products read backwards
+5.1). In this module a product xy is the word xy; words in the order of action are products read backwards
 (:func:`backwards`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
-from typing import Any, TypeVar
+from typing import TypeVar
 
+from orderconds.ring.protocol import Element
 from orderconds.words.lyndon import is_lyndon
-from orderconds.words.shuffle import Series, Word, add, concatenate
+from orderconds.words.shuffle import Letter, Series, Word, add, concatenate
 
-Bracket = Any
+Bracket = Letter
 """A letter, or a pair of brackets."""
 
-S = TypeVar("S", bound=Sequence[Any])
+Key = Callable[[Letter], Letter]
+"""What letters are ordered by."""
+
+S = TypeVar("S", str, Word)
 
 
-def standard_factors(word: S, key: Callable[[Any], Any] | None = None) -> tuple[S, S]:
+def standard_factors(word: S, key: Key | None = None) -> tuple[S, S]:
     """Cut a Lyndon word of two letters or more before its longest proper Lyndon suffix.
 
     >>> standard_factors("AABB")
     ('A', 'ABB')
     """
     cut = next(place for place in range(1, len(word)) if is_lyndon(word[place:], key))
-    return word[:cut], word[cut:]  # type: ignore[return-value]  # slices keep the type
+    return word[:cut], word[cut:]
 
 
-def standard_bracketing(word: Sequence[Any], key: Callable[[Any], Any] | None = None) -> Bracket:
+def standard_bracketing(word: Sequence[Letter], key: Key | None = None) -> Bracket:
     """Bracket a Lyndon word at its longest proper Lyndon suffix (Reutenauer, Section 5.1).
 
     >>> standard_bracketing("AABB")
@@ -39,7 +43,7 @@ def standard_bracketing(word: Sequence[Any], key: Callable[[Any], Any] | None = 
     """
     if len(word) == 1:
         return word[0]
-    left, right = standard_factors(word, key)
+    left, right = standard_factors(tuple(word), key)
     return standard_bracketing(left, key), standard_bracketing(right, key)
 
 
@@ -65,9 +69,31 @@ def backwards(series: Mapping[Word, Fraction]) -> Series:
     return {word[::-1]: value for word, value in series.items()}
 
 
-def lyndon_coordinates(
-    element: Mapping[Word, Fraction], key: Callable[[Any], Any] | None = None
-) -> dict[Word, Fraction]:
+def coordinates_from_values(
+    value: Callable[[Word], Element], words: Iterable[Word], key: Key | None = None
+) -> dict[Word, Element]:
+    """Return the coordinates of a Lie element over any ring, from its values at Lyndon words alone.
+
+    ``words`` are all Lyndon words of one weight, or of one content, in rising order; ``value`` gives the
+    coefficient of a product. The series must be a Lie element, which is not checked.
+
+    >>> element = expand(("A", ("A", "B")))
+    >>> coordinates_from_values(lambda word: element.get(word, Fraction(0)), [tuple("AAB"), tuple("ABB")])
+    {('A', 'A', 'B'): Fraction(1, 1), ('A', 'B', 'B'): Fraction(0, 1)}
+    """
+    coordinates: dict[Word, Element] = {}
+    expanded: dict[Word, Series] = {}
+    for word in words:
+        x = value(word)
+        for smaller, series in expanded.items():
+            if word in series:
+                x = x - coordinates[smaller] * int(series[word])
+        coordinates[word] = x
+        expanded[word] = expand(standard_bracketing(word, key))
+    return coordinates
+
+
+def lyndon_coordinates(element: Mapping[Word, Fraction], key: Key | None = None) -> dict[Word, Fraction]:
     """Return the coordinates of a Lie element in the basis of bracketed Lyndon words (Reutenauer, Thm 5.1).
 
     ``key`` orders the letters where they do not order themselves. Raises :class:`ValueError` for a series
@@ -77,12 +103,11 @@ def lyndon_coordinates(
     >>> {"".join(word): int(value) for word, value in lyndon_coordinates(element).items()}
     {'AAB': -1}
     """
-    rest, found = dict(element), {}
-    spell: Callable[[Word], Any] = lambda word: tuple(map(key, word)) if key else word  # noqa: E731
+    rest, coordinates = dict(element), {}
     while rest:
-        word = min(rest, key=lambda w: (len(w), spell(w)))
+        word = min(rest, key=lambda w: (len(w), tuple(map(key, w)) if key else w))
         if not is_lyndon(word, key):
             raise ValueError(f"not a Lie element: least word {word} is no Lyndon word")
-        found[word] = rest[word]
+        coordinates[word] = rest[word]
         rest = add((1, rest), (-rest[word], expand(standard_bracketing(word, key))))
-    return found
+    return coordinates

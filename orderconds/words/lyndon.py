@@ -8,7 +8,9 @@ values are independent.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any, TypeVar
+from typing import TypeVar
+
+from orderconds.words.shuffle import Letter as Ordered
 
 Letter = TypeVar("Letter")
 
@@ -18,7 +20,7 @@ def lyndon_words(
 ) -> Iterator[tuple[Letter, ...]]:
     """Yield the Lyndon words of exactly this weight, in lexicographic order.
 
-    ``letters`` stand in rising order; ``weigh`` gives each its weight, a positive integer, in any order.
+    ``letters`` are in rising order; ``weigh`` gives each its weight, a positive integer, in any order.
 
     >>> ["".join(word) for word in lyndon_words("AB", 4)]
     ['AAAB', 'AABB', 'ABBB']
@@ -50,14 +52,14 @@ def lyndon_words(
 
 
 def lyndon_factors(
-    word: Sequence[Letter], key: Callable[[Letter], Any] | None = None
+    word: Sequence[Letter], key: Callable[[Letter], Ordered] | None = None
 ) -> list[tuple[Letter, ...]]:
     """Factor a word into Lyndon words that do not rise (J.-P. Duval, J. Algorithms 4 (1983) 363).
 
     >>> ["".join(factor) for factor in lyndon_factors("BANANA")]
     ['B', 'AN', 'AN', 'A']
     """
-    keys: list[Any] = [key(letter) if key else letter for letter in word]
+    keys: list[Ordered] = [key(letter) if key else letter for letter in word]
     factors, start = [], 0
     while start < len(word):
         end, repeat = start + 1, start
@@ -70,8 +72,8 @@ def lyndon_factors(
     return factors
 
 
-def is_lyndon(word: Sequence[Letter], key: Callable[[Letter], Any] | None = None) -> bool:
-    """Tell whether a word is a Lyndon word; the empty word is none.
+def is_lyndon(word: Sequence[Letter], key: Callable[[Letter], Ordered] | None = None) -> bool:
+    """Say whether a word is a Lyndon word; the empty word is none.
 
     >>> is_lyndon("AAB"), is_lyndon("ABAB")
     (True, False)

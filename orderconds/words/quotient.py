@@ -12,8 +12,7 @@ from fractions import Fraction
 from itertools import product as tuples
 from math import lcm
 
-from flint import fmpq, fmpq_mat
-
+from orderconds.ring.rational_matrix import kernel, rank
 from orderconds.words.lie import expand, standard_bracketing
 from orderconds.words.lyndon import is_lyndon
 from orderconds.words.shuffle import Series, Word
@@ -31,13 +30,13 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     >>> orthogonal([commuting], (0, 1), 2)
     ((((0, 0), 1),), (((0, 1), 1), ((1, 0), 1)), (((1, 1), 1),))
     """
-    found: list[Functional] = []
+    functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # Pivots are taken from the left: what stands at the right stays free, and names a functional.
+        # Pivots are taken from the left, so that the words at the right stay free and name functionals.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
-        found += _kernel(rows, columns)
-    return tuple(sorted(found))
+        functionals += _kernel(rows, columns)
+    return tuple(sorted(functionals))
 
 
 def independent_on_lie(functionals: Sequence[Functional], length: int) -> tuple[Functional, ...]:
@@ -51,18 +50,17 @@ def independent_on_lie(functionals: Sequence[Functional], length: int) -> tuple[
     for content in sorted(contents):
         of_content = [f for f in functionals if tuple(sorted(f[0][0])) == content]
         brackets = [expand(standard_bracketing(word)) for word in _lyndon(content, length)]
-        kept: list[list[fmpq]] = []
+        kept: list[list[Fraction]] = []
         for functional in sorted(of_content, key=lambda f: (not is_lyndon(f[0][0]), f)):
             value = [_at(functional, bracket) for bracket in brackets]
-            if value and fmpq_mat([*kept, value]).rank() > len(kept):
+            if rank([*kept, value]) > len(kept):
                 kept.append(value)
                 chosen.append(functional)
     return tuple(sorted(chosen))
 
 
-def _at(functional: Functional, series: Mapping[Word, Fraction]) -> fmpq:
-    value = sum((scale * series.get(word, Fraction(0)) for word, scale in functional), Fraction(0))
-    return fmpq(value.numerator, value.denominator)
+def _at(functional: Functional, series: Mapping[Word, Fraction]) -> Fraction:
+    return sum((scale * series.get(word, Fraction(0)) for word, scale in functional), Fraction(0))
 
 
 def _lyndon(content: Word, length: int) -> Iterator[Word]:
@@ -71,10 +69,10 @@ def _lyndon(content: Word, length: int) -> Iterator[Word]:
 
 
 def _by_content(letters: Sequence[int], length: int) -> dict[Word, list[Word]]:
-    found: dict[Word, list[Word]] = {}
+    groups: dict[Word, list[Word]] = {}
     for word in tuples(letters, repeat=length):
-        found.setdefault(tuple(sorted(word)), []).append(word)
-    return found
+        groups.setdefault(tuple(sorted(word)), []).append(word)
+    return groups
 
 
 def _ideal(
@@ -97,17 +95,10 @@ def _ideal(
 
 def _kernel(rows: Sequence[Series], columns: Sequence[Word]) -> Iterator[Functional]:
     place = {word: k for k, word in enumerate(columns)}
-    if not rows:
-        yield from (((word, 1),) for word in columns)
-        return
-    entries = [[fmpq(0)] * len(columns) for _ in rows]
+    entries = [[Fraction(0)] * len(columns) for _ in rows]
     for row, series in zip(entries, rows, strict=True):
         for word, value in series.items():
-            row[place[word]] = fmpq(value.numerator, value.denominator)
-    reduced, rank = fmpq_mat(entries).rref()
-    pivots = [next(k for k in range(len(columns)) if reduced[r, k] != 0) for r in range(rank)]
-    for free in (k for k in range(len(columns)) if k not in pivots):
-        terms = [(columns[free], fmpq(1))]
-        terms += [(columns[p], -reduced[r, free]) for r, p in enumerate(pivots) if reduced[r, free] != 0]
-        clear = lcm(*(int(x.q) for _, x in terms))
-        yield tuple((word, int(x.p) * (clear // int(x.q))) for word, x in terms)
+            row[place[word]] = value
+    for vector in kernel(entries, len(columns)):
+        clear = lcm(*(x.denominator for _, x in vector))
+        yield tuple((columns[k], int(x * clear)) for k, x in vector)

@@ -8,12 +8,15 @@ from fractions import Fraction
 from math import factorial
 from typing import Any
 
-Word = tuple[Any, ...]
+Letter = Any
+"""A letter: anything hashable, and ordered where Lyndon words are meant. Words of one alphabet do not mix."""
+
+Word = tuple[Letter, ...]
 Series = dict[Word, Fraction]
 """Words with their non-zero coefficients."""
 
 
-def shuffle(u: Sequence[Any], v: Sequence[Any]) -> Counter[Word]:
+def shuffle(u: Sequence[Letter], v: Sequence[Letter]) -> Counter[Word]:
     """Return all words that interleave u and v, with multiplicities.
 
     >>> sorted(("".join(word), times) for word, times in shuffle("AB", "A").items())
@@ -50,7 +53,7 @@ def concatenate(
     x: Mapping[Word, Fraction],
     y: Mapping[Word, Fraction],
     weight: int,
-    weigh: Callable[[Any], int] = lambda a: 1,
+    weigh: Callable[[Letter], int] = lambda a: 1,
 ) -> Series:
     """Multiply two series by concatenation, dropping words heavier than ``weight``.
 
@@ -66,7 +69,9 @@ def concatenate(
     return {word: value for word, value in result.items() if value}
 
 
-def exponential(x: Mapping[Word, Fraction], weight: int, weigh: Callable[[Any], int] = lambda a: 1) -> Series:
+def exponential(
+    x: Mapping[Word, Fraction], weight: int, weigh: Callable[[Letter], int] = lambda a: 1
+) -> Series:
     """Return exp(x) to a weight, for a series without constant term.
 
     >>> {"".join(word): str(value) for word, value in exponential({("A",): Fraction(1)}, 2).items()}
@@ -80,7 +85,9 @@ def exponential(x: Mapping[Word, Fraction], weight: int, weigh: Callable[[Any], 
     return result
 
 
-def logarithm(x: Mapping[Word, Fraction], weight: int, weigh: Callable[[Any], int] = lambda a: 1) -> Series:
+def logarithm(
+    x: Mapping[Word, Fraction], weight: int, weigh: Callable[[Letter], int] = lambda a: 1
+) -> Series:
     """Return log(x) to a weight, for a series with constant term 1.
 
     >>> logarithm(exponential({("A",): Fraction(2)}, 3), 3)

@@ -32,8 +32,8 @@ def test_tasks_have_the_counts_of_the_literature(symbolic: ModuleType, task: str
 
 
 def test_sympy_computes_the_same_polynomials(symbolic: ModuleType) -> None:
-    from orderconds.derive import derive
-    from orderconds.written_out import polynomials
+    from orderconds.derivation import derive
+    from orderconds.stage_expansion import polynomials
 
     ours = polynomials(derive("rk", 5), 4, explicit=True)[2]
     theirs = symbolic.sympy_polynomials(order=5, size=4)

@@ -7,14 +7,13 @@ from functools import cache
 import numpy as np
 import pytest
 
-from codegen.certify import SAME_CONDITIONS
 from codegen.emitter import bare, compile_method, default_prefix, emit, emit_compiled, prefix_of
 from codegen.errors import MethodError, SceneError
 from codegen.ir.domain import FloatDomain
 from codegen.ir.interpret import interpret
 from codegen.loader import Statistics, load
-from codegen.lower import OF_PARTS, families_for, problem_for
-from codegen.lower.splitting import read
+from codegen.lower import families_for, lowering, problem_for
+from codegen.lower.flow_words import FlowLowering
 from codegen.regenerate import entries
 from codegen.scenes import load as load_scene
 from orderconds.errors import InputError, UnknownName, ZeroWeight
@@ -49,20 +48,18 @@ def test_the_gallery_is_emitted_clean_and_agrees_with_the_interpreter(check_code
     # A fixed point is only as sharp as its stopping rule: 2^-44 of the largest unknown.
     ulps = 64 if c.manifest["interface"]["blocks"] else 16
     # A rotation's third column is the cross product of the others for rotations only.
-    on_group = made.method.family in OF_PARTS
+    on_group = isinstance(lowering(made.method.family), FlowLowering)
     check_codegen(c, python, interpreted(made), tuple(c.manifest["initial"]), 0.05, ulps, on_group)
 
 
 @pytest.mark.parametrize(("scene", "method"), KEPT)
 def test_what_is_stated_is_what_was_computed(scene, method):
-    from orderconds.check import check
+    from orderconds.checking import check
 
     made = compiled(scene, method)
     manifest = emit_compiled(made, "c").manifest
-    family = SAME_CONDITIONS.get(made.method.family, made.method.family_label)
-    if made.method.family in OF_PARTS:
-        family = read(made.scene, made.method).family
-    (found,) = check(made.method.tableau, family=family).orders
+    family = lowering(made.method.family).conditions(made.method, made.scene)
+    (found,) = check(made.method.tableau, family=family.label()).orders
     assert (manifest["order"], manifest["certificate"]) == (found.order, found.certificate)
 
 

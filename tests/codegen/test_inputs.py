@@ -14,12 +14,13 @@ from codegen.emitter import compile_method, emit_compiled
 from codegen.errors import MethodError, SceneError
 from codegen.groups import SO3, Rotation
 from codegen.ir.domain import FloatDomain
-from codegen.lab.local_error import local_error, valuation
+from codegen.lab.orders.local_error import local_error, valuation
 from codegen.loader import Status, StepFailed, load
-from codegen.lower import LOWERINGS, lower, problem_for
+from codegen.lower import lower, names, problem_for
 from codegen.method import Method
 from codegen.passes import optimise
 from codegen.scene import FieldScene, HamiltonianScene, param, signal
+from codegen.scene.run_time import with_inputs
 from codegen.scenes import load as gallery
 from tests.promises import clean_c, clean_python
 from tests.strategies import hamiltonian_scene, quadratic, shipped
@@ -65,7 +66,7 @@ def start_of(scene):
 
 
 def test_every_family_is_tried():
-    assert sorted({*METHODS, *ELSEWHERE}) == sorted(LOWERINGS)
+    assert sorted({*METHODS, *ELSEWHERE}) == sorted(names())
 
 
 @pytest.mark.parametrize("target", ["c", "python"])
@@ -241,8 +242,8 @@ def tried(**changes):
         (lambda: tried(f=Matrix([signal("u", 1), signal("u", 2), 2])), "two formulas"),
         (lambda: tried(y0=[signal("u", 1), 0, 0]), "the symbol u in y0"),
         (lambda: signal("u", "sin("), "the formula 'sin\\('"),
-        (lambda: gallery(SCENE).with_inputs(["u7"]), "unknown signal 'u7'.*u0, u1, u2"),
-        (lambda: gallery("dipole").with_inputs(["u"]), "the scene has no signal"),
+        (lambda: with_inputs(gallery(SCENE), ["u7"]), "unknown signal 'u7'.*u0, u1, u2"),
+        (lambda: with_inputs(gallery("dipole"), ["u"]), "the scene has no signal"),
     ],
 )
 def test_bad_signals_are_one_message(make, message):

@@ -8,9 +8,12 @@ from codegen import scenes
 from codegen.errors import MethodError
 from codegen.ir.domain import ExprDomain
 from codegen.kernel.translate import to_kernel
-from codegen.lower import LOWERINGS, OF_PARTS, ON_COTANGENT, lower
-from codegen.method import WITH_CUTOFF, Method, parse
+from codegen.lower import lower, lowering, names
+from codegen.lower.flow_words import FlowLowering
+from codegen.lower.variational import VariationalLowering
+from codegen.method import Method, parse
 from orderconds.errors import InputError, TableauError, UnknownName, ZeroWeight
+from orderconds.families import family_class
 from orderconds.tableau import Tableau
 from tests.strategies import butcher, field_scene, hamiltonian_scene, shipped
 
@@ -91,9 +94,9 @@ def test_plain_runge_kutta_needs_a_vector_space(place):
     assert "expected R^n; use rkmk, cg or cf" in refused(scenes.load(place), Method("rk", shipped("rk4")))
 
 
-@pytest.mark.parametrize("family", sorted(ON_COTANGENT))
+@pytest.mark.parametrize("family", [f for f in names() if isinstance(lowering(f), VariationalLowering)])
 def test_variational_families_divide_by_every_weight(family):
-    cutoff = 1 if family in WITH_CUTOFF else None
+    cutoff = 1 if family_class(family).takes_cutoff else None
     tableau = butcher("zero", [[0, 0], ["1/2", 0]], [0, 1])
     message = refused(scenes.load("dipole"), Method(family, tableau, cutoff), ZeroWeight)
     assert "b_1 = 0" in message
@@ -119,21 +122,21 @@ def test_vrkmk_needs_a_finite_number_of_brackets():
 @pytest.mark.parametrize("family", ["rkmk", "cg", "vcg", "vrkmk"])
 def test_a_commutator_free_tableau_is_no_butcher_tableau(family):
     scene = scenes.load("dipole")
-    cutoff = 1 if family in WITH_CUTOFF else None
+    cutoff = 1 if family_class(family).takes_cutoff else None
     assert f"{family} with the cf tableau cf4" in refused(scene, Method(family, shipped("cf4"), cutoff))
 
 
 def test_a_family_without_lowering_is_named():
     message = refused(scenes.load("dipole"), Method("sprk", shipped("midpoint")))
-    assert f"expected one of {', '.join(LOWERINGS)}" in message
+    assert f"expected one of {', '.join(names())}" in message
 
 
-@pytest.mark.parametrize("family", sorted(LOWERINGS.keys() - OF_PARTS))
+@pytest.mark.parametrize("family", [f for f in names() if not isinstance(lowering(f), FlowLowering)])
 def test_every_lowering_serves_a_cotangent_bundle(family):
     scene = hamiltonian_scene("R^3")
     tableau = shipped("cf4" if family in ("cf", "vcf") else "heun")
-    program = lower(scene, Method(family, tableau, 1 if family in WITH_CUTOFF else None))
-    paired = family in ON_COTANGENT
+    program = lower(scene, Method(family, tableau, 1 if family_class(family).takes_cutoff else None))
+    paired = lowering(family).hamiltonian
     assert [name for name, _ in program.outputs] == (["q", "mu"] if paired else ["y"])
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from orderconds.check import Report, check
+from orderconds.checking import Report, check
 from orderconds.cli import program
 from orderconds.errors import InputError
 

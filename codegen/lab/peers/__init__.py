@@ -1,8 +1,9 @@
-"""Peers: integrators of other makers, run on a scene's ambient equations beside the emitted ones.
+"""Peers: other integrators, run on the ambient equations of a scene for comparison with emitted code.
 
-Peers see y' = f(y).y in the coordinates of the state, compiled as well as their makers allow; those called
-*projected* are brought back to the manifold after each step (LSODA is not: its steps live on a history). What
-they need before the first step (a compilation, a symbolic jet) is their set-up and timed apart, like ours.
+A peer integrates y' = f(y).y in the coordinates of the state, compiled where its library permits. A peer
+whose name ends in *projected* is projected onto the manifold after each step. LSODA has no projected
+variant, because its steps depend on past values. Work before the first step (compilation, Taylor
+recurrences) is set-up time and is reported separately, as for emitted code.
 """
 
 from __future__ import annotations
@@ -11,19 +12,19 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.util import find_spec
-from typing import Any
+from typing import Protocol, cast
 
 from codegen.scene.problem import Problem
 from orderconds.errors import InputError, UnknownName
 
 
 class PeerFailed(ArithmeticError):
-    """A peer that stopped before the end of the span, with its own reason."""
+    """A peer that stopped before the end of the span; the message is its own reason."""
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """The final state of a run, its steps, and its evaluations of the field where the peer counts them."""
+    """The final state of a run, its number of steps, and of field evaluations if the peer counts them."""
 
     state: tuple[float, ...]
     steps: int
@@ -32,10 +33,10 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Prepared:
-    """A peer made ready for one scene and one control.
+    """A peer prepared for one scene and one tolerance or number of steps.
 
-    ``run`` integrates over the span, :class:`PeerFailed` where it does not get to the end; ``idle`` makes the
-    same call over no time, and is None where that costs as good as nothing beside a run.
+    ``run`` integrates over the span; :class:`PeerFailed` if it does not reach the end. ``idle`` makes the
+    same call over an empty interval; it is None if its cost is negligible beside a run.
     """
 
     run: Callable[[], Outcome]
@@ -44,15 +45,22 @@ class Prepared:
 
 @dataclass(frozen=True)
 class Peer:
-    """A peer by name: ``controlled`` by a tolerance, or by a number of steps.
+    """A peer by name; ``controlled`` is ``"tolerance"`` or ``"steps"``.
 
-    ``prepare(scene, control)`` returns a run over the scene's span; ``version`` says of what.
+    ``prepare(scene, control)`` returns a run over the span of the scene; ``version`` names the software.
     """
 
     name: str
     controlled: str
     prepare: Callable[[Problem, float], Prepared]
     version: str
+
+
+class PeerModule(Protocol):
+    """A module of this package that runs peers."""
+
+    def peer(self, name: str) -> Peer:
+        """Return the peer of that name."""
 
 
 PEERS = {
@@ -66,10 +74,10 @@ PEERS = {
     "c-dop853": ("compiled", ""),
     "c-rk4-projected": ("compiled", ""),
 }
-"""Name -> (module here that runs it, package that it needs or '')."""
+"""Name -> (module of this package that runs it, package that it needs or '')."""
 
 TOLERANCES = tuple(10.0**-k for k in range(3, 14))
-"""From loose to tight; the absolute tolerance equals the relative one."""
+"""From loose to tight; the absolute tolerance equals the relative tolerance."""
 
 GROUPS = {
     "scipy": tuple(n for n in PEERS if n.startswith("scipy")),
@@ -80,7 +88,7 @@ GROUPS = {
 
 
 def installed(name: str) -> bool:
-    """Say whether the software of a peer is here.
+    """Whether the software of a peer is installed.
 
     >>> installed("scipy-dop853")
     True
@@ -90,9 +98,9 @@ def installed(name: str) -> bool:
 
 
 def find(names: Sequence[str]) -> tuple[Peer, ...]:
-    """Return the peers of these names, in the order of :data:`PEERS`; groups give what of them is installed.
+    """Return the named peers in the order of :data:`PEERS`; a group gives its installed members.
 
-    :class:`UnknownName` for a name that is none, :class:`InputError` for a named peer that is not installed.
+    :class:`UnknownName` for an unknown name, :class:`InputError` for a named peer that is not installed.
     """
     chosen: set[str] = set()
     for name in names:
@@ -106,6 +114,5 @@ def find(names: Sequence[str]) -> tuple[Peer, ...]:
 
 
 def _peer(name: str) -> Peer:
-    module: Any = import_module(f"codegen.lab.peers.{PEERS[name][0]}")
-    peer: Peer = module.peer(name)
-    return peer
+    module = cast("PeerModule", import_module(f"codegen.lab.peers.{PEERS[name][0]}"))
+    return module.peer(name)

@@ -1,7 +1,7 @@
 """Classical integrators in C on the ambient equations: DOP853 with its own step control, and projected RK4.
 
-The code is generated from the same straight-line field as that of the other peers and built with the flags
-of emitted modules. Coefficients of DOP853 come from the library; its second error estimator is the rule of
+The code is generated from the straight-line field that the other peers use, and is built with the flags of
+emitted modules. Coefficients of DOP853 come from the library; its second error estimator is the rule of
 order 3 through nodes 1, 9 and 12 that its authors chose (Hairer, Norsett and Wanner I, section II.10), and
 the step is chosen as in section II.4 there.
 """
@@ -11,17 +11,18 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import partial
-from typing import Any
 
+import cffi
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from codegen.build import build
 from codegen.ir.domain import FloatDomain
+from codegen.lab.number_types import Scalar
 from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
-from codegen.lab.projection import projection_lines
+from codegen.lab.peers.projection import projection_lines
 from codegen.lab.straight_line_field import velocity
 from codegen.scene.problem import Problem
-from orderconds.tableau import Tableau, find
+from orderconds.tableau import Embedded, RungeKutta, Tableau, find
 
 DECLARATION = (
     "int peer(double *y, double first, double last, double control, size_t *steps, size_t *evaluations);"
@@ -30,7 +31,7 @@ REASONS = {1: "the step became too small", 2: "a number is not finite", 3: "too 
 
 
 def peer(name: str) -> Peer:
-    """Return c-dop853 (by tolerance) or c-rk4-projected (by steps)."""
+    """Return c-dop853 (controlled by a tolerance) or c-rk4-projected (controlled by the number of steps)."""
     controlled = "tolerance" if name == "c-dop853" else "steps"
     template = "dop853.c.j2" if name == "c-dop853" else "rk4.c.j2"
     return Peer(name, controlled, partial(_prepare, template), "generated C")
@@ -39,7 +40,7 @@ def peer(name: str) -> Peer:
 def source(template: str, scene: Problem) -> str:
     """Return the C text of a peer on a scene.
 
-    :class:`codegen.errors.SceneError` where RK4 has no projection onto the scene's manifold.
+    :class:`codegen.errors.SceneError` if there is no projection onto the manifold of the scene.
     """
     environment = Environment(
         loader=PackageLoader("codegen.templates", "peers"),
@@ -49,7 +50,7 @@ def source(template: str, scene: Problem) -> str:
         keep_trailing_newline=True,
         autoescape=False,
     )
-    values: dict[str, Any] = {"size": len(scene.symbols), "field": velocity(scene).c()}
+    values: dict[str, object] = {"size": len(scene.symbols), "field": velocity(scene).c()}
     values["time"] = not scene.autonomous
     if template == "rk4.c.j2":
         values["projection"] = projection_lines(scene).c("z")
@@ -58,16 +59,17 @@ def source(template: str, scene: Problem) -> str:
     return environment.get_template(template).render(values)
 
 
-def dop853() -> dict[str, Any]:
-    """Return the coefficients of DOP853 as doubles: rows of A, b, c and the weights of both estimates."""
+def dop853() -> dict[str, object]:
+    """Return DOP853 in doubles: rows of A, b, c, and the weights of both error estimates."""
     tableau = Tableau.load(find("dop853"))
 
-    def doubles(row: Sequence[Any]) -> list[float]:
+    def doubles(row: Sequence[Scalar]) -> list[float]:
         return [float(tableau.ring.approximate(x, 20)) for x in row]
 
-    method: Any = tableau.method
+    method, embedded = tableau.method, tableau.embedded
+    assert isinstance(method, RungeKutta)
+    assert isinstance(embedded, Embedded)
     rows, b, c = [doubles(row) for row in method.A], doubles(method.b), doubles(method.c)
-    embedded: Any = tableau.embedded
     fifth = [x - y for x, y in zip(b, doubles(embedded.b), strict=True)]
     low = [0.0] * len(b)
     for i, w in zip((0, 8, 11), third_order([c[0], c[8], c[11]]), strict=True):
@@ -90,28 +92,23 @@ def third_order(nodes: Sequence[float]) -> list[float]:
 
 
 def _prepare(template: str, scene: Problem, control: float) -> Prepared:
-    import cffi
-
-    library = _library(source(template, scene))
-    ffi: cffi.FFI = library[0]
+    ffi, library = _library(source(template, scene))
     start = [float(x) for x in scene.initial(FloatDomain(0.0))]
     first, last = map(float, scene.span)
     counts = ffi.new("size_t[2]")
 
     def run(end: float = last, control: float = control) -> Outcome:
         state = ffi.new("double[]", start)
-        status = library[1].peer(state, first, end, control, counts, counts + 1)
-        found = tuple(ffi.unpack(state, len(start)))
-        if status or not all(map(math.isfinite, found)):
+        status = library.peer(state, first, end, control, counts, counts + 1)
+        final = tuple(ffi.unpack(state, len(start)))
+        if status or not all(map(math.isfinite, final)):
             raise PeerFailed(REASONS.get(status, REASONS[2]))
-        return Outcome(found, int(counts[0]), int(counts[1]))
+        return Outcome(final, int(counts[0]), int(counts[1]))
 
     return Prepared(run, lambda: run(first, control if template == "dop853.c.j2" else 0.0))
 
 
-def _library(text: str) -> tuple[Any, Any]:
-    import cffi
-
+def _library(text: str) -> tuple[cffi.FFI, Scalar]:
     ffi = cffi.FFI()
     ffi.cdef(DECLARATION)
     return ffi, ffi.dlopen(str(build({"peer.c": text})))

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from codegen.ir.domain import FloatDomain
+from codegen.lab.number_types import Scalar
 from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
 from codegen.lab.straight_line_field import velocity
 from codegen.scene.problem import Problem
@@ -30,11 +29,10 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
     start = jnp.array(scene.initial(FloatDomain(0.0)))
     first, last = map(float, scene.span)
 
-    def field(t: Any, y: Any, _: Any) -> Any:
+    def field(t: Scalar, y: Scalar, _: object) -> Scalar:
         return jnp.stack([jnp.asarray(x, dtype=float) for x in compute(y, t)])
 
-    @jax.jit  # type: ignore[untyped-decorator]
-    def solve(y: Any) -> Any:
+    def solve(y: Scalar) -> Scalar:
         return diffrax.diffeqsolve(
             diffrax.ODETerm(field),
             diffrax.Dopri8(),
@@ -47,13 +45,15 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
             throw=False,
         )
 
+    compiled = jax.jit(solve)
+
     def run() -> Outcome:
-        found = solve(start)
-        found.ys.block_until_ready()
-        if found.result != diffrax.RESULTS.successful:
-            raise PeerFailed(f"diffrax: no end within {MOST_STEPS} steps")
-        steps = int(found.stats["num_steps"])
-        return Outcome(tuple(map(float, found.ys[-1])), steps, 12 * steps)
+        solution = compiled(start)
+        solution.ys.block_until_ready()
+        if solution.result != diffrax.RESULTS.successful:
+            raise PeerFailed(f"diffrax: the end is not reached within {MOST_STEPS} steps")
+        steps = int(solution.stats["num_steps"])
+        return Outcome(tuple(map(float, solution.ys[-1])), steps, 12 * steps)
 
     run()  # compiles
     return Prepared(run)

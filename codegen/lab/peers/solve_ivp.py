@@ -1,14 +1,15 @@
-"""SciPy's solvers (DOP853, Radau, LSODA), stepped by hand so that a step can be projected."""
+"""SciPy's solvers (DOP853, Radau, LSODA), with an explicit step loop, so that each step can be projected."""
 
 from __future__ import annotations
 
 import math
 from functools import partial
-from typing import Any
+
+import numpy
 
 from codegen.ir.domain import FloatDomain
 from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
-from codegen.lab.projection import projection
+from codegen.lab.peers.projection import projection
 from codegen.lab.straight_line_field import velocity
 from codegen.scene.problem import Problem
 
@@ -25,7 +26,6 @@ def peer(name: str) -> Peer:
 
 
 def _prepare(method: str, projected: bool, scene: Problem, tolerance: float) -> Prepared:
-    import numpy
     import scipy.integrate
 
     compute = velocity(scene).python(float, FUNCTIONS)
@@ -35,7 +35,7 @@ def _prepare(method: str, projected: bool, scene: Problem, tolerance: float) -> 
     least = 100 * numpy.finfo(float).eps
     options = {"rtol": max(tolerance, least), "atol": tolerance}
 
-    def field(t: float, y: Any) -> tuple[float, ...]:
+    def field(t: float, y: numpy.ndarray) -> tuple[float, ...]:
         value: tuple[float, ...] = compute(y.tolist(), t)
         return value
 

@@ -1,11 +1,10 @@
-"""Endurance: ten million steps, and a hundred thousand there and back, or a status and where it came."""
+"""Endurance runs: ten million steps forward, and a hundred thousand steps forward and back."""
 
 from __future__ import annotations
 
 import math
 import time
 from dataclasses import dataclass
-from typing import Any
 
 from codegen.emitter import Compiled
 from codegen.lab.distance import distance
@@ -16,18 +15,19 @@ from codegen.loader import StepFailed
 MANY = 10_000_000
 BACK = 100_000
 SECONDS = 3.0
-"""CPU seconds that a run may take; where ten million steps take longer, fewer are made and counted."""
+"""CPU seconds that a run may take. If ten million steps take longer, fewer are made and reported."""
 
 TRIAL = 1000
 
 
 @dataclass(frozen=True)
 class Endurance:
-    """A run of ``steps`` steps: what it kept, or how it ended.
+    """A run of ``steps`` steps.
 
-    ``defect`` is the distance from the manifold at the end (None where it is all of space), ``returned`` the
-    distance from the start after the way back. A run held when it ended with a status, or finite and, on a
-    manifold, within rounding of it.
+    ``defect`` is the distance from the manifold at the end (None if the manifold is a vector space),
+    ``returned`` the distance from the initial state after a run forward and back. ``failure`` is the status
+    message if the run stopped early. A run holds if it stopped with a status, or if its final state is finite
+    and off the manifold by no more than rounding.
     """
 
     name: str
@@ -38,10 +38,10 @@ class Endurance:
 
     @property
     def held(self) -> bool:
-        """Whether the run kept the manifold as well as rounding permits, or said that it stopped."""
+        """Whether the run stayed on the manifold up to rounding, or stopped with a status."""
         return bool(self.failure) or self.defect is None or self.defect <= 64 * self.steps * 2.0**-53
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, object]:
         """Return plain data."""
         return {
             "name": self.name,
@@ -54,7 +54,7 @@ class Endurance:
 
 
 def endure(compiled: Compiled, runner: Emitted) -> tuple[Endurance, ...]:
-    """Run a method for long at a hundredth of the scene's span a step, onwards and there and back."""
+    """Run a method with steps of a hundredth of the span: forward, and forward and back."""
     first, last = map(float, compiled.scene.span)
     h = (last - first) / 100
     start = time.process_time()
@@ -64,19 +64,19 @@ def endure(compiled: Compiled, runner: Emitted) -> tuple[Endurance, ...]:
         return (Endurance(f"{MANY} steps", failure.step, None, None, str(failure)),)
     each = max((time.process_time() - start) / TRIAL, 1e-9)
     many, back = (min(n, int(SECONDS / each)) for n in (MANY, BACK))
-    return (_onwards(compiled, runner, h, many, first), _return(compiled, runner, h, back, first))
+    return (_forward(compiled, runner, h, many, first), _return(compiled, runner, h, back, first))
 
 
-def _onwards(compiled: Compiled, runner: Emitted, h: float, steps: int, first: float) -> Endurance:
+def _forward(compiled: Compiled, runner: Emitted, h: float, steps: int, first: float) -> Endurance:
     try:
         end = runner.integrator.run(runner.initial, h, steps, first)
     except StepFailed as failure:
-        return Endurance("onwards", failure.step, None, None, str(failure))
+        return Endurance("forward", failure.step, None, None, str(failure))
     laws = functions(compiled.scene).get(MANIFOLD)
     defect = max(map(abs, laws(end, first + steps * h))) if laws is not None else None
     if not all(map(math.isfinite, end)):
         defect = math.inf
-    return Endurance("onwards", steps, defect, None)
+    return Endurance("forward", steps, defect, None)
 
 
 def _return(compiled: Compiled, runner: Emitted, h: float, steps: int, first: float) -> Endurance:
@@ -84,5 +84,5 @@ def _return(compiled: Compiled, runner: Emitted, h: float, steps: int, first: fl
         end = runner.integrator.run(runner.initial, h, steps, first)
         back = runner.integrator.run(end, -h, steps, first + steps * h)
     except StepFailed as failure:
-        return Endurance("there and back", failure.step, None, None, str(failure))
-    return Endurance("there and back", steps, None, distance(compiled.scene, back, runner.initial))
+        return Endurance("forward and back", failure.step, None, None, str(failure))
+    return Endurance("forward and back", steps, None, distance(compiled.scene, back, runner.initial))

@@ -9,7 +9,9 @@ import pytest
 from click.testing import CliRunner, Result
 
 from codegen.certify import CertifiedOrder
-from codegen.lab import report, study, survey
+from codegen.lab import report
+from codegen.lab.measurements import long_runs
+from codegen.lab.orders import order_study
 from orderconds.cli import program
 
 
@@ -39,10 +41,10 @@ def test_json_holds_the_measurements_and_stdout_nothing_else(tmp_path: Path) -> 
     assert method["c"]["verdict"] == method["python"]["verdict"] == method["verdict"] == "holds"
 
 
-def test_an_order_that_is_not_observed_exits_1_and_stands_in_the_page(
+def test_an_order_that_is_not_observed_exits_1_and_is_on_the_page(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(study, "certified_order", lambda method, scene: CertifiedOrder(4, "exact"))
+    monkeypatch.setattr(order_study, "certified_order", lambda method, scene: CertifiedOrder(4, "exact"))
     result = run("free_rigid_body", "-m", "cg:cg3", "--only", "orders", "-o", str(tmp_path))
     assert result.exit_code == 1
     assert "fails: observed order 3.00, stated 4" in result.stdout
@@ -75,13 +77,14 @@ def test_a_user_scene_is_reported_by_its_own_words(tmp_path: Path) -> None:
         (("nowhere",), "unknown scene"),
         (("free_rigid_body", "-m", "vcg:gauss1"), "family vcg"),
         (("free_rigid_body", "-m", "cg33"), "cg33"),
+        (("free_rigid_body", "--only", "horoscope"), "unknown measurement 'horoscope'"),
         (("free_rigid_body", "--quick", "--full"), "--quick and --full contradict each other"),
     ],
 )
 def test_bad_input_is_one_message_before_anything_is_measured(
     words: tuple[str, ...], said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(report, "survey", None)
+    monkeypatch.setattr(report, "measure_scene", None)
     result = run(*words, "-o", str(tmp_path))
     assert result.exit_code == 2
     assert result.stdout == ""
@@ -92,7 +95,7 @@ def test_bad_input_is_one_message_before_anything_is_measured(
 def test_a_folder_that_cannot_be_written_to_is_found_out_first(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(report, "survey", None)
+    monkeypatch.setattr(report, "measure_scene", None)
     blocked = tmp_path / "file"
     blocked.write_text("", encoding="utf-8")
     result = run("free_rigid_body", "-o", str(blocked / "inside"))
@@ -101,10 +104,10 @@ def test_a_folder_that_cannot_be_written_to_is_found_out_first(
 
 
 def test_a_page_that_cannot_be_finished_leaves_the_old_one(tmp_path: Path) -> None:
-    page = report.place(tmp_path / "index.html", "old\n")
+    page = report.write_file(tmp_path / "index.html", "old\n")
 
     with pytest.raises(UnicodeEncodeError):
-        report.place(page, "half a page, then \ud800")
+        report.write_file(page, "half a page, then \ud800")
     assert page.read_text(encoding="utf-8") == "old\n"
     assert [p.name for p in tmp_path.iterdir()] == ["index.html"]
 
@@ -121,16 +124,16 @@ def test_an_interrupted_report_goes_on_where_it_stopped(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     words = ("free_rigid_body", "-m", "cg:cg3", "--only", "long", "--quick", "-o", str(tmp_path))
-    longrun, calls = survey.longrun, []
+    long_run, calls = long_runs.long_run, []
 
     def counted(*arguments, **options):
         calls.append(arguments)
-        return longrun(*arguments, **options)
+        return long_run(*arguments, **options)
 
     def interrupted(*arguments):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(survey, "longrun", counted)
+    monkeypatch.setattr(long_runs, "long_run", counted)
     with monkeypatch.context() as patch:
         patch.setattr(report, "render", interrupted)
         assert run(*words).exit_code != 0

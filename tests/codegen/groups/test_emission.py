@@ -11,7 +11,7 @@ import pytest
 from codegen.emitter import compile_method, emit_compiled
 from codegen.ir.domain import FloatDomain
 from codegen.ir.interpret import interpret
-from codegen.lab.local_error import local_error, valuation
+from codegen.lab.orders.local_error import local_error, valuation
 from codegen.loader import load
 from orderconds.ring import QQ
 from tests.promises import ulps

@@ -12,6 +12,7 @@ from codegen.emitter import compile_method, emit_compiled
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.interpret import interpret
 from codegen.ir.kernel import ELAPSED, LEAD, LONGEST
+from codegen.ir.operations import FLOWS, FlowFor
 from codegen.kernel.deferred_flows import part
 from codegen.loader import StepFailed, load
 from tests.strategies import top_scene
@@ -38,9 +39,13 @@ def test_steps_in_parts_are_the_steps_themselves(name):
     scene, method, joined, late = CASES[name]
     made = compiled(scene, method)
     view, parted = made.view, part(made.program, made.view)
-    assert [a.operation.part for a in parted.core.assigns() if a.operation.name.endswith("for")] == joined
+    assert [a.operation.part for a in parted.core.assigns() if isinstance(a.operation, FlowFor)] == joined
     for program, parts in ((parted.begin, joined), (parted.finish, late)):
-        found = [] if program is None else [a.operation.part for a in program.assigns() if a.operation.part]
+        found = (
+            []
+            if program is None
+            else [a.operation.part for a in program.assigns() if isinstance(a.operation, FLOWS)]
+        )
         assert found == parts
     d = PreciseDomain("0.03125", 40)
     n, start = view.group.size, view.initial(d)

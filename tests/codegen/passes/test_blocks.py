@@ -4,7 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from codegen.ir.program import Assign, Kind, Operation, Solve, Var
+from codegen.ir.operations import ActExp, Field
+from codegen.ir.program import Assign, Solve
+from codegen.ir.values import Kind, Var
 from codegen.ir.verify import verify
 from codegen.passes import blocks, dead, fold_zeros, optimise, value_numbering
 from tests.strategies import butcher, field_scene, full, hamiltonian_scene, lowered, same, shipped
@@ -79,10 +81,10 @@ def hand_made(images, starts=("k0", "k0")):
     y, y1 = Var("y", Kind.POINT), Var("y1", Kind.POINT)
     k0, v, w, f = (Var(name, Kind.ALG) for name in ("k0", "v", "w", "f"))
     named = {x.name: x for x in (k0, v, w, f)}
-    inside = (Assign((y1,), Operation("actexp"), (v, y)), Assign((f,), Operation("field"), (y1,)))
+    inside = (Assign((y1,), ActExp(), (v, y)), Assign((f,), Field(), (y1,)))
     block = Solve("b", (v, w), tuple(named[s] for s in starts), inside, tuple(named[name] for name in images))
     out = Var("y2", Kind.POINT)
-    body = (Assign((k0,), Operation("field"), (y,)), block, Assign((out,), Operation("actexp"), (w, y1)))
+    body = (Assign((k0,), Field(), (y,)), block, Assign((out,), ActExp(), (w, y1)))
     scene, template = lowered("cg", "euler", field_scene("S^2"))
     return scene, verify(replace(template, body=body, outputs=(("y", out),)))
 

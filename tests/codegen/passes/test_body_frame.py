@@ -6,7 +6,8 @@ import pytest
 from sympy import diag
 
 from codegen import scenes
-from codegen.ir.program import Kind, Solve
+from codegen.ir.program import Solve
+from codegen.ir.values import Kind
 from codegen.ir.verify import verify
 from codegen.lower import lower, problem_for
 from codegen.method import parse

@@ -10,14 +10,16 @@ from sympy import diag
 
 from codegen import scenes
 from codegen.groups import SO3
+from codegen.ir.ad_series import Factor, simplified
 from codegen.ir.domain import FloatDomain, PreciseDomain
 from codegen.ir.interpret import interpret
 from codegen.ir.number import Number
-from codegen.ir.program import ONE, Builder, Coefficient, Factor, Kind, Program, Solve, Var
+from codegen.ir.operations import Bracket
+from codegen.ir.program import Builder, Program, Solve
+from codegen.ir.values import ONE, Coefficient, Kind, Var
 from codegen.ir.verify import IllFormed, verify
 from codegen.passes import body_frame, functions, legendre, opposites, shared_sums, tearing
 from codegen.passes.equivalence import Reference
-from codegen.passes.functions import simplified
 from tests.strategies import full, hamiltonian_scene, lowered, same, starting, top_scene
 
 q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
@@ -44,8 +46,8 @@ def counted(run, build):
 
 def test_what_is_undone_at_once_is_not_done():
     def build(b, xi, n):
-        g = b.do("exp", "g", b.lin("x", Kind.ALG, [(HALF, xi)]))
-        return b.do("Adt", "a", g, b.do("Adtinv", "b", g, n))
+        g = b.exp("g", b.lin("x", Kind.ALG, [(HALF, xi)]))
+        return b.adjoint("a", g, b.adjoint("b", g, n, inverse=True))
 
     before = made(build)
     after = verify(opposites.run(before))
@@ -55,8 +57,8 @@ def test_what_is_undone_at_once_is_not_done():
 
 def test_different_elements_do_not_undo_each_other():
     def build(b, xi, n):
-        g, k = (b.do("exp", "g", b.lin("x", Kind.ALG, [(c, xi)])) for c in (HALF, MINUS))
-        return b.do("Adt", "a", g, b.do("Adtinv", "b", k, n))
+        g, k = (b.exp("g", b.lin("x", Kind.ALG, [(c, xi)])) for c in (HALF, MINUS))
+        return b.adjoint("a", g, b.adjoint("b", k, n, inverse=True))
 
     before = made(build)
     assert opposites.run(before) == before
@@ -64,14 +66,14 @@ def test_different_elements_do_not_undo_each_other():
 
 def test_an_exponential_leaves_its_own_exponent_alone():
     def build(b, xi, n):
-        g = b.do("exp", "g", b.lin("x", Kind.ALG, [(HALF, xi)]))
-        x = b.do("Ad", "y", g, b.lin("z", Kind.ALG, [(MINUS, xi)]))
-        return b.do("adt", "a", x, n)
+        g = b.exp("g", b.lin("x", Kind.ALG, [(HALF, xi)]))
+        x = b.adjoint("y", g, b.lin("z", Kind.ALG, [(MINUS, xi)]))
+        return b.bracket("a", x, n)
 
     before = made(build)
     after = verify(opposites.run(before))
     assert same(SCENE, before, after)
-    reads = [a.args[0] for a in after.assigns() if a.operation.name == "adt"]
+    reads = [a.args[0] for a in after.assigns() if isinstance(a.operation, Bracket)]
     assert [a.operation.name for a in after.assigns() if a.targets[0] in reads] == ["lin"]
 
 
@@ -112,8 +114,8 @@ def test_words_cancel():
 def test_chains_of_functions_of_multiples_of_one_ad_become_one_operation():
     def build(b, xi, n):
         x, y = (b.lin("x", Kind.ALG, [(c, xi)]) for c in (HALF, MINUS))
-        moved = b.do("Adt", "a", b.do("exp", "g", x), b.do("dexpt", "d", y, n))
-        return b.do("dexpinvt", "e", x, moved, order=2)
+        moved = b.adjoint("a", b.exp("g", x), b.dual_dexp("d", y, n))
+        return b.dexpinv("e", x, moved, 2)
 
     before = made(build)
     after = verify(functions.run(before, SCENE))
@@ -130,11 +132,10 @@ def test_a_group_that_does_not_know_functions_of_ad_keeps_its_operations():
 def test_sums_in_fixed_proportions_are_mapped_once():
     def build(b, xi, n):
         x = b.lin("x", Kind.ALG, [(HALF, xi)])
-        p, r = b.do("dexpt", "p", x, mu), b.do("dexpt", "r", x, n)
+        p, r = b.dual_dexp("p", x, mu), b.dual_dexp("r", x, n)
         first = b.lin("m", Kind.DUAL, [(ONE, p), (HALF, r)])
         second = b.lin("l", Kind.DUAL, [(WHOLE, p), (Coefficient(Number.rational(1, 2), 2), r)])
-        return b.do(
-            "adt",
+        return b.bracket(
             "a",
             b.lin("y", Kind.ALG, [(ONE, xi)]),
             b.lin("s", Kind.DUAL, [(ONE, first), (ONE, second)]),

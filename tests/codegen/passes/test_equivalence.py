@@ -10,7 +10,9 @@ from sympy import Integer, Matrix, sqrt, symbols
 from codegen import passes
 from codegen.errors import SceneError
 from codegen.ir.number import Number
-from codegen.ir.program import Coefficient, Operation, Solve
+from codegen.ir.operations import Adjoint, DualDexp, InverseDexp, Linear, Multiply
+from codegen.ir.program import Solve
+from codegen.ir.values import Coefficient
 from codegen.ir.verify import IllFormed
 from codegen.passes.equivalence import Reference
 from tests.strategies import field_scene, full, hamiltonian_scene, lowered, same
@@ -26,34 +28,33 @@ def mapped(program, change):
 
 
 def fewer_brackets(assign):
-    if assign.operation.name == "dexpinv":
+    if isinstance(assign.operation, InverseDexp):
         return replace(assign, operation=replace(assign.operation, order=assign.operation.order - 1))
     return assign
 
 
 def slightly_off(assign):
-    if assign.operation.name != "lin":
+    if not isinstance(assign.operation, Linear):
         return assign
     first, *rest = assign.operation.coefficients
     wrong = Coefficient(first.value + Number.rational(1, 2**28), first.power)
-    return replace(assign, operation=Operation("lin", (wrong, *rest)))
+    return replace(assign, operation=Linear((wrong, *rest)))
 
 
 def other_way_round(assign):
-    return replace(assign, args=assign.args[::-1]) if assign.operation.name == "mul" else assign
+    return replace(assign, args=assign.args[::-1]) if isinstance(assign.operation, Multiply) else assign
 
 
 def inverse(assign):
-    if assign.operation.name in ("Adt", "Adtinv"):
-        name = "Adtinv" if assign.operation.name == "Adt" else "Adt"
-        return replace(assign, operation=Operation(name))
+    if isinstance(assign.operation, Adjoint) and assign.operation.dual:
+        return replace(assign, operation=assign.operation.opposite())
     return assign
 
 
 def without_dexpt(assign):
-    if assign.operation.name == "dexpt":
+    if isinstance(assign.operation, DualDexp):
         one = Coefficient(Number.rational(1))
-        return replace(assign, operation=Operation("lin", (one,)), args=assign.args[1:])
+        return replace(assign, operation=Linear((one,)), args=assign.args[1:])
     return assign
 
 

@@ -3,13 +3,17 @@ from __future__ import annotations
 import pytest
 
 from codegen.ir.number import Number
-from codegen.ir.program import ONE, Builder, Coefficient, Kind, Program, Var
+from codegen.ir.operations import Adjoint, Bracket, DualDexp
+from codegen.ir.program import Builder, Program
+from codegen.ir.values import ONE, Coefficient, Kind, Var
 from codegen.ir.verify import verify
 from codegen.passes import factor_linear
 from tests.strategies import full, hamiltonian_scene, lowered, same
 
 q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
 H = Coefficient(Number.rational(1, 2), 1)
+
+MAPS = (Adjoint(dual=True), Adjoint(dual=True, inverse=True), DualDexp(), Bracket(dual=True))
 
 
 def program(build):
@@ -26,20 +30,20 @@ def after(build):
     return new.counts()
 
 
-@pytest.mark.parametrize("name", ["Adt", "Adtinv", "dexpt", "adt"])
-def test_one_map_of_a_sum_replaces_a_sum_of_maps(name):
+@pytest.mark.parametrize("operation", MAPS, ids=lambda operation: operation.name)
+def test_one_map_of_a_sum_replaces_a_sum_of_maps(operation):
     def build(b, x, n):
-        by = q if name.startswith("Ad") else x
-        terms = [(ONE, b.do(name, "p", by, mu)), (H, b.do(name, "p", by, n))]
+        by = x if operation.signature()[0][0] is Kind.ALG else q
+        terms = [(ONE, b.add(operation, "p", by, mu)), (H, b.add(operation, "p", by, n))]
         return b.lin("m", Kind.DUAL, terms)
 
-    assert after(build)[name] == 1
+    assert after(build)[operation.name] == 1
 
 
 def test_nested_maps_come_out_one_after_the_other():
     def build(b, x, n):
         def moved(v):
-            return b.do("dexpt", "d", x, b.do("Adtinv", "p", q, v))
+            return b.dual_dexp("d", x, b.adjoint("p", q, v, inverse=True))
 
         return b.lin("m", Kind.DUAL, [(ONE, moved(mu)), (H, moved(n)), (H, mu)])
 
@@ -50,19 +54,17 @@ def test_nested_maps_come_out_one_after_the_other():
 def test_different_maps_stay():
     def build(b, x, n):
         y = b.lin("y", Kind.ALG, [(ONE, x), (ONE, x)])
-        return b.lin("m", Kind.DUAL, [(ONE, b.do("dexpt", "p", x, mu)), (H, b.do("dexpt", "p", y, n))])
+        return b.lin("m", Kind.DUAL, [(ONE, b.dual_dexp("p", x, mu)), (H, b.dual_dexp("p", y, n))])
 
     assert after(build)["dexpt"] == 2
 
 
 def test_values_with_other_uses_are_not_computed_again():
     def build(b, x, n):
-        p, r = b.do("dexpt", "p", x, mu), b.do("dexpt", "r", x, n)
+        p, r = b.dual_dexp("p", x, mu), b.dual_dexp("r", x, n)
         total = b.lin("m", Kind.DUAL, [(ONE, p), (H, r)])
-        other = b.do("Adt", "a", q, b.do("adt", "b", x, p))
-        return b.lin(
-            "m", Kind.DUAL, [(ONE, total), (H, other), (H, b.do("adt", "c", x, b.do("Adt", "d", q, r)))]
-        )
+        other = b.adjoint("a", q, b.bracket("b", x, p))
+        return b.lin("m", Kind.DUAL, [(ONE, total), (H, other), (H, b.bracket("c", x, b.adjoint("d", q, r)))])
 
     assert after(build)["dexpt"] == 2
 

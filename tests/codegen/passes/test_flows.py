@@ -8,8 +8,8 @@ import pytest
 from sympy import Matrix, diag
 
 from codegen import scenes
-from codegen.flows.flow import Kick
-from codegen.ir.program import Coefficient
+from codegen.flows.kick import Kick
+from codegen.ir.values import Coefficient
 from codegen.lower import lower, problem_for
 from codegen.method import Method
 from codegen.passes import flows, optimise

@@ -3,12 +3,17 @@ from __future__ import annotations
 import pytest
 
 from codegen.ir.number import Number
-from codegen.ir.program import ONE, Assign, Builder, Coefficient, Kind, Operation, Program, Var
+from codegen.ir.operations import ActExp, Adjoint, Bracket, DualDexp, Linear
+from codegen.ir.program import Assign, Builder, Program
+from codegen.ir.values import ONE, Coefficient, Kind, Var
 from codegen.ir.verify import verify
 from codegen.passes import fold_zeros
 from tests.strategies import field_scene, full, hamiltonian_scene, lowered, same
 
 q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
+
+
+MAPS = (DualDexp(), Bracket(dual=True), Adjoint(dual=True), Adjoint(dual=True, inverse=True))
 
 
 def h(p, r=1):
@@ -33,7 +38,7 @@ def after(build):
 
 def test_zero_coefficients_go():
     zero = Coefficient(Number.rational(0), 1)
-    operation = Operation("lin", (ONE, zero))
+    operation = Linear((ONE, zero))
     made = Var("m", Kind.DUAL)
 
     def build(b, xi, n):
@@ -45,13 +50,13 @@ def test_zero_coefficients_go():
 
 def test_terms_in_one_value_are_added():
     new = after(lambda b, xi, n: b.lin("m", Kind.DUAL, [(h(1, 2), n), (ONE, mu), (h(1, 3), n)]))
-    (made,) = [a for a in new.assigns() if a.operation.name == "lin"]
+    (made,) = [a for a in new.assigns() if isinstance(a.operation, Linear)]
     assert [c.text() for c in made.operation.coefficients] == ["5/6 h", "1"]
 
 
 def test_powers_of_h_are_kept_apart():
     new = after(lambda b, xi, n: b.lin("m", Kind.DUAL, [(h(1), mu), (ONE, mu)]))
-    (made,) = [a for a in new.assigns() if a.operation.name == "lin"]
+    (made,) = [a for a in new.assigns() if isinstance(a.operation, Linear)]
     assert [c.text() for c in made.operation.coefficients] == ["1 h", "1"]
 
 
@@ -68,14 +73,14 @@ def test_a_sum_that_cancels_is_zero():
 
 @pytest.mark.parametrize("name", ["Adt", "Adtinv"])
 def test_the_identity_moves_nothing(name):
-    new = after(lambda b, xi, n: b.do(name, "m", b.do("identity", "e"), n))
+    new = after(lambda b, xi, n: b.adjoint("m", b.identity("e"), n, inverse=name == "Adtinv"))
     assert name not in new.counts()
 
 
 def test_the_exponential_of_zero_is_the_identity():
     def build(b, xi, n):
-        e = b.do("exp", "e", b.lin("x", Kind.ALG, []))
-        return b.do("Adt", "m", b.do("mul", "g", e, b.do("mul", "k", q, e)), n)
+        e = b.exp("e", b.lin("x", Kind.ALG, []))
+        return b.adjoint("m", b.mul("g", e, b.mul("k", q, e)), n)
 
     new = after(build)
     assert "exp" not in new.counts()
@@ -84,29 +89,30 @@ def test_the_exponential_of_zero_is_the_identity():
 
 
 def test_dexp_at_zero_does_nothing():
-    new = after(lambda b, xi, n: b.do("dexpt", "m", b.lin("x", Kind.ALG, []), n))
+    new = after(lambda b, xi, n: b.dual_dexp("m", b.lin("x", Kind.ALG, []), n))
     assert "dexpt" not in new.counts()
 
 
-@pytest.mark.parametrize(("name", "first"), [("dexpt", "xi"), ("adt", "xi"), ("Adt", "q"), ("Adtinv", "q")])
-def test_linear_operations_on_zero_are_zero(name, first):
+@pytest.mark.parametrize("operation", MAPS, ids=lambda operation: operation.name)
+def test_linear_operations_on_zero_are_zero(operation):
     def build(b, xi, n):
         zero = b.lin("z", Kind.DUAL, [])
-        return b.do(name, "m", b.lin("x", Kind.ALG, [(h(1), xi)]) if first == "xi" else q, zero)
+        x = b.lin("x", Kind.ALG, [(h(1), xi)])
+        return b.add(operation, "m", x if operation.signature()[0][0] is Kind.ALG else q, zero)
 
-    assert name not in after(build).counts()
+    assert operation.name not in after(build).counts()
 
 
 def test_a_bracket_with_zero_is_zero():
-    assert "adt" not in after(lambda b, xi, n: b.do("adt", "m", b.lin("x", Kind.ALG, []), n)).counts()
+    assert "adt" not in after(lambda b, xi, n: b.bracket("m", b.lin("x", Kind.ALG, []), n)).counts()
 
 
 def test_a_stage_at_the_time_of_the_step_needs_no_time_of_its_own():
     builder = Builder({"y", "t"})
     y, t = Var("y", Kind.POINT), Var("t", Kind.REAL)
     now = builder.advance("now", t, Coefficient(Number.rational(0), 1))
-    k = builder.do("fieldt", "k", y, now)
-    out = builder.do("actexp", "y1", k, y)
+    k = builder.field_at("k", y, now)
+    out = builder.add(ActExp(), "y1", k, y)
     before = Program("p", (y, t), builder.take(), (("y", out),))
     assert "advance" not in fold_zeros.run(verify(before)).counts()
 

@@ -3,7 +3,8 @@ from __future__ import annotations
 import pytest
 
 from codegen.ir.number import Number
-from codegen.ir.program import Builder, Coefficient, Kind, Program, Var
+from codegen.ir.program import Builder, Program
+from codegen.ir.values import Coefficient, Kind, Var
 from codegen.ir.verify import verify
 from codegen.passes import dead, fuse
 from tests.strategies import field_scene, full, lowered, same
@@ -23,11 +24,11 @@ def test_an_exponential_used_once_is_never_formed(place, tableau):
 def test_an_exponential_used_twice_is_formed_once():
     """exp(x) moves y, and then what it moved."""
     builder, y = Builder({"y", "t", "h"}), Var("y", Kind.POINT)
-    k = builder.do("field", "k", y)
+    k = builder.field_at("k", y)
     x = builder.lin("x", Kind.ALG, [(Coefficient(Number.rational(1, 2), 1), k)])
-    g = builder.do("exp", "g", x)
-    half = builder.do("act", "y1", g, y)
-    whole = builder.do("act", "y2", g, half)
+    g = builder.exp("g", x)
+    half = builder.act("y1", g, y)
+    whole = builder.act("y2", g, half)
     program = verify(Program("p", (y,), builder.take(), (("y", whole),)))
     new = verify(dead.run(fuse.run(program)))
     assert new.counts() == {"act": 2, "exp": 1, "field": 1, "lin": 1}

@@ -5,7 +5,9 @@ from __future__ import annotations
 from sympy import diag
 
 from codegen.ir.number import Number
-from codegen.ir.program import ONE, Builder, Coefficient, Kind, Program, Solve, Var
+from codegen.ir.operations import Linear
+from codegen.ir.program import Builder, Program, Solve
+from codegen.ir.values import ONE, Coefficient, Kind, Var
 from codegen.ir.verify import verify
 from codegen.passes import hoist_scalars, optimise
 from tests.strategies import full, hamiltonian_scene, lowered, same, top_scene
@@ -25,12 +27,12 @@ def made(build):
 def test_a_factor_of_a_maps_argument_joins_the_sum_that_reads_it():
     def build(b, xi, n):
         scaled = b.lin("s", Kind.DUAL, [(HALF, n)])
-        return b.lin("m", Kind.DUAL, [(ONE, mu), (HALF, b.do("Adt", "a", q, scaled))])
+        return b.lin("m", Kind.DUAL, [(ONE, mu), (HALF, b.adjoint("a", q, scaled))])
 
     before = made(build)
     after = verify(hoist_scalars.run(before))
     assert same(SCENE, before, after)
-    (total,) = (a for a in after.assigns() if a.operation.name == "lin")
+    (total,) = (a for a in after.assigns() if isinstance(a.operation, Linear))
     assert [c.power for c in total.operation.coefficients] == [0, 2]
 
 

@@ -8,9 +8,9 @@ import pytest
 
 from codegen.emitter import compile_method
 from codegen.groups import SO3
+from codegen.ir.ad_series import Factor
 from codegen.ir.domain import ExprDomain, PreciseDomain
 from codegen.ir.expr import walk
-from codegen.ir.program import Factor
 
 ONE, HALF = Fraction(1), Fraction(1, 2)
 WORDS = [

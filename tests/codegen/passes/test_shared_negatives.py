@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from codegen.emitter import compile_method
+from codegen.ir.operations import Linear
 from codegen.ir.program import Solve
 from codegen.ir.verify import verify
 from codegen.passes import shared_negatives
@@ -12,7 +13,7 @@ SCENE = hamiltonian_scene("SO(3)")
 
 
 def sums(body):
-    return [a.operation.coefficients for a in body if a.operation.name == "lin"]
+    return [a.operation.coefficients for a in body if isinstance(a.operation, Linear)]
 
 
 def test_steps_mean_the_same_and_sum_less():
@@ -28,7 +29,7 @@ def test_a_negative_is_taken_from_a_sum_of_the_same_block_alone():
     taken = [
         a
         for a in block.body
-        if a.operation.name == "lin" and a.operation.coefficients == (shared_negatives.MINUS,)
+        if isinstance(a.operation, Linear) and a.operation.coefficients == (shared_negatives.MINUS_ONE,)
     ]
     made = {v for a in block.body for v in a.targets}
     assert len(taken) == 4

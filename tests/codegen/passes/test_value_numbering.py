@@ -3,7 +3,8 @@ from __future__ import annotations
 import pytest
 
 from codegen.ir.number import Number
-from codegen.ir.program import ONE, Builder, Coefficient, Kind, Program, Var
+from codegen.ir.program import Builder, Program
+from codegen.ir.values import ONE, Coefficient, Kind, Var
 from codegen.ir.verify import verify
 from codegen.passes import dead, fold_zeros, value_numbering
 from tests.strategies import butcher, field_scene, full, hamiltonian_scene, lowered, same
@@ -62,7 +63,7 @@ def test_values_of_different_kinds_are_different():
 
     def build(b, xi, n, mu):
         x, z = b.lin("x", Kind.ALG, []), b.lin("z", Kind.DUAL, [])
-        return b.lin("m", Kind.DUAL, [(ONE, b.do("dexpt", "p", x, mu)), (H, z)])
+        return b.lin("m", Kind.DUAL, [(ONE, b.dual_dexp("p", x, mu)), (H, z)])
 
     program = hand_made(build)
     assert verify(value_numbering.run(program)).counts()["zero"] == 2

@@ -14,7 +14,7 @@ from codegen.errors import SceneError
 from codegen.groups import SO3
 from codegen.ir.domain import FloatDomain, PreciseDomain
 from codegen.ir.expr import evaluate
-from codegen.lab.converge import converge
+from codegen.lab.orders.convergence import converge
 from codegen.lab.reference import reference
 from codegen.lab.runner import Emitted
 from codegen.loader import load

@@ -11,7 +11,8 @@ from codegen.certify import certified_order
 from codegen.emitter import compile_method, emit_compiled
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.interpret import interpret
-from codegen.lab.converge import converge
+from codegen.ir.operations import Advance
+from codegen.lab.orders.convergence import converge
 from codegen.lab.reference import reference
 from codegen.lab.runner import Emitted
 from codegen.loader import Status, StepFailed
@@ -49,7 +50,7 @@ def still(program):
     """The program with every stage time at t: the classic fault."""
 
     def rule(rewriter, assign):
-        return assign.args if assign.operation.name == "advance" else rewriter.emit(assign)
+        return assign.args if isinstance(assign.operation, Advance) else rewriter.emit(assign)
 
     return rewrite(program, rule)
 

@@ -12,7 +12,7 @@ from codegen.certify import certified_order
 from codegen.emitter import compile_method, emit
 from codegen.groups import SL2
 from codegen.ir.domain import FloatDomain, PreciseDomain, SeriesDomain
-from codegen.lab.converge import converge
+from codegen.lab.orders.convergence import converge
 from codegen.lab.reference import reference
 from codegen.lab.runner import Emitted
 from codegen.loader import load as load_module

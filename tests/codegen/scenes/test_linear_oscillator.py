@@ -15,10 +15,11 @@ from codegen.certify import certified_order
 from codegen.emitter import compile_method, emit_compiled
 from codegen.ir.domain import FloatDomain, PreciseDomain
 from codegen.ir.interpret import interpret
+from codegen.ir.operations import Advance
 from codegen.kernel.operations import operations
 from codegen.kernel.schedule import arrange
-from codegen.lab.converge import converge
-from codegen.lab.local_error import local_error, valuation
+from codegen.lab.orders.convergence import converge
+from codegen.lab.orders.local_error import local_error, valuation
 from codegen.lab.reference import reference
 from codegen.lab.runner import Emitted
 from codegen.lower import lower, problem_for
@@ -162,7 +163,7 @@ def still(program):
     """The program with every stage time at t: the classic fault."""
 
     def rule(rewriter, assign):
-        return assign.args if assign.operation.name == "advance" else rewriter.emit(assign)
+        return assign.args if isinstance(assign.operation, Advance) else rewriter.emit(assign)
 
     return rewrite(program, rule)
 

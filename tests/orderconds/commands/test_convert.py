@@ -10,6 +10,7 @@ from click.testing import CliRunner, Result
 
 from orderconds import Tableau
 from orderconds.cli import program
+from orderconds.exchange import FORMATS
 from orderconds.tableau import find
 
 
@@ -44,3 +45,41 @@ def test_a_spreadsheet_s_byte_order_mark_is_no_part_of_the_first_cell(tmp_path: 
     path = tmp_path / "euler.csv"
     path.write_bytes(b"\xef\xbb\xbf0,0\n,1\n")
     assert str(Tableau.loads(run(str(path)).stdout).method) == "RungeKutta(A=((0,),), b=(1,))"
+
+
+def test_a_name_of_the_library_to_every_format_and_back(tmp_path: Path) -> None:
+    for _, suffix in FORMATS.values():
+        there, back = tmp_path / f"x{suffix}", tmp_path / "back.toml"
+        assert run("gauss2", "-o", str(there)).exit_code == 0
+        assert run(str(there), "-o", str(back)).exit_code == 0
+        assert Tableau.load(back).method == Tableau.load(find("gauss2")).method
+
+
+def test_json_on_stdout() -> None:
+    result = run("rk4", "--to", "json")
+    assert result.exit_code == 0
+    assert json.loads(result.output)["b"] == ["1/6", "1/3", "1/3", "1/6"]
+
+
+def test_a_proof_that_a_format_has_no_place_for_is_left_out_with_a_word() -> None:
+    for to in FORMATS:
+        result = run("cg4a", "--to", to)
+        assert result.exit_code == 0
+        assert ("its proof is left out" in result.stderr) is (to not in ("toml", "json"))
+        assert "left out" not in run("cg3", "--to", to).stderr
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["nothing"],
+        ["rk4", "--to", "yaml"],
+        ["rk4", "-o", "x.yaml"],
+        ["/nowhere/x.csv"],
+        ["strang", "--to", "c"],
+    ],
+)
+def test_bad_usage_ends_with_2(arguments: list[str]) -> None:
+    result = run(*arguments)
+    assert result.exit_code == 2
+    assert "Traceback" not in result.output

@@ -33,7 +33,7 @@ def order(name, method, ring=QQ, *, every=False, limit=7):
     family = families.get(name)
     for n in range(1, limit + 1):
         conditions = family.all_conditions(n) if every else family.conditions(n)
-        if not all(ring.is_zero(x) for x in families.residuals(family, method, ring, conditions)):
+        if not all(ring.is_zero(x) for x in family.residuals(method, ring, conditions)):
             return n - 1
     return limit
 

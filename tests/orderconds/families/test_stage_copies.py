@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from flint import fmpq
 
-from orderconds.check import check
+from orderconds.checking import check
 from orderconds.families import get
 from orderconds.ring import QQ
 from orderconds.tableau.methods import RungeKutta

@@ -152,7 +152,7 @@ def test_residuals_and_errors_have_one_rank_and_joint_rank(name, group):
     method = family.random_method(RING, np.random.default_rng(11), ORDER)
     found = [errors(method, Group(group, seed)) for seed in range(4)]
     for n, dimension in enumerate(SPLIT[name], 1):
-        residuals = list(families.residuals(family, method, RING, family.all_conditions(n)))
+        residuals = list(family.residuals(method, RING, family.all_conditions(n)))
         coefficients = [x for error in found for row in error[n - 1] for x in row]
         own, of_errors, joint = ranks(residuals, coefficients)
         assert own == joint == dimension
@@ -166,7 +166,7 @@ def test_a_missing_condition_is_noticed():
     family = families.get("splitting")
     method = family.random_method(RING, np.random.default_rng(11), ORDER)
     found = [errors(method, Group("GL(3)", seed)) for seed in range(4)]
-    residuals = list(families.residuals(family, method, RING, family.all_conditions(3)))[1:]
+    residuals = list(family.residuals(method, RING, family.all_conditions(3)))[1:]
     coefficients = [x for error in found for row in error[2] for x in row]
     assert ranks(residuals, coefficients) == (7, 8, 8)
 
@@ -177,7 +177,7 @@ def test_nystroem_conditions_span_the_errors_of_x_equals_minus_grad_v():
     method = family.random_method(RING, np.random.default_rng(3), 5)
     found = [nystroem_errors(method, seed) for seed in range(4)]
     for n in range(1, 6):
-        residuals = list(families.residuals(family, method, RING, family.all_conditions(n)))
+        residuals = list(family.residuals(method, RING, family.all_conditions(n)))
         coefficients = [x for error in found for x in error[n]]
         dimension = len(functionals(n))
         own, of_errors, joint = ranks(residuals, coefficients)

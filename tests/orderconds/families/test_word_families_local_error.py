@@ -184,7 +184,7 @@ def test_a_librarys_claims_are_the_order_of_the_local_error(name, claimed):
 def order(family, method, ring=QQ, limit=9):
     found = families.get(family)
     for n in range(1, limit + 1):
-        if not all(ring.is_zero(x) for x in families.residuals(found, method, ring, found.conditions(n))):
+        if not all(ring.is_zero(x) for x in found.residuals(method, ring, found.conditions(n))):
             return n - 1
     return limit
 

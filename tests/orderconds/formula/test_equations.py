@@ -7,15 +7,16 @@ import re
 import pytest
 
 from orderconds import families
-from orderconds.derive import derive
+from orderconds.derivation import derive
 from orderconds.formula.equations import LINE, aligned, broken
-from orderconds.written_out import write_out
+from orderconds.stage_expansion import expand_stages
 
 
 def formulas(family: str) -> list[str]:
-    found = [condition.latex_equation for condition in derive(family, order=3).conditions]
+    order = families.get(family).order_bound or 3
+    found = [condition.latex_equation for condition in derive(family, order).conditions]
     if families.get(family).formats[0] == "rk":
-        written = write_out(derive(family, order=3), 3)
+        written = expand_stages(derive(family, order), 3)
         found += [condition.latex_equation for condition in written.conditions]
     return found
 

@@ -10,7 +10,7 @@ from orderconds.errors import InputError
 from orderconds.ring import QQ, PowerSeries
 from orderconds.series.bracketed_steps import BracketedSeries
 from orderconds.series.brackets import fewest_brackets
-from orderconds.series.graded import GradedAlgebra, solve
+from orderconds.series.graded import GradedAlgebra
 from orderconds.series.lie_butcher import forest_residuals
 from orderconds.tableau import RungeKutta, Tableau
 from orderconds.trees.levels import text
@@ -174,12 +174,6 @@ def test_tableaux_over_number_fields_are_reduced_too():
 def test_implicit_tableaux_are_refused():
     with pytest.raises(InputError, match="a_11 = 1/2"):
         fewest_brackets(QQ, [[QQ.rational(1, 2)]], [QQ.one], 2)
-
-
-def test_a_system_without_solution_has_none_and_earlier_columns_serve_first():
-    one = QQ.one
-    assert solve(QQ, [{"x": one}], {"y": one}) is None
-    assert solve(QQ, [{"x": one}, {"x": one, "y": one}, {"y": one}], {"y": one}) == [-one, one, QQ.zero]
 
 
 # The same on a concrete problem in gl(3), stepped over Q[[h]] with matrices.

@@ -1,6 +1,6 @@
 from fractions import Fraction
 from itertools import product
-from math import factorial, prod
+from math import factorial
 
 import pytest
 
@@ -8,9 +8,9 @@ from orderconds import families
 from orderconds.ring import QQ, PowerSeries
 from orderconds.ring.polynomials import Polynomials
 from orderconds.series.characters import ORDERED, Character
-from orderconds.series.dexpinv import DexpinvSeries, bernoulli
+from orderconds.series.dexpinv import bernoulli
 from orderconds.series.lie_butcher import ExponentialsSeries, exact_value, forest_residuals, forest_values
-from orderconds.series.modified import modified_field
+from orderconds.series.modified_equations import modified_field
 from orderconds.tableau import RungeKutta
 from orderconds.trees.levels import parse, text, trees_of
 from orderconds.trees.ordered import ordered_forests, ordered_trees
@@ -115,17 +115,6 @@ def test_products_that_begin_alike_have_the_same_values_as_if_they_did_not(rando
         assert forest_values(one, n) == forest_values(other, n)
         for forest in ordered_forests(n):
             assert [one.stage(i, forest) for i in range(3)] == [other.stage(i, forest) for i in range(3)]
-
-
-def test_arguments_of_munthe_kaas_steps_are_lie_series(random_tableau):
-    # A Lie series vanishes on proper shuffles.
-    series = DexpinvSeries(QQ, random_tableau(2).A, random_tableau(2).b, cutoff=2)
-    for total in range(2, 6):
-        for u, v in product(ordered_forests(1), ordered_forests(total - 1)):
-            words = shuffle(trees_of(u), trees_of(v))
-            for i in range(3):
-                value = sum((n * series.argument(i, b"".join(word)) for word, n in words.items()), QQ.zero)
-                assert value == 0
 
 
 def test_series_over_power_series_start_with_the_series_over_the_base(random_tableau, random_rational):
@@ -330,11 +319,3 @@ def test_the_flow_of_the_modified_equation_is_the_step_on_a_concrete_problem(com
         plane.y0 = tuple(a + b for a, b in zip(start, moved, strict=True))
     final = [[c.compose(time.one) if c.degrees() else c for c in x.coefficients] for x in plane.y0]
     assert final == [list(x.coefficients) for x in step]
-
-
-def test_bernoulli_numbers_have_the_denominators_of_von_staudt_and_clausen():
-    """The product of the primes p with p - 1 | n; each of 200 numbers is found from those before it, once."""
-    primes = [p for p in range(2, 202) if all(p % q for q in range(2, p))]
-    for n in range(2, 201):
-        divisors = prod(p for p in primes if n % (p - 1) == 0)
-        assert bernoulli(n).denominator == (1 if n % 2 else divisors)

@@ -13,31 +13,31 @@ from orderconds.ring import QQ
 from orderconds.ring.laurent import LaurentPolynomials
 from orderconds.solve.ansatz import ansatz
 from orderconds.solve.linear import Elimination, equality
-from orderconds.solve.wishes import Wishes
+from orderconds.solve.spec import Spec
 from orderconds.tableau import Tableau, find
 from orderconds.tableau.properties import explicit, fsal, symmetric
 
 
-def member(family: str, wishes: Wishes, structure: str = "full"):
+def member(family: str, spec: Spec, structure: str = "full"):
     """Return a method of the ansatz with rational numbers for its free coefficients."""
-    found = ansatz(family, wishes, structure)
+    found = ansatz(family, spec, structure)
     return found.method([fmpq(3 * k + 2, 7 + (k * k) % 5) for k in range(len(found.free))], QQ)
 
 
 @pytest.mark.parametrize("s", [1, 2, 3, 4])
 def test_symmetric_tableaux_are_symmetric(s: int) -> None:
-    assert symmetric(member("rk", Wishes(s, symmetric=True)), QQ) is True
+    assert symmetric(member("rk", Spec(s, symmetric=True)), QQ) is True
 
 
 def test_explicit_and_fsal_tableaux_are_that() -> None:
-    method = member("rk", Wishes(4, explicit=True, fsal=True))
+    method = member("rk", Spec(4, explicit=True, fsal=True))
     assert explicit(method, QQ) is True
     assert fsal(method, QQ) is True
 
 
 @pytest.mark.parametrize("s", [2, 3, 4])
 def test_the_three_abscissae_agree(s: int) -> None:
-    method = member("vcg", Wishes(s), "abscissae")
+    method = member("vcg", Spec(s), "abscissae")
     b, chat = method.b, [sum(row) for row in conjugate(method.A, method.b)]
     times = [sum(b[:i], fmpq(0)) + b[i] / 2 for i in range(s)]
     assert list(method.c) == times
@@ -45,7 +45,7 @@ def test_the_three_abscissae_agree(s: int) -> None:
 
 
 def test_the_three_abscissae_agree_for_commutator_free_methods() -> None:
-    method = member("vcf", Wishes(3, exponentials=3, inner=2), "abscissae")
+    method = member("vcf", Spec(3, exponentials=3, inner=2), "abscissae")
     total = method.as_runge_kutta(QQ)
     y = [sum(row) for row in method.update.exponentials]
     for i in range(3):
@@ -58,7 +58,7 @@ def test_the_three_abscissae_agree_for_commutator_free_methods() -> None:
 
 @pytest.mark.parametrize(("s", "m", "inner"), [(2, 2, 2), (3, 2, 2), (3, 3, 3), (4, 4, 3)])
 def test_symmetric_paths_reach_a_stage_from_either_end(s: int, m: int, inner: int) -> None:
-    method = member("vcf", Wishes(s, symmetric=True, exponentials=m, inner=inner), "symmetric")
+    method = member("vcf", Spec(s, symmetric=True, exponentials=m, inner=inner), "symmetric")
 
     def bar(row):
         return tuple(-x for x in row[::-1])
@@ -86,28 +86,28 @@ def test_symmetric_paths_reach_a_stage_from_either_end(s: int, m: int, inner: in
 
 
 def test_a_fixed_entry_may_depend_on_others() -> None:
-    found = ansatz("rk", Wishes(2, fix=("a21 = 2*b1 - 1/3", "b2 = 1 - b1")))
+    found = ansatz("rk", Spec(2, fix=("a21 = 2*b1 - 1/3", "b2 = 1 - b1")))
     assert "a21" not in found.free
     assert found.numbers["a21"] == "-1/3 + 2*b1"
 
 
 @pytest.mark.parametrize(
-    ("wishes", "said"),
+    ("spec", "said"),
     [
-        (Wishes(2, fix=("a21=1/2", "a21=1/3")), "contradicts"),
-        (Wishes(2, explicit=True, fix=("a12=1",)), "contradicts"),
-        (Wishes(2, fix=("a31=1",)), "unknown coefficient 'a31'"),
-        (Wishes(2, fix=("a21",)), "linear equation"),
-        (Wishes(2, fix=("a21=b1*b2",)), "not linear"),
-        (Wishes(2, fix=("a21=1/0",)), "not linear"),
-        (Wishes(2, fix=("a21=",)), "linear equation"),
-        (Wishes(0), "0 stages"),
-        (Wishes(2, rkn=True), "--rkn"),
+        (Spec(2, fix=("a21=1/2", "a21=1/3")), "contradicts"),
+        (Spec(2, explicit=True, fix=("a12=1",)), "contradicts"),
+        (Spec(2, fix=("a31=1",)), "unknown coefficient 'a31'"),
+        (Spec(2, fix=("a21",)), "linear equation"),
+        (Spec(2, fix=("a21=b1*b2",)), "not linear"),
+        (Spec(2, fix=("a21=1/0",)), "not linear"),
+        (Spec(2, fix=("a21=",)), "linear equation"),
+        (Spec(0), "0 stages"),
+        (Spec(2, rkn=True), "--rkn"),
     ],
 )
-def test_wishes_that_make_no_sense_are_refused(wishes: Wishes, said: str) -> None:
+def test_wishes_that_make_no_sense_are_refused(spec: Spec, said: str) -> None:
     with pytest.raises(InputError) as problem:
-        ansatz("rk", wishes)
+        ansatz("rk", spec)
     assert said in str(problem.value)
 
 
@@ -132,8 +132,8 @@ def test_elimination_keeps_every_constraint() -> None:
 
 @pytest.mark.parametrize(("s", "m", "inner"), [(2, 2, 2), (3, 3, 3), (4, 4, 3), (5, 4, 3)])
 def test_symmetric_methods_can_have_the_right_abscissae_as_well(s: int, m: int, inner: int) -> None:
-    wishes = Wishes(s, symmetric=True, exponentials=m, inner=inner)
-    method = member("vcf", wishes, "symmetric abscissae")
+    spec = Spec(s, symmetric=True, exponentials=m, inner=inner)
+    method = member("vcf", spec, "symmetric abscissae")
     total, update = method.as_runge_kutta(QQ), method.update.exponentials
     y = [sum(row) for row in update]
     for i in range(s):
@@ -144,7 +144,7 @@ def test_symmetric_methods_can_have_the_right_abscissae_as_well(s: int, m: int, 
 
 def test_exponents_may_sum_to_the_gauss_tableau() -> None:
     gauss = Tableau.load(find("gauss2"))
-    found = ansatz("vcf", Wishes(2, symmetric=True), "symmetric gauss")
+    found = ansatz("vcf", Spec(2, symmetric=True), "symmetric gauss")
     tableau = Tableau.loads(found.text(dict.fromkeys(found.free, "1/7")))
     total, known = tableau.abelian(), gauss.method
     text = tableau.ring.text

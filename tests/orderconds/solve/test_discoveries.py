@@ -13,13 +13,13 @@ import shlex
 import pytest
 from click.testing import CliRunner
 
-from orderconds.check import check, read
+from orderconds.checking import check, read
 from orderconds.cli import program
 from orderconds.ring import QQ
 from orderconds.solve.ansatz import ansatz
-from orderconds.solve.finish import principal_error
+from orderconds.solve.certify_solution import principal_error
 from orderconds.solve.solver import Order, solve
-from orderconds.solve.wishes import Wishes
+from orderconds.solve.spec import Spec
 from orderconds.tableau import Tableau, available, find
 from orderconds.tableau.file import text_of
 
@@ -59,7 +59,7 @@ def test_its_command_finds_it_again(name: str) -> None:
 def test_the_two_stage_method_is_symmetric_with_positive_weights() -> None:
     tableau = read("vcf_gauss2")
     assert [tableau.ring.text(x) for x in tableau.abelian().b] == ["1/2", "1/2"]
-    spelled = ansatz("vcf", Wishes(2, symmetric=True), "symmetric")
+    spelled = ansatz("vcf", Spec(2, symmetric=True), "symmetric")
     free = {"b1_1": "1/4 + sqrt(3)/6", "b1_2": "1/4 - sqrt(3)/6", "a1_2_1": "-sqrt(3)/6", "a1_2_2": "0"}
     again = Tableau.loads(spelled.text(free))
     assert again.method == tableau.method
@@ -78,7 +78,7 @@ def test_the_three_stage_method_has_the_weights_and_sums_of_gauss() -> None:
 
 @pytest.mark.slow
 def test_five_stages_have_half_of_the_error_of_suzukis_composition() -> None:
-    found = solve(Order("vcg", 4, Wishes(5), minimised=True, starts=128)).found
+    found = solve(Order("vcg", 4, Spec(5), minimised=True, starts=128)).found
     assert found is not None
     assert found.certificate == "ball"
     suzuki = principal_error(read("suzuki4"), "vcg", 5)

@@ -7,21 +7,21 @@ import sympy
 
 from orderconds.solve.elimination import infeasible
 from orderconds.solve.problem import find_problem
-from orderconds.solve.wishes import Wishes
+from orderconds.solve.spec import Spec
 
 CASES = [
-    ("vcg", 3, Wishes(2)),
-    ("vcg", 3, Wishes(1)),
-    ("rk", 4, Wishes(3, explicit=True)),
-    ("cg", 3, Wishes(2, explicit=True)),
-    ("vcg", 5, Wishes(3)),
-    ("composition", 6, Wishes(3)),
+    ("vcg", 3, Spec(2)),
+    ("vcg", 3, Spec(1)),
+    ("rk", 4, Spec(3, explicit=True)),
+    ("cg", 3, Spec(2, explicit=True)),
+    ("vcg", 5, Spec(3)),
+    ("composition", 6, Spec(3)),
 ]
 
 
-@pytest.mark.parametrize(("family", "order", "wishes"), CASES)
-def test_the_combination_of_conditions_is_the_contradiction(family: str, order: int, wishes: Wishes) -> None:
-    proof = infeasible(find_problem(family, order, wishes, "full"))
+@pytest.mark.parametrize(("family", "order", "spec"), CASES)
+def test_the_combination_of_conditions_is_the_contradiction(family: str, order: int, spec: Spec) -> None:
+    proof = infeasible(find_problem(family, order, spec, "full"))
     assert proof is not None
     total = sum(
         sympy.sympify(m.replace("^", "**")) * sympy.sympify(e.replace("^", "**"))
@@ -33,7 +33,7 @@ def test_the_combination_of_conditions_is_the_contradiction(family: str, order: 
 
 
 def test_the_equations_are_the_conditions() -> None:
-    proof = infeasible(find_problem("vcg", 3, Wishes(2), "full"))
+    proof = infeasible(find_problem("vcg", 3, Spec(2), "full"))
     assert proof is not None
     b1, b2 = sympy.symbols("b1 b2")
     half = sympy.Rational(1, 2)
@@ -43,8 +43,8 @@ def test_the_equations_are_the_conditions() -> None:
 
 
 @pytest.mark.parametrize(
-    ("family", "order", "wishes"),
-    [("vcg", 3, Wishes(3)), ("rk", 3, Wishes(3, explicit=True)), ("vcg", 2, Wishes(1))],
+    ("family", "order", "spec"),
+    [("vcg", 3, Spec(3)), ("rk", 3, Spec(3, explicit=True)), ("vcg", 2, Spec(1))],
 )
-def test_what_exists_is_not_refuted(family: str, order: int, wishes: Wishes) -> None:
-    assert infeasible(find_problem(family, order, wishes, "full")) is None
+def test_what_exists_is_not_refuted(family: str, order: int, spec: Spec) -> None:
+    assert infeasible(find_problem(family, order, spec, "full")) is None

@@ -10,18 +10,18 @@ from orderconds.ring.jets import Jets
 from orderconds.ring.precision import precision
 from orderconds.ring.traces import Traces, evaluate
 from orderconds.solve.problem import find_problem
+from orderconds.solve.spec import Spec
 from orderconds.solve.tape import Tape
-from orderconds.solve.wishes import Wishes
 
 PROBLEMS = [
-    ("rk", 4, Wishes(3, explicit=True), "full"),
-    ("vcg", 3, Wishes(2), "full"),
-    ("vcg", 4, Wishes(3), "abscissae"),
-    ("vcf", 3, Wishes(2), "abscissae"),
-    ("vcf", 3, Wishes(2), "symmetric"),
-    ("vrkmk(1)", 3, Wishes(2), "full"),
-    ("composition", 4, Wishes(5), "full"),
-    ("splitting", 3, Wishes(3), "full"),
+    ("rk", 4, Spec(3, explicit=True), "full"),
+    ("vcg", 3, Spec(2), "full"),
+    ("vcg", 4, Spec(3), "abscissae"),
+    ("vcf", 3, Spec(2), "abscissae"),
+    ("vcf", 3, Spec(2), "symmetric"),
+    ("vrkmk(1)", 3, Spec(2), "full"),
+    ("composition", 4, Spec(5), "full"),
+    ("splitting", 3, Spec(3), "full"),
 ]
 
 

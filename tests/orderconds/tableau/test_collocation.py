@@ -6,14 +6,14 @@ from typing import Any
 
 import pytest
 
-from orderconds.check import family_order
+from orderconds.checking import family_order
 from orderconds.errors import InputError, UnknownName
 from orderconds.families import get
-from orderconds.proof.simplifying import simplifying
 from orderconds.tableau import RungeKutta, Tableau, available, dumps, find
 from orderconds.tableau.collocation import KINDS, construct
 from orderconds.tableau.methods import Embedded
 from orderconds.tableau.properties import properties
+from orderconds.tableau.simplifying import simplifying
 
 SMALL = [(kind, s) for kind in KINDS for s in range(KINDS[kind].least, 5)]
 SHIPPED = [(kind, s) for kind in KINDS for s in range(1, 6) if f"{kind}{s}" in available()]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from orderconds import families
-from orderconds.check import check, family_order
+from orderconds.checking import check, family_order
 from orderconds.errors import TableauError
 from orderconds.tableau import CommutatorFree, EmbeddedUpdate, RungeKutta, Tableau, dumps, find
 from tests.exact_steps import GROUPS, local_error_power

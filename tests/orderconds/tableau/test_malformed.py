@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from orderconds import Tableau
-from orderconds.check import check
+from orderconds.checking import check
 from orderconds.errors import InputError
 from orderconds.tableau import available, find
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from orderconds.check import check
+from orderconds.checking import check
 from orderconds.errors import InputError, TableauError
 from orderconds.ring import QQ
 from orderconds.tableau import AdjointComposition, Magnus, RungeKutta, Splitting, Tableau, dumps, find

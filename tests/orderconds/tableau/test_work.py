@@ -5,9 +5,10 @@ from __future__ import annotations
 import pytest
 
 from orderconds import check
-from orderconds.check import read
+from orderconds.checking import read
+from orderconds.families import get
 from orderconds.tableau import Tableau
-from orderconds.tableau.work import Work, work
+from orderconds.tableau.work import Work
 
 
 @pytest.mark.parametrize(
@@ -33,7 +34,8 @@ from orderconds.tableau.work import Work, work
     ],
 )
 def test_counts(name: str, family: str, cutoff: int | None, expected: Work) -> None:
-    assert work(read(name), family, cutoff) == expected
+    options = {} if cutoff is None else {"cutoff": cutoff}
+    assert get(family, **options).work(read(name)) == expected
 
 
 def test_a_last_stage_that_is_the_next_first_is_not_evaluated_again() -> None:
@@ -41,12 +43,12 @@ def test_a_last_stage_that_is_the_next_first_is_not_evaluated_again() -> None:
         'name = "t"\nfamily = "rk"\nA = [[], ["1/2"], ["0", "3/4"], ["2/9", "1/3", "4/9"]]\n'
         'b = ["2/9", "1/3", "4/9", "0"]\n'
     )
-    assert work(Tableau.loads(text), "rk") == Work(3)
+    assert get("rk").work(Tableau.loads(text)) == Work(3)
 
 
 def test_equal_exponents_are_one_exponential() -> None:
     text = 'name = "t"\nfamily = "rk"\nA = [[], ["1/2"], ["1/2", "1/2"]]\nb = ["1/2", "1/4", "1/4"]\n'
-    assert work(Tableau.loads(text), "cg") == Work(3, 4, 0)
+    assert get("cg").work(Tableau.loads(text)) == Work(3, 4, 0)
 
 
 def test_the_report_has_the_counts_of_each_family_checked() -> None:

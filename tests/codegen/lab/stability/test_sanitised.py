@@ -10,9 +10,9 @@ import pytest
 from codegen import scenes
 from codegen.build import compile_files, find_compiler
 from codegen.emitter import compile_method
+from codegen.lab.default_methods import methods_for
 from codegen.lab.runner import Emitted
-from codegen.lab.stability.extremes import cases
-from codegen.lab.study import methods_for
+from codegen.lab.stability.extreme_steps import cases
 from tests.promises import SANITIZE
 
 
@@ -47,7 +47,7 @@ QUICK = [("dipole", "vcg:midpoint"), ("stiff_driven_spin", "cf:cf4")]
 
 def sanitised(scene, method, folder):
     made = compile_method(scene, method)
-    emission = Emitted(made, "c").emission
+    emission = Emitted(made, "c").artifact
     files = {**emission.files, "main.c": program(made, emission)}
     compile_files(files, folder, folder / "main", SANITIZE, find_compiler())
     done = subprocess.run([folder / "main"], capture_output=True, text=True, check=False)

@@ -1,0 +1,44 @@
+"""Drifts: flows of kinetic energies on abelian groups."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from codegen.flows.part import Formula, Part
+from codegen.groups.capabilities import Coadjoint
+from codegen.groups.linear_algebra import S, Vector
+from codegen.ir.domain import Domain
+from codegen.ir.expr import Expr, evaluate
+from codegen.scene.flow import Flow
+
+
+@dataclass(frozen=True)
+class Drift(Flow):
+    """H = T(mu) on an abelian group: mu is constant and q moves by tau xi(mu), xi = D_2 T."""
+
+    velocity: tuple[Expr, ...]
+
+    def advance(
+        self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
+    ) -> tuple[Vector[S], Vector[S]]:
+        """Return (exp(tau xi) q, mu)."""
+        xi: list[S] = evaluate(self.velocity, d, dict(values))
+        return group.mul(d, group.exp(d, tuple(tau * x for x in xi)), q), mu
+
+    def field(
+        self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
+    ) -> tuple[Vector[S], Vector[S]]:
+        """Return (xi, 0)."""
+        return tuple(evaluate(self.velocity, d, dict(values))), (d.rational(0),) * group.dim
+
+    def text(self) -> str:
+        """Return the name of the motion."""
+        return "drift"
+
+
+def recognise(formula: Formula) -> Part | None:
+    """Return a part on an abelian group that depends on mu alone as a drift."""
+    if formula.timed or not formula.problem.group.abelian or not formula.orbit.vanish(formula.by_q):
+        return None
+    return formula.whole(Drift(tuple(formula.by_mu)))

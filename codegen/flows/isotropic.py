@@ -1,0 +1,37 @@
+"""Isotropic flows: rotations about the momentum."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from codegen.groups.capabilities import Coadjoint
+from codegen.groups.linear_algebra import S, Vector
+from codegen.ir.domain import Domain
+from codegen.scene.flow import Flow
+
+
+@dataclass(frozen=True)
+class Isotropic(Flow):
+    """H = rate mu.mu/2 for an inner product invariant under Ad: mu is constant, q rotates about it."""
+
+    rate: Fraction
+
+    def advance(
+        self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
+    ) -> tuple[Vector[S], Vector[S]]:
+        """Return (exp(tau rate mu) q, mu)."""
+        step: S = tau * d.rational(self.rate.numerator, self.rate.denominator)
+        return group.expmul(d, tuple(step * m for m in mu), q), mu
+
+    def field(
+        self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
+    ) -> tuple[Vector[S], Vector[S]]:
+        """Return (rate mu, 0)."""
+        rate: S = d.rational(self.rate.numerator, self.rate.denominator)
+        return tuple(rate * m for m in mu), (d.rational(0),) * group.dim
+
+    def text(self) -> str:
+        """Return the name of the motion."""
+        return "rotation about the momentum"

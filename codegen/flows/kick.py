@@ -1,0 +1,47 @@
+"""Kicks: flows of potentials."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from codegen.flows.part import Formula, Part
+from codegen.groups.capabilities import Coadjoint
+from codegen.groups.linear_algebra import S, Vector
+from codegen.ir.domain import Domain
+from codegen.ir.expr import Expr, evaluate
+from codegen.scene.canonical_equations import force
+from codegen.scene.flow import Flow
+
+
+@dataclass(frozen=True)
+class Kick(Flow):
+    """H = V(q): q is constant and mu moves by tau n(q), n = -(D_1 V).q^-1."""
+
+    force: tuple[Expr, ...]
+    timed: bool = False
+
+    def advance(
+        self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
+    ) -> tuple[Vector[S], Vector[S]]:
+        """Return (q, mu + tau n)."""
+        n: list[S] = evaluate(self.force, d, dict(values))
+        return q, tuple(m + tau * x for m, x in zip(mu, n, strict=True))
+
+    def field(
+        self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
+    ) -> tuple[Vector[S], Vector[S]]:
+        """Return (0, n)."""
+        return (d.rational(0),) * group.dim, tuple(evaluate(self.force, d, dict(values)))
+
+    def text(self) -> str:
+        """Return the name of the motion."""
+        return "kick"
+
+
+def recognise(formula: Formula) -> Part | None:
+    """Return a part that does not depend on mu as a kick."""
+    if not formula.orbit.vanish(formula.by_mu):
+        return None
+    n = force(formula.root.space, formula.problem.group, formula.qs, formula.by_q)
+    return formula.whole(Kick(n, formula.timed))

@@ -1,0 +1,117 @@
+"""Parts of a Hamiltonian: the formula of one, and the exact flows recognised in it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+from codegen.groups.linear_algebra import Vector
+from codegen.ir.differentiate import gradient
+from codegen.ir.domain import SeriesDomain
+from codegen.ir.expr import Expr, evaluate, walk
+from codegen.ir.number import Number
+from codegen.scene.flow import Flow
+from codegen.scene.orbit import Orbit, orbit_of
+from codegen.scene.problem import TIME, Problem
+from orderconds.ring import QQ
+from orderconds.ring.protocol import Element
+
+Matrix = list[list[Fraction]]
+
+CONSTANTS = SeriesDomain(QQ, 0)
+"""Exact rational numbers as a domain: power series of degree zero."""
+
+
+@dataclass(frozen=True)
+class Summand:
+    """Flows by name that commute: their composition is the exact flow of a part, or of a summand of it."""
+
+    flows: tuple[tuple[str, Flow], ...]
+
+    @property
+    def timed(self) -> bool:
+        """Whether a flow depends on the time."""
+        return any(flow.timed for _, flow in self.flows)
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of a Hamiltonian as the sum of summands with exact flows.
+
+    Without any, no closed form is known, and ``reason`` says why.
+    """
+
+    name: str
+    summands: tuple[Summand, ...]
+    reason: str = ""
+
+    @property
+    def exact(self) -> bool:
+        """Whether the flow of the whole part is known."""
+        return len(self.summands) == 1
+
+
+@dataclass(frozen=True)
+class Formula:
+    """The formula of one part, for the kinds of flow to examine."""
+
+    problem: Problem
+    name: str
+    root: Expr
+
+    def whole(self, flow: Flow) -> Part:
+        """Return the part with one flow."""
+        return Part(self.name, (Summand(((self.name, flow),)),))
+
+    def refused(self, reason: str) -> Part:
+        """Return the part without flows."""
+        return Part(self.name, (), reason)
+
+    @property
+    def qs(self) -> tuple[str, ...]:
+        """The symbols of q."""
+        return self.problem.state[0].symbols
+
+    @property
+    def mus(self) -> tuple[str, ...]:
+        """The symbols of mu."""
+        return self.problem.state[1].symbols
+
+    @cached_property
+    def by_q(self) -> list[Expr]:
+        """The partial derivatives with respect to q."""
+        return gradient(self.root, self.qs)
+
+    @cached_property
+    def by_mu(self) -> list[Expr]:
+        """The partial derivatives with respect to mu."""
+        return gradient(self.root, self.mus)
+
+    @cached_property
+    def timed(self) -> bool:
+        """Whether the time occurs."""
+        return any(n.op == "sym" and n.payload == TIME for n in walk([self.root]))
+
+    @cached_property
+    def orbit(self) -> Orbit:
+        """The points at which formulas are compared."""
+        return orbit_of(self.problem)
+
+    def constants(self, roots: Sequence[Expr], q: Vector[Element]) -> list[Fraction] | None:
+        """Return the values of formulas at (q, mu = 0); None if they are not rational numbers."""
+        symbols = {n.payload for n in walk(roots) if n.op == "sym"}
+        if symbols & {*self.problem.runtime, TIME}:
+            return None
+        state = (*q, *(CONSTANTS.rational(0) for _ in self.mus))
+        try:
+            values = evaluate(roots, CONSTANTS, self.problem.values(CONSTANTS, state))
+        except (ArithmeticError, ValueError):
+            return None
+        return [Number(QQ, x.coefficients[0]).fraction() for x in values]
+
+    def matrix(self, slopes: Sequence[Expr], names: Sequence[str], q: Vector[Element]) -> Matrix | None:
+        """Return the derivatives of formulas by symbols at (q, mu = 0); None if they are not rational."""
+        rows = [self.constants(gradient(slope, names), q) for slope in slopes]
+        return None if any(row is None for row in rows) else [row for row in rows if row is not None]

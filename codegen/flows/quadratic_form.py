@@ -1,0 +1,68 @@
+"""Quadratic forms with rational coefficients as sums of few squares."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+Matrix = Sequence[Sequence[Fraction]]
+"""Rows of a symmetric matrix."""
+
+Square = tuple[Fraction, list[Fraction]]
+"""(d, e): the form d (e.x)^2."""
+
+
+def squares(B: Matrix) -> list[Square]:
+    """Return (d, e) with B = sum d e e^T, by Lagrange's reduction.
+
+    >>> squares([[Fraction(0), Fraction(1)], [Fraction(1), Fraction(0)]])
+    [(Fraction(1, 2), [Fraction(1, 1), Fraction(1, 1)]), (Fraction(-1, 2), [Fraction(1, 1), Fraction(-1, 1)])]
+    """
+    rest, n = [list(row) for row in B], range(len(B))
+    terms: list[Square] = []
+
+    def subtract(rate: Fraction, e: list[Fraction]) -> None:
+        terms.append((rate, e))
+        for i in n:
+            for j in n:
+                rest[i][j] -= rate * e[i] * e[j]
+
+    while any(any(row) for row in rest):
+        diagonal = [i for i in n if rest[i][i]]
+        if diagonal:
+            k = diagonal[0]
+            subtract(rest[k][k], [rest[i][k] / rest[k][k] for i in n])
+            continue
+        # Without a diagonal entry, 2 x y = ((x + y)^2 - (x - y)^2)/2.
+        i, j = next((i, j) for i in n for j in n if rest[i][j])
+        rate = rest[i][j] / 2
+        for sign in (1, -1):
+            subtract(sign * rate, [Fraction(int(k == i) + sign * int(k == j)) for k in n])
+    return terms
+
+
+def shifted(B: Matrix, a: Fraction) -> list[list[Fraction]]:
+    """Return B - a, a times the identity."""
+    return [[x - (a if i == j else 0) for j, x in enumerate(row)] for i, row in enumerate(B)]
+
+
+def isotropic_part(B: Matrix) -> Fraction:
+    """Return a number a such that B - a is the sum of few squares with small coefficients.
+
+    It is the double eigenvalue of a 3 x 3 matrix if there is one, else the middle entry of a diagonal matrix.
+
+    >>> isotropic_part([[Fraction(2), Fraction(0)], [Fraction(0), Fraction(2)]])
+    Fraction(2, 1)
+    """
+    n = len(B)
+    candidates = sorted(B[i][i] for i in range(n))
+    if all(not B[i][j] for i in range(n) for j in range(n) if i != j):
+        doubled = [x for x in candidates if candidates.count(x) > 1]
+        return doubled[0] if doubled else candidates[n // 2]
+    for i in range(n):
+        for k in range(n):
+            for j in range(n):
+                if len({i, j, k}) == 3 and B[j][k]:
+                    # B - a has rank one only if its 2 x 2 minors vanish: this one determines a.
+                    candidates.append(B[i][i] - B[i][j] * B[i][k] / B[j][k])
+    return min(candidates, key=lambda a: (len(squares(shifted(B, a))), candidates.index(a)))

@@ -1,0 +1,44 @@
+"""Flows that a scene states as formulas."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from codegen.flows.part import Formula, Part
+from codegen.groups.capabilities import Coadjoint
+from codegen.groups.linear_algebra import S, Vector
+from codegen.ir.domain import Domain
+from codegen.ir.expr import Expr, evaluate
+from codegen.scene.flow import Flow
+from codegen.scene.hamiltonian_scene import TAU
+
+
+@dataclass(frozen=True)
+class Stated(Flow):
+    """Formulas of (q, mu) after the time tau, checked when the scene was read."""
+
+    formulas: tuple[Expr, ...]
+
+    def advance(
+        self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
+    ) -> tuple[Vector[S], Vector[S]]:
+        """Return the values of the formulas."""
+        state: Vector[S] = tuple(evaluate(self.formulas, d, {**values, TAU: tau}))
+        return state[: len(q)], state[len(q) :]
+
+    def field(
+        self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
+    ) -> tuple[Vector[S], Vector[S]]:
+        """Raise ArithmeticError: the formulas give the flow and not its field."""
+        raise ArithmeticError("a stated flow has no field of its own")
+
+    def text(self) -> str:
+        """Return the name of the motion."""
+        return "as the scene states it"
+
+
+def recognise(formula: Formula) -> Part | None:
+    """Return a part with the flow that its scene states."""
+    formulas = formula.problem.stated.get(formula.name)
+    return None if formulas is None else formula.whole(Stated(formulas))

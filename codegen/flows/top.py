@@ -1,0 +1,96 @@
+"""Tops: quadratic functions of the momentum in the body or in space, split into rotations.
+
+P = Ad*_q mu is the momentum in the body, P = mu that in space. The split is exact: P.BP/2 = a P.P/2 + sum_k
+d_k (e_k.P)^2/2. If Ad preserves the inner product, the first term is a rotation about the momentum, which
+commutes with all others. Each of these is a turn about a fixed axis. With at most one turn the flow of the
+part is exact, as for a symmetric top. With more turns the part is a sum of several summands, which do not
+commute, as for an asymmetric top.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from codegen.flows.isotropic import Isotropic
+from codegen.flows.part import CONSTANTS, Formula, Matrix, Part, Summand
+from codegen.flows.quadratic_form import isotropic_part, shifted, squares
+from codegen.flows.turn import Turn
+from codegen.groups.base import LieGroup
+from codegen.groups.capabilities import Coadjoint
+from codegen.groups.linear_algebra import Vector, units
+from codegen.scene.flow import Flow
+from orderconds.ring.protocol import Element
+
+
+def recognise(formula: Formula) -> Part | None:
+    """Return a part that is a quadratic function of the momentum, as a sum of rotations."""
+    if formula.problem.group.abelian:
+        return None
+    identity: Vector[Element] = formula.problem.group.identity(CONSTANTS)
+    B = formula.matrix(formula.by_mu, formula.mus, identity)
+    w = formula.constants(formula.by_mu, identity)
+    if B is None or w is None:
+        return formula.refused("its coefficients are not rational numbers")
+    for body in (True, False):
+        if _is_form(formula, B, w, body):
+            return Part(formula.name, tuple(_summands(formula, B, w, body)))
+    return formula.refused("it is no quadratic function of the momentum in the body or in space")
+
+
+def _is_form(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> bool:
+    """Return whether H - H(e, 0) is P.BP/2 + w.P."""
+    orbit, group = formula.orbit, formula.problem.group.require(Coadjoint)
+    d = orbit.domain
+    base = None
+    for point in orbit.points:
+        q, mu = (tuple(point[s] for s in names) for names in (formula.qs, formula.mus))
+        P = group.Adt(d, q, mu) if body else mu
+        terms = [d.rational(*x.as_integer_ratio()) * y for x, y in zip(w, P, strict=True)]
+        for row, x in zip(B, P, strict=True):
+            terms += [d.rational(*(b / 2).as_integer_ratio()) * x * y for b, y in zip(row, P, strict=True)]
+        values = orbit.values([formula.root], point)
+        if values is None:
+            return False
+        rest = values[0] - sum(terms, d.rational(0))
+        base = rest if base is None else base
+        if not orbit.sized(rest - base, (*terms, base)):
+            return False
+    return True
+
+
+def _summands(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> list[Summand]:
+    mean = isotropic_part(B) if _invariant(formula.problem.group) else Fraction(0)
+    turns = [
+        Turn(tuple(e), rate, Fraction(0), body)
+        for rate, e in sorted(squares(shifted(B, mean)), key=lambda s: -abs(s[0]))
+    ]
+    if any(w):
+        turns = _with_offset(turns, w, body)
+    flows: list[list[tuple[str, Flow]]] = []
+    several = len(turns) + bool(mean) > 1
+    for k, turn in enumerate(turns):
+        number = str(k + 1) if len(turns) > 1 else ""
+        flows.append([(f"{formula.name}.turn{number}" if several else formula.name, turn)])
+    if mean:
+        # The rotation about the momentum commutes with every turn, so it joins the first summand.
+        flow = (f"{formula.name}.mean" if several else formula.name, Isotropic(mean))
+        flows = [[flow, *(flows[0] if flows else [])], *flows[1:]]
+    return [Summand(tuple(f)) for f in flows]
+
+
+def _invariant(group: LieGroup) -> bool:
+    """Return whether Ad preserves the dot product of coordinates: <[x, y], z> is alternating."""
+    basis: tuple[Vector[Element], ...] = units(CONSTANTS, group.dim)
+    brackets = [[group.ad(CONSTANTS, x, y) for y in basis] for x in basis]
+    n, is_zero = range(group.dim), CONSTANTS.ring.is_zero
+    return all(is_zero(brackets[i][j][k] + brackets[i][k][j]) for i in n for j in n for k in n)
+
+
+def _with_offset(turns: list[Turn], w: list[Fraction], body: bool) -> list[Turn]:
+    """Add w.P to the turn about its axis, or as a turn of its own."""
+    for k, turn in enumerate(turns):
+        i = next(i for i, x in enumerate(turn.axis) if x)
+        ratio = w[i] / turn.axis[i]
+        if all(x == ratio * e for x, e in zip(w, turn.axis, strict=True)):
+            return [*turns[:k], Turn(turn.axis, turn.rate, ratio, body), *turns[k + 1 :]]
+    return [*turns, Turn(tuple(w), Fraction(0), Fraction(1), body)]

@@ -1,0 +1,65 @@
+"""Turns: motions about an axis fixed in the body or in space."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from codegen.groups.capabilities import Coadjoint
+from codegen.groups.linear_algebra import S, Vector, dot
+from codegen.ir.domain import Domain
+from codegen.scene.flow import Flow
+
+
+@dataclass(frozen=True)
+class Turn(Flow):
+    """H = rate (e.P)^2/2 + offset e.P, P the momentum in the body or in space: a turn about the fixed axis e.
+
+    e.P is conserved, so the angle is tau (rate e.P + offset). In the body P = Ad*_q mu, q turns from the
+    right and mu is constant. In space P = mu and both turn from the left.
+    """
+
+    axis: tuple[Fraction, ...]
+    rate: Fraction
+    offset: Fraction
+    body: bool
+
+    def advance(
+        self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
+    ) -> tuple[Vector[S], Vector[S]]:
+        """Return (q exp(angle e), mu) in the body, (g q, Ad*_{g^-1} mu) with g = exp(angle e) in space."""
+        axis: Vector[S] = tuple(d.rational(x.numerator, x.denominator) for x in self.axis)
+        angle = tau * self._speed(d, self._axis(d, group, q), mu)
+        g = group.exp(d, tuple(angle * x for x in axis))
+        if self.body:
+            return group.mul(d, q, g), mu
+        return group.mul(d, g, q), group.Adtinv(d, g, mu)
+
+    def field(
+        self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
+    ) -> tuple[Vector[S], Vector[S]]:
+        """Return (speed e, 0) in space; in the body (speed Ad_q e, n), where n keeps mu constant."""
+        axis = self._axis(d, group, q)
+        speed = self._speed(d, axis, mu)
+        zero: Vector[S] = (d.rational(0),) * group.dim
+        n = tuple(speed * x for x in group.adt(d, axis, mu)) if self.body else zero
+        return tuple(speed * e for e in axis), n
+
+    def _axis(self, d: Domain, group: Coadjoint, q: Vector[S]) -> Vector[S]:
+        """Return the axis in space."""
+        axis: Vector[S] = tuple(d.rational(x.numerator, x.denominator) for x in self.axis)
+        return group.Ad(d, q, axis) if self.body else axis
+
+    def _speed(self, d: Domain, axis: Vector[S], mu: Vector[S]) -> S:
+        """Return rate e.P + offset; the pairing of mu with the axis in space is e.P."""
+        rate: S = d.rational(self.rate.numerator, self.rate.denominator)
+        speed = rate * dot(mu, axis)
+        if self.offset:
+            speed = speed + d.rational(self.offset.numerator, self.offset.denominator)
+        return speed
+
+    def text(self) -> str:
+        """Return the name of the motion."""
+        axis = ", ".join(map(str, self.axis))
+        return f"turn about the axis ({axis}) fixed in {'the body' if self.body else 'space'}"

@@ -1,0 +1,26 @@
+"""Left multiplication: a group acting on itself."""
+
+from __future__ import annotations
+
+from codegen.groups.actions.base import Action
+from codegen.groups.base import LieGroup
+from codegen.groups.linear_algebra import S, Vector
+from codegen.ir.domain import Domain
+
+
+class LeftMultiplication(Action):
+    """A group acting on itself, g.y = g y; on R^n that is translation."""
+
+    name = "left multiplication"
+
+    def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return g y."""
+        return group.mul(d, g, y)
+
+    def actexp(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return exp(x) y."""
+        return group.expmul(d, x, y)
+
+    def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return x.y, the derivative of exp(eps x).y at eps = 0."""
+        return group.velocity(d, x, y)

@@ -1,0 +1,24 @@
+"""Rigid motions of a space."""
+
+from __future__ import annotations
+
+from codegen.groups.actions.base import Action
+from codegen.groups.base import LieGroup
+from codegen.groups.capabilities import PointMotions
+from codegen.groups.linear_algebra import S, Vector
+from codegen.ir.domain import Domain
+
+
+class Motion(Action):
+    """Rigid motions of a space on its points, g.z = R z + a; SE(2) on the plane."""
+
+    name = "rigid motion"
+    needs = PointMotions
+
+    def act(self, d: Domain, group: LieGroup, g: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return R y + a."""
+        return group.require(PointMotions).move(d, g, y)
+
+    def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return the velocity of the point y under x."""
+        return group.require(PointMotions).point_velocity(d, x, y)

@@ -1,0 +1,11 @@
+"""Rotations of spheres about the origin."""
+
+from __future__ import annotations
+
+from codegen.groups.actions.linear import Linear
+
+
+class Rotation(Linear):
+    """Rotations acting on column vectors: SO(3) on spheres about the origin of R^3."""
+
+    name = "rotation"

@@ -1,0 +1,82 @@
+"""Functions of one ad as quadratic polynomials, on an algebra with ad_x^3 = -z ad_x.
+
+Each function, each product of functions and each inverse is then 1 + b ad_x + c ad_x^2, with b and c
+functions of z. On so(3) z is x.x. The Stumpff functions c_k of z give the coefficients of exponentials.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+from codegen.groups.bernoulli import bernoulli_over_factorial
+from codegen.groups.linear_algebra import S
+from codegen.ir.ad_series import Factor
+from codegen.ir.domain import Domain
+
+
+def ad_polynomial(d: Domain, word: Sequence[Factor], z: S) -> tuple[S, S]:
+    """Return b and c such that the product of the word's functions of t is 1 + b t + c t^2, t^3 = -z t.
+
+    exp(a t) dexp(s t) takes one step, as (exp((a + s) t) - exp(a t))/(s t); other factors are multiplied.
+    """
+    zero: S = d.rational(0)
+    rates = [f.scale * f.power for f in word if f.function == "exp"]
+    differences = [f for f in word if f.function == "dexp" and f.power == 1]
+    rest = [f for f in word if f.function != "exp" and f not in differences]
+    total, shift = (zero, zero), sum(rates, Fraction(0))
+    if differences:
+        first, *more = differences
+        ends = [(shift + first.scale, 1 / first.scale), (shift, -1 / first.scale)]
+        total = _exponentials(d, [(k, r) for k, r in ends if k], 1, z)
+        rest = [*more, *rest]
+    elif shift:
+        total = _exponentials(d, [(shift, Fraction(1))], 0, z)
+    for factor in rest:
+        b, c = _inverted(d, *_single(d, factor, z), z) if factor.power < 0 else _single(d, factor, z)
+        e, f = total
+        total = (e + b - z * (e * c + f * b), f + c + e * b - z * (f * c))
+    return total
+
+
+def _exponentials(d: Domain, terms: Sequence[tuple[Fraction, Fraction]], j: int, z: S) -> tuple[S, S]:
+    """Return b and c of sum r exp(k t)/t^j over terms (k, r)."""
+    sums = []
+    for power in (1 + j, 2 + j):
+        weights: dict[Fraction, Fraction] = {}
+        for k, r in terms:
+            weights[k * k] = weights.get(k * k, Fraction(0)) + r * k**power
+        value: S = d.rational(0)
+        for square, weight in weights.items():
+            if weight:
+                argument = z if square == 1 else d.rational(square.numerator, square.denominator) * z
+                value = value + d.rational(weight.numerator, weight.denominator) * d.call(
+                    f"stumpff{power}", argument
+                )
+        sums.append(value)
+    return sums[0], sums[1]
+
+
+def _single(d: Domain, factor: Factor, z: S) -> tuple[S, S]:
+    """Return b and c of dexp or of the truncated dexpinv, without the power of the factor."""
+    s = factor.scale
+    if factor.function == "dexp":
+        return _exponentials(d, [(s, 1 / s)], 1, z)
+    # Horner's rule from the highest power down: t^k is a multiple of t for odd k and of t^2 for even k.
+    sums: list[S] = [d.rational(0), d.rational(0)]
+    for k in range(factor.order, 0, -1):
+        weight = bernoulli_over_factorial(k) * s**k
+        place = (k + 1) % 2
+        sums[place] = d.rational(weight.numerator, weight.denominator) - z * sums[place]
+    return sums[0], sums[1]
+
+
+def _inverted(d: Domain, b: S, c: S, z: S) -> tuple[S, S]:
+    """Return b and c of the inverse of 1 + b t + c t^2.
+
+    On the plane orthogonal to x, t^2 = -z: the function is the complex number 1 - c z + i b sqrt(z).
+    """
+    one: S = d.rational(1)
+    p = one - c * z
+    scale = one / (p * p + b * b * z)
+    return -(b * scale), (b * b - p * c) * scale

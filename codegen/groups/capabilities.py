@@ -1,0 +1,272 @@
+"""Capabilities: what some groups offer beyond the operations of every group.
+
+A group declares a capability by inheriting its class. Code that needs one asks ``group.offers(Capability)``,
+which is None for a group without it, or ``group.require(Capability)``, which raises a message that names it.
+A product has a capability if all its factors have it, so ask with these methods and not with ``isinstance``.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from math import isqrt
+from typing import TYPE_CHECKING, ClassVar
+
+from codegen.groups.base import LieGroup
+from codegen.groups.bernoulli import bernoulli_over_factorial, bernoulli_sum, last_term
+from codegen.groups.linear_algebra import S, Vector
+from codegen.ir.ad_series import Factor
+from codegen.ir.domain import Domain
+from codegen.ir.normal_form import Relation
+
+if TYPE_CHECKING:
+    import sympy
+
+Term = tuple[S, Sequence[Factor], Vector[S]]
+"""(f, W, v): the multiple f of the function W of ad_x applied to v."""
+
+
+class Coadjoint(LieGroup):
+    """The adjoint and coadjoint action: Hamiltonians on T*G and variational methods need them.
+
+    <mu, x> is the dot product of coordinates; g is an element, x in the algebra, mu in its dual.
+    """
+
+    provides: ClassVar[str] = "coadjoint action"
+
+    @abstractmethod
+    def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return Ad_g x = g x g^-1: g exp(x) = exp(Ad_g x) g."""
+
+    @abstractmethod
+    def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return Ad*_g mu: <Ad*_g mu, x> = <mu, Ad_g x>."""
+
+    @abstractmethod
+    def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return Ad*_{g^-1} mu, the inverse of :meth:`Adt`."""
+
+    @abstractmethod
+    def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return ad*_x mu: <ad*_x mu, y> = <mu, [x, y]>."""
+
+    @abstractmethod
+    def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return dexp*_x mu = sum of (ad*_x)^k mu/(k+1)!: <dexp*_x mu, y> = <mu, dexp_x y>."""
+
+    def dexpinvt(self, d: Domain, x: Vector[S], mu: Vector[S], order: int) -> Vector[S]:
+        """Return (dexp^{-1}_{(order),x})* mu = sum over k <= order of B_k/k! (ad*_x)^k mu."""
+        return bernoulli_sum(d, lambda power: self.adt(d, x, power), mu, order)
+
+    def P(self, d: Domain, x: Vector[S], y: Vector[S], mu: Vector[S], order: int) -> Vector[S]:
+        """Return P*_(order)(x, y) mu: <P*(x, y) mu, z> = <mu, derivative of dexpinv_x y along z>.
+
+        That is -sum over 1 <= k <= order of B_k/k! sum_{i<k} ad*_{ad_x^{k-1-i} y} (ad*_x)^i mu (eq. 3.16 of
+        H. Marthinsen's thesis). ad* is linear in its subscript, so the subscripts are summed over k first.
+        """
+        last = last_term(order)
+        brackets, powers = [y], [mu]
+        for _ in range(1, last):
+            brackets.append(self.ad(d, x, brackets[-1]))
+            powers.append(self.adt(d, x, powers[-1]))
+        total: Vector[S] = (d.rational(0),) * self.dim
+        for i, power in enumerate(powers):
+            terms = [(-bernoulli_over_factorial(k), brackets[k - 1 - i]) for k in range(i + 1, last + 1)]
+            subscript = _combination(d, [(c, z) for c, z in terms if c])
+            if last and subscript:
+                pairs = zip(total, self.adt(d, subscript, power), strict=True)
+                total = tuple(a + b for a, b in pairs)
+        return total
+
+    def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return Ad*_{exp(-x)} mu + dexp*_{-x} n, the momentum after exp(x, n) on T*G."""
+        turned = self.Adtinv(d, self.exp(d, x), mu)
+        pushed = self.dexpt(d, tuple(-a for a in x), n)
+        return tuple(a + b for a, b in zip(pushed, turned, strict=True))
+
+
+class RightTrivialisation(LieGroup):
+    """Tangent vectors as elements of the algebra: a Jacobian of a step needs it."""
+
+    provides: ClassVar[str] = "right trivialisation of tangent vectors"
+
+    @abstractmethod
+    def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
+        """Return x in the algebra with v = x.g, for a tangent vector v at g: rate(velocity(x, g), g) = x."""
+
+
+class BodyFrame(Coadjoint):
+    """Left translations and the equations of the group: a Hamiltonian can be seen from the body."""
+
+    provides: ClassVar[str] = "body frame"
+
+    @abstractmethod
+    def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
+        """Return the equations of the group as replacements of products of two of its ``size`` symbols."""
+
+    @abstractmethod
+    def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return g.x, the derivative of g exp(eps x) at eps = 0: velocity(Ad_g x, g)."""
+
+    @abstractmethod
+    def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return g exp(x), each row computed from the same row of g, so that unused rows can be left out."""
+
+    @abstractmethod
+    def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return Ad_{g^-1} x, the inverse of Ad_g."""
+
+
+class ClosedFormSeries(Coadjoint):
+    """Functions of one ad as combinations of a few brackets: products of dexp, exp and dexp^{-1} merge."""
+
+    provides: ClassVar[str] = "closed form of functions of ad"
+
+    @abstractmethod
+    def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
+        """Return the product of the word's functions of ad_x, or of ad*_x if ``dual``, applied to v."""
+
+    @abstractmethod
+    def series_sum(
+        self,
+        d: Domain,
+        terms: Sequence[Term[S]],
+        dual: bool,
+        x: Vector[S],
+        total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
+    ) -> Vector[S]:
+        """Return the sum of f W(ad_x) v over ``terms`` (f, W, v): that of :meth:`series`, in fewer brackets.
+
+        ``total`` returns the sum of f v over the terms with the given numbers, for a caller that has a
+        shorter formula for it.
+        """
+
+
+class MatrixRepresentation(LieGroup):
+    """A faithful representation by square matrices, row by row.
+
+    Elementary differentials of a scene are computed in it.
+    """
+
+    provides: ClassVar[str] = "matrix representation"
+
+    @abstractmethod
+    def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return the matrix of an element: matrix(g k) = matrix(g) matrix(k)."""
+
+    @abstractmethod
+    def element(self, matrix: Vector[S]) -> Vector[S]:
+        """Return the coordinates of an element, the inverse of :meth:`matrix`; linear in the matrix."""
+
+    @abstractmethod
+    def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return the matrix of x in the algebra: d/deps matrix(exp(eps x)) = hat(x) at eps = 0."""
+
+    @abstractmethod
+    def vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
+        """Return the coordinates of x in the algebra, given its matrix: the inverse of :meth:`hat`."""
+
+
+class MatrixElements(MatrixRepresentation):
+    """Elements are n x n matrices row by row, size = n^2; they act on columns of n scalars.
+
+    The representation is the identity: velocity(x, g) = hat(x) g.
+    """
+
+    provides: ClassVar[str] = "matrix elements"
+
+    def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return g."""
+        return g
+
+    def element(self, matrix: Vector[S]) -> Vector[S]:
+        """Return the matrix itself."""
+        return matrix
+
+    @property
+    def order(self) -> int:
+        """The number n of rows."""
+        return isqrt(self.size)
+
+    def symbols(self, name: str) -> list[sympy.Symbol]:
+        """Return the symbols of the entries: ``name``, row and column digits."""
+        from sympy import Symbol
+
+        rows = range(self.order)
+        return [Symbol(f"{name}{i}{j}", real=True) for i in rows for j in rows]
+
+    def point(self, name: str) -> sympy.Matrix:
+        """Return :meth:`symbols` as a square sympy matrix."""
+        from sympy import Matrix
+
+        return Matrix(self.order, self.order, self.symbols(name))
+
+
+class Rotations(MatrixElements):
+    """Elements are rotations: they keep the length of a column."""
+
+    provides: ClassVar[str] = "rotation of vectors"
+
+    @abstractmethod
+    def rotate(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return exp(x) y for a column y without forming exp(x)."""
+
+
+class PointMotions(LieGroup):
+    """Elements move the points of a vector space, and not only by linear maps."""
+
+    provides: ClassVar[str] = "motion of points"
+
+    @abstractmethod
+    def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
+        """Return g.z: move(g k, z) = move(g, move(k, z))."""
+
+    @abstractmethod
+    def point_velocity(self, d: Domain, x: Vector[S], z: Vector[S]) -> Vector[S]:
+        """Return x.z, the derivative of exp(eps x).z at eps = 0."""
+
+
+class DirectProduct(LieGroup):
+    """The group is a direct product of ``factors``."""
+
+    provides: ClassVar[str] = "factors"
+    factors: tuple[LieGroup, ...]
+
+    @abstractmethod
+    def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
+        """Return the coordinates of each factor, for an element or for one of the algebra or its dual."""
+
+
+class CotangentBundle(LieGroup):
+    """The group is T*G for a group G, its ``base``; coordinates of G, then of the momentum."""
+
+    provides: ClassVar[str] = "momenta of a base group"
+    base: Coadjoint
+
+    @abstractmethod
+    def canonical(self, d: Domain, z: Vector[S], covector: Vector[S]) -> Vector[S]:
+        """Return the canonical bivector at z applied to a covector, in the algebra.
+
+        For the trivialised differential of a Hamiltonian it is its field f = (xi, n).
+        """
+
+
+class Projection(LieGroup):
+    """Coordinates near the group can be brought back to it."""
+
+    provides: ClassVar[str] = "projection onto the group"
+
+    @abstractmethod
+    def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return g moved towards the group: an element stays, a defect of size eps becomes O(eps^2)."""
+
+
+def _combination(d: Domain, terms: Sequence[tuple[Fraction, Vector[S]]]) -> Vector[S]:
+    """Return the sum of c x over terms (c, x), the empty tuple if there are none."""
+    total: Vector[S] = ()
+    for c, x in terms:
+        factor: S = d.rational(c.numerator, c.denominator)
+        scaled = tuple(factor * a for a in x)
+        total = tuple(a + b for a, b in zip(total, scaled, strict=True)) if total else scaled
+    return total

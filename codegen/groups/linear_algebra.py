@@ -1,0 +1,106 @@
+"""Scalars of any domain and the linear algebra of flat tuples of them.
+
+A vector is a tuple of scalars, a matrix is a tuple of its entries row by row. One function serves floats,
+mpmath numbers, power series and expressions, because it uses only the four operations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Protocol, Self, TypeVar
+
+from codegen.ir.domain import Domain
+
+
+class Scalar(Protocol):
+    """A number of one domain (:mod:`codegen.ir.domain`); both operands are of the same domain."""
+
+    def __add__(self, other: Self, /) -> Self:
+        """Return the sum."""
+
+    def __sub__(self, other: Self, /) -> Self:
+        """Return the difference."""
+
+    def __mul__(self, other: Self, /) -> Self:
+        """Return the product."""
+
+    def __truediv__(self, other: Self, /) -> Self:
+        """Return the quotient."""
+
+    def __neg__(self) -> Self:
+        """Return the negative."""
+
+
+S = TypeVar("S", bound=Scalar)
+"""The scalars of one domain."""
+
+Vector = tuple[S, ...]
+"""A flat tuple of scalars of one domain."""
+
+
+def dot(a: Vector[S], b: Vector[S]) -> S:
+    """Return sum a_i b_i, added from the left."""
+    total = a[0] * b[0]
+    for x, y in zip(a[1:], b[1:], strict=True):
+        total = total + x * y
+    return total
+
+
+def cross(a: Vector[S], b: Vector[S]) -> Vector[S]:
+    """Return the cross product of two 3-vectors."""
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def units(d: Domain, n: int) -> tuple[Vector[S], ...]:
+    """Return the n unit vectors."""
+    return tuple(tuple(d.rational(int(i == j)) for j in range(n)) for i in range(n))
+
+
+def matmul(a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
+    """Return the product of two n x n matrices."""
+    rows = range(n)
+    return tuple(dot(a[n * i : n * i + n], b[j::n]) for i in rows for j in rows)
+
+
+def matvec(a: Vector[S], v: Vector[S]) -> Vector[S]:
+    """Return the matrix a times the vector v."""
+    n = len(v)
+    return tuple(dot(a[i : i + n], v) for i in range(0, len(a), n))
+
+
+def invert(d: Domain, g: Vector[S], n: int) -> Vector[S]:
+    """Return the inverse of an n x n matrix by the Faddeev-LeVerrier recursion.
+
+    The recursion has no pivots. A power series or an expression cannot say which pivot is not zero.
+    """
+    identity: Vector[S] = tuple(d.rational(int(i == j)) for i in range(n) for j in range(n))
+    ones: Vector[S] = (d.rational(1),) * n
+    m, c = identity, ones[0]
+    for k in range(1, n + 1):
+        product = matmul(g, m, n)
+        trace = dot(product[:: n + 1], ones)
+        c = -(trace * d.rational(1, k))
+        if k < n:
+            m = tuple(p + c * u for p, u in zip(product, identity, strict=True))
+    return tuple(-(x / c) for x in m)
+
+
+def rational_inverse(a: Sequence[Sequence[Fraction]]) -> list[list[Fraction]] | None:
+    """Return the inverse of a rational matrix by Gauss-Jordan elimination, None for a singular one.
+
+    >>> rational_inverse([[Fraction(2)]]), rational_inverse([[Fraction(0)]])
+    ([[Fraction(1, 2)]], None)
+    """
+    n = len(a)
+    rows = [[*row, *(Fraction(int(i == j)) for j in range(n))] for i, row in enumerate(a)]
+    for k in range(n):
+        pivot = next((i for i in range(k, n) if rows[i][k]), None)
+        if pivot is None:
+            return None
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        rows[k] = [x / rows[k][k] for x in rows[k]]
+        for i in range(n):
+            if i != k:
+                rows[i] = [x - rows[i][k] * y for x, y in zip(rows[i], rows[k], strict=True)]
+    return [row[n:] for row in rows]

@@ -1,0 +1,59 @@
+"""The classes of one kind by name: those of this package, loaded on first use, and registered ones."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from typing import Generic, TypeVar
+
+from codegen.errors import SceneError
+from orderconds.errors import UnknownName
+
+T = TypeVar("T")
+
+
+class Registry(Generic[T]):
+    """The classes of one kind. ``home`` is the package that has the built-in ones as attributes."""
+
+    def __init__(self, kind: str, home: str, built_in: Sequence[str]) -> None:
+        self.kind, self.home, self.built_in = kind, home, tuple(built_in)
+        self._added: dict[str, type[T]] = {}
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All names: the built-in ones first."""
+        return (*self.built_in, *self._added)
+
+    def add(self, cls: type[T]) -> None:
+        """Add a class under its own name.
+
+        A second class of the same name replaces the first, because a scene file may be read twice.
+        :class:`SceneError` for the name of a built-in class and for a class with abstract methods.
+        """
+        name, missing = cls.__name__, sorted(getattr(cls, "__abstractmethods__", ()))
+        if missing:
+            raise SceneError(
+                f"the {self.kind} {name} without {', '.join(missing)}",
+                expected="a class with all abstract methods of its bases",
+            )
+        if name in self.built_in:
+            raise SceneError(f"a second {self.kind} called {name}", expected="another name for the class")
+        self._added[name] = cls
+
+    def remove(self, cls: type[T]) -> None:
+        """Remove an added class; one that was not added, or was replaced, is ignored."""
+        if self._added.get(cls.__name__) is cls:
+            del self._added[cls.__name__]
+
+    def get(self, name: str) -> type[T]:
+        """Return the class of that name; :class:`orderconds.errors.UnknownName` for another."""
+        if name in self._added:
+            return self._added[name]
+        if name not in self.built_in:
+            raise UnknownName(f"unknown {self.kind} {name!r}", expected=f"one of {', '.join(self.names)}")
+        cls: type[T] = getattr(sys.modules[self.home], name)
+        return cls
+
+    def listing(self) -> list[dict[str, str]]:
+        """Return name and first docstring line of every class."""
+        return [{"name": n, "about": (self.get(n).__doc__ or "").partition("\n")[0]} for n in self.names]

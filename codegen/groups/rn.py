@@ -1,0 +1,87 @@
+"""R^n under addition."""
+
+from __future__ import annotations
+
+from codegen.groups.capabilities import Coadjoint, MatrixRepresentation, RightTrivialisation
+from codegen.groups.linear_algebra import S, Vector
+from codegen.ir.domain import Domain
+
+
+class Rn(Coadjoint, RightTrivialisation, MatrixRepresentation):
+    """The abelian group (R^n, +): exp is the identity map and every bracket vanishes.
+
+    On it RKMK, CG and CF methods are Runge-Kutta methods, and variational ones symplectic partitioned ones.
+    """
+
+    abelian = True
+
+    def __init__(self, n: int) -> None:
+        self.dim = self.size = n
+        self.name = f"R^{n}"
+
+    def identity(self, d: Domain) -> Vector[S]:
+        """Return the origin."""
+        return (d.rational(0),) * self.dim
+
+    def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return x."""
+        return x
+
+    def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
+        """Return g + k."""
+        return tuple(a + b for a, b in zip(g, k, strict=True))
+
+    def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return zero."""
+        return (d.rational(0),) * self.dim
+
+    def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return zero."""
+        return (d.rational(0),) * self.dim
+
+    def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return x."""
+        return x
+
+    def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return mu."""
+        return mu
+
+    def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return mu."""
+        return mu
+
+    def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return mu."""
+        return mu
+
+    def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
+        """Return x."""
+        return x
+
+    def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
+        """Return v."""
+        return v
+
+    def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return the (n + 1) x (n + 1) matrix of the translation by g in affine space."""
+        return self._affine(d, g, d.rational(1))
+
+    def element(self, matrix: Vector[S]) -> Vector[S]:
+        """Return the last column without its last entry."""
+        n = self.dim
+        return matrix[n : (n + 1) * n : n + 1]
+
+    def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return the matrix with x in the last column and zeros elsewhere."""
+        return self._affine(d, x, d.rational(0))
+
+    def vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
+        """Return the last column without its last entry."""
+        return self.element(matrix)
+
+    def _affine(self, d: Domain, x: Vector[S], one: S) -> Vector[S]:
+        """Return the matrix with ``one`` on the diagonal and x in the last column."""
+        n, zero = self.dim, d.rational(0)
+        rows = [(*(one if i == j else zero for j in range(n)), x[i]) for i in range(n)]
+        return (*(a for row in rows for a in row), *((zero,) * n), one)

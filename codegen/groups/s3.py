@@ -1,0 +1,84 @@
+"""S^3: unit quaternions, the double cover of SO(3), with pure quaternions as its algebra."""
+
+from __future__ import annotations
+
+from codegen.groups.capabilities import Coadjoint, RightTrivialisation
+from codegen.groups.linear_algebra import S, Vector, cross, dot
+from codegen.ir.domain import Domain
+
+
+class S3(Coadjoint, RightTrivialisation):
+    """Unit quaternions (q0, q1, q2, q3), real part first, under Hamilton's product.
+
+    The algebra is R^3, the pure quaternions (H. Marthinsen's thesis, section 2.6): [x, y] = x y - y x =
+    2 x cross y, and exp(x) turns vectors about x by the angle 2|x|. Ad_g x = g x g^c is that rotation,
+    Ad*_g mu = g^c mu g, ad*_x mu = -2 x cross mu. With z = x.x and the Stumpff functions c_k:
+    exp(x) = (c_0(z), c_1(z) x), dexp_x = 1 + c_2(4z) ad_x + c_3(4z) ad_x^2.
+    """
+
+    name, layout = "S^3", ", real part first"
+    dim, size = 3, 4
+
+    def identity(self, d: Domain) -> Vector[S]:
+        """Return (1, 0, 0, 0)."""
+        zero = d.rational(0)
+        return (d.rational(1), zero, zero, zero)
+
+    def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
+        """Return the quaternion product g k."""
+        a, b, c = g[1:], k[1:], cross(g[1:], k[1:])
+        return (g[0] * k[0] - dot(a, b), *(g[0] * y + k[0] * x + z for x, y, z in zip(a, b, c, strict=True)))
+
+    def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return (cos |x|, sin |x|/|x| x)."""
+        z = dot(x, x)
+        c0, c1 = d.call("stumpff0", z), d.call("stumpff1", z)
+        return (c0, *(c1 * a for a in x))
+
+    def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return 2 x cross y."""
+        return tuple(d.rational(2) * a for a in cross(x, y))
+
+    def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return -2 x cross mu."""
+        return self.ad(d, mu, x)
+
+    def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return g x g^c = x + 2 q0 q cross x + 2 q cross (q cross x)."""
+        return self._rotated(d, g[0], g[1:], x)
+
+    def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return g^c mu g."""
+        return self._rotated(d, -g[0], g[1:], mu)
+
+    def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return g mu g^c."""
+        return self._rotated(d, g[0], g[1:], mu)
+
+    def _rotated(self, d: Domain, real: S, q: Vector[S], x: Vector[S]) -> Vector[S]:
+        first = tuple(d.rational(2) * a for a in cross(q, x))
+        second = cross(q, first)
+        return tuple(a + real * b + c for a, b, c in zip(x, first, second, strict=True))
+
+    def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return dexp_{-x} mu, by c_2 and c_3 of the squared angle 4 |x|^2."""
+        twice = tuple(d.rational(2) * a for a in x)
+        z = dot(twice, twice)
+        c2, c3 = d.call("stumpff2", z), d.call("stumpff3", z)
+        v = cross(twice, mu)
+        w = cross(twice, v)
+        return tuple(m - c2 * a + c3 * b for m, a, b in zip(mu, v, w, strict=True))
+
+    def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
+        """Return the quaternion product (0, x) g."""
+        pairs = zip(x, cross(x, g[1:]), strict=True)
+        return (-dot(x, g[1:]), *(g[0] * a + b for a, b in pairs))
+
+    def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
+        """Return x where v = x.g: the imaginary part of v times the conjugate of g."""
+        turned = cross(v[1:], g[1:])
+        return tuple(g[0] * a - v[0] * b - c for a, b, c in zip(v[1:], g[1:], turned, strict=True))
+
+    def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
+        """Return q.q = 1."""
+        return (("|q|^2 = 1", dot(g, g) - d.rational(1)),)

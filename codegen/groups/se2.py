@@ -1,0 +1,102 @@
+"""SE(2): the rigid motions of the plane."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from codegen.groups.capabilities import Coadjoint, PointMotions
+from codegen.groups.linear_algebra import S, Vector
+from codegen.ir.domain import Domain
+
+if TYPE_CHECKING:
+    import sympy
+
+
+class SE2(Coadjoint, PointMotions):
+    """Motions z -> R z + a of the plane as (c, s, a0, a1): R turns by the angle with cosine c and sine s.
+
+    The algebra holds (w, u0, u1): the angular velocity w and the velocity u at the origin. With J(a, b) =
+    (-b, a): [(w, u), (w', u')] = (0, w J u' - w' J u). Since ad_x^3 = -w^2 ad_x, dexp_x = 1 + c_2(w^2) ad_x +
+    c_3(w^2) ad_x^2, and exp(w, u) turns by w and translates by (c_1(w^2) + c_2(w^2) w J) u.
+    """
+
+    name, layout = "SE(2)", ", cosine and sine of the angle, then the translation"
+    dim, size = 3, 4
+
+    def identity(self, d: Domain) -> Vector[S]:
+        """Return the motion that leaves every point where it is."""
+        zero = d.rational(0)
+        return (d.rational(1), zero, zero, zero)
+
+    def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return the motion after unit time with velocity x."""
+        w, u, v = x
+        z = w * w
+        c0, c1, c2 = (d.call(f"stumpff{k}", z) for k in range(3))
+        turned = w * c2
+        return (c0, w * c1, c1 * u - turned * v, c1 * v + turned * u)
+
+    def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
+        """Return the motion k followed by g."""
+        c, s = g[:2]
+        return (c * k[0] - s * k[1], s * k[0] + c * k[1], *self.move(d, g, k[2:]))
+
+    def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
+        """Return R z + a."""
+        c, s, a, b = g
+        return (c * z[0] - s * z[1] + a, s * z[0] + c * z[1] + b)
+
+    def point_velocity(self, d: Domain, x: Vector[S], z: Vector[S]) -> Vector[S]:
+        """Return w J z + u, the velocity of the point z under x."""
+        w, u, v = x
+        return (u - w * z[1], v + w * z[0])
+
+    def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return (0, w J u' - w' J u)."""
+        return (d.rational(0), y[0] * x[2] - x[0] * y[2], x[0] * y[1] - y[0] * x[1])
+
+    def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return ad*_x mu: its pairing with y is that of mu with [x, y]."""
+        w, u, v = x
+        return (mu[1] * v - mu[2] * u, w * mu[2], -(w * mu[1]))
+
+    def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return g x g^-1 = (w, R u - w J a)."""
+        c, s, a, b = g
+        w, u, v = x
+        return (w, c * u - s * v + w * b, s * u + c * v - w * a)
+
+    def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return Ad*_g mu, its pairing with x being that of mu with Ad_g x."""
+        c, s, a, b = g
+        m, p, r = mu
+        return (m + p * b - r * a, c * p + s * r, c * r - s * p)
+
+    def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return Ad*_{g^-1} mu."""
+        c, s, a, b = g
+        m, p, r = mu[0], c * mu[1] - s * mu[2], s * mu[1] + c * mu[2]
+        return (m - p * b + r * a, p, r)
+
+    def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu."""
+        z = x[0] * x[0]
+        c2, c3 = d.call("stumpff2", z), d.call("stumpff3", z)
+        first = self.adt(d, x, mu)
+        second = self.adt(d, x, first)
+        return tuple(m + c2 * a + c3 * b for m, a, b in zip(mu, first, second, strict=True))
+
+    def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
+        """Return x.g: w J on the rotation, the velocity under x on the translation."""
+        w = x[0]
+        return (-(w * g[1]), w * g[0], *self.point_velocity(d, x, g[2:]))
+
+    def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
+        """Return c^2 + s^2 = 1."""
+        return (("c^2 + s^2 = 1", g[0] * g[0] + g[1] * g[1] - d.rational(1)),)
+
+    def symbols(self, name: str) -> list[sympy.Symbol]:
+        """Return the symbols of a motion: ``name`` with c, s, 0 and 1."""
+        from sympy import Symbol
+
+        return [Symbol(f"{name}{i}", real=True) for i in ("c", "s", "0", "1")]

@@ -1,0 +1,66 @@
+"""Words: products of functions of one ad, as dexp, dexp^{-1} and exp applied one after the other.
+
+The factors of a word are functions phi(s t) of one variable t, which is ad_x, or ad*_x on the dual. They
+commute, so a word is their product in any order.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+
+@dataclass(frozen=True, order=True)
+class Factor:
+    """phi(scale t)^power, where phi is exp, dexp = (e^t - 1)/t, or dexpinv cut off after t^order."""
+
+    function: str
+    scale: Fraction
+    order: int = 0
+    power: int = 1
+
+    def text(self) -> str:
+        """Return the text ``exp(-t)``, ``1/dexpinv2(t)``."""
+        scale = {"1": "", "-1": "-"}.get(str(self.scale), str(self.scale))
+        order = str(self.order) if self.function == "dexpinv" else ""
+        return f"{'1/' if self.power < 0 else ''}{self.function}{order}({scale}t)"
+
+    def scaled(self, by: Fraction) -> Factor:
+        """Return the function of t/by: phi(scale by t)^power."""
+        return Factor(self.function, self.scale * by, self.order, self.power)
+
+    def inverse(self) -> Factor:
+        """Return 1/phi."""
+        return Factor(self.function, self.scale, self.order, -self.power)
+
+
+Word = tuple[Factor, ...]
+
+UNIT = Fraction(1)
+
+
+def simplified(word: Word) -> Word:
+    """Return a word with its exponentials joined and without factors that cancel.
+
+    exp(-s t) dexp(s t) = dexp(-s t).
+
+    >>> simplified((Factor("dexp", Fraction(1)), Factor("exp", Fraction(-1))))[0].text()
+    'dexp(-t)'
+    """
+    powers: dict[tuple[str, Fraction, int], int] = {}
+    rate = Fraction(0)
+    for f in word:
+        if f.function == "exp":
+            rate += f.scale * f.power
+        else:
+            key = (f.function, f.scale, f.order)
+            powers[key] = powers.get(key, 0) + f.power
+    for (function, scale, order), n in list(powers.items()):
+        if function == "dexp" and n > 0 and rate == -scale:
+            powers[function, scale, order] -= 1
+            powers[function, -scale, order] = powers.get((function, -scale, order), 0) + 1
+            rate = Fraction(0)
+    found = [Factor("exp", rate)] if rate else []
+    for (function, scale, order), n in sorted(powers.items()):
+        found += [Factor(function, scale, order, 1 if n > 0 else -1)] * abs(n)
+    return tuple(found)

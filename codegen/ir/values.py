@@ -1,0 +1,61 @@
+"""Values of step programs: their kinds, their names, and the coefficients that they are multiplied by."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from codegen.ir.domain import Domain, Scalar
+from codegen.ir.number import Number
+
+
+class Kind(StrEnum):
+    """The type of a value: ``Alg`` is the Lie algebra, ``Dual`` its dual, ``Point`` the manifold acted on."""
+
+    REAL = "Real"
+    ALG = "Alg"
+    DUAL = "Dual"
+    GROUP = "Group"
+    POINT = "Point"
+
+
+@dataclass(frozen=True)
+class Var:
+    """A named value; names are unique within a program."""
+
+    name: str
+    kind: Kind
+
+
+@dataclass(frozen=True)
+class Coefficient:
+    """value * h**power."""
+
+    value: Number
+    power: int = 0
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether the number is provably zero."""
+        return self.value.is_zero
+
+    @property
+    def is_one(self) -> bool:
+        """Whether this is the constant 1, free of h."""
+        return self.power == 0 and self.value.is_one
+
+    def text(self) -> str:
+        """Return the text ``1/2 h``."""
+        h = "" if self.power == 0 else " h" if self.power == 1 else f" h^{self.power}"
+        return f"{self.value.text()}{h}"
+
+    def evaluate(self, domain: Domain) -> Scalar:
+        """Return the coefficient in a domain."""
+        value = domain.number(self.value)
+        for _ in range(self.power):
+            value = domain.h * value
+        return value
+
+
+ONE = Coefficient(Number.rational(1))
+MINUS_ONE = Coefficient(Number.rational(-1))

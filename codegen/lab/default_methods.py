@@ -1,0 +1,65 @@
+"""The methods that commands measure if the user names none, in one table.
+
+A method of a table is used if it can be lowered onto the scene and has the order given here on it: a
+splitting may find no exact flow, or parts for which its order conditions imply less.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from codegen.certify import certified_order
+from codegen.errors import MethodError
+from codegen.lower import families_for
+from codegen.method import Method, parse
+from codegen.scene.problem import Problem
+
+FIELD_METHODS = ("rkmk(0):euler", "cg:cg3", "rkmk(2):rk4", "cf:cf4")
+HAMILTONIAN_METHODS = ("vcg:midpoint", "vcg:triple_jump", "cf:cf4", "vcg:triple_jump6")
+"""Defaults of single measurements: one method for each order, of several families."""
+
+REPORT_SCENES = ("dipole", "free_rigid_body")
+"""Default scenes of the report: a Hamiltonian scene and a field."""
+
+REPORT_FIELDS = {"rkmk(0):euler": 1, "cg:cg3": 3, "rkmk(2):rk4": 4, "cf:cf4": 4, "rkmk:butcher6": 6}
+REPORT_HAMILTONIANS = {
+    "vcg:midpoint": 2,
+    "vcg:triple_jump": 4,
+    "vrkmk(2):gauss2": 4,
+    "vcf:vcf_gauss2": 4,
+    "cf:cf4": 4,
+    "splitting:blanes_moan4": 4,
+    "splitting:blanes_moan_rkn6a": 6,
+}
+"""Defaults of the report: method and the order that it must have on the scene."""
+
+REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
+"""Defaults of the report with step-size control; Hamiltonian scenes use only the first (ten colours)."""
+
+
+def methods_for(scene: Problem, names: Sequence[str] = ()) -> tuple[Method, ...]:
+    """Return the named methods, or the defaults of single measurements.
+
+    Errors of names as :func:`codegen.method.parse`.
+    """
+    defaults = HAMILTONIAN_METHODS if scene.is_hamiltonian else FIELD_METHODS
+    families = families_for(scene)
+    return tuple(parse(name, families) for name in (names or defaults))
+
+
+def report_methods(scene: Problem) -> tuple[tuple[Method, ...], tuple[Method, ...]]:
+    """Return the default methods of the report on a scene: with equal steps, and with step-size control."""
+    families, chosen = families_for(scene), []
+    for name, order in (REPORT_HAMILTONIANS if scene.is_hamiltonian else REPORT_FIELDS).items():
+        if name.partition(":")[0].partition("(")[0] not in families:
+            continue
+        try:
+            method = parse(name, families)
+            if certified_order(method, scene).order == order:
+                chosen.append(method)
+        except MethodError:
+            continue
+    count = 1 if scene.is_hamiltonian else len(REPORT_ADAPTIVE)
+    adaptive = (replace(parse(name, families), adaptive=True) for name in REPORT_ADAPTIVE[:count])
+    return tuple(chosen), tuple(adaptive)

@@ -1,0 +1,78 @@
+"""A method with step-size control by its embedded row, as a candidate of a work-precision diagram.
+
+``control`` of its rows is the tolerance, relative and absolute. ``steps`` counts accepted steps; rejected
+steps are included in the evaluations and the time.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from codegen.lab.distance import distance
+from codegen.lab.efficiency.emitted_candidate import EmittedCandidate
+from codegen.lab.efficiency.work_precision import MOST_STEPS, Row
+from codegen.lab.runner import RunFailed
+from codegen.lab.timing import samples
+from codegen.loader import Arrival, Statistics, StepFailed
+
+TOLERANCES = tuple(10.0**-k for k in range(1, 14))
+"""From loose to tight, and looser than for peers, because an estimate of low order controls the step."""
+
+
+@dataclass
+class AdaptiveCandidate(EmittedCandidate):
+    """A method with an embedded row, emitted to a target, run over the span with step-size control.
+
+    MethodError for a method without an error estimate.
+    """
+
+    def __post_init__(self) -> None:
+        self.method = replace(self.method, adaptive=True)
+        super().__post_init__()
+        self.label = f"adaptive {self.method.label}"
+
+    def controls(self) -> Iterator[float]:
+        """Tighten the tolerance."""
+        return iter(TOLERANCES)
+
+    def enough(self, rows: Sequence[Row]) -> bool:
+        """Stop as with equal steps, but not after a slow run that diverged with a loose tolerance."""
+        error = rows[-1].error
+        diverged = error is not None and error > max(1.0, math.hypot(*map(float, self.exact.state)))
+        return not diverged and super().enough(rows)
+
+    def arrive(self, tolerance: float, statistics: Statistics | None = None) -> Arrival:
+        """Return the end of a run with that tolerance; with an infinite tolerance the run is empty."""
+        first, last = map(float, self.scene.span)
+        if math.isinf(tolerance):
+            last, tolerance = first, 1.0
+        try:
+            return self.runner.integrator.adaptive(
+                self.runner.initial,
+                first,
+                last,
+                rtol=tolerance,
+                atol=tolerance,
+                limit=MOST_STEPS,
+                statistics=statistics,
+            )
+        except StepFailed as error:
+            raise RunFailed(str(error)) from error
+
+    def measure(self, control: float) -> Row:
+        """Run over the span with the tolerance ``control``."""
+        first, last = map(float, self.scene.span)
+        statistics = Statistics()
+        try:
+            arrival = self.arrive(control, statistics)
+            error = distance(self.scene, arrival.state, self.exact.state)
+            if not math.isfinite(error):
+                raise RunFailed("the final state is not finite")
+        except ArithmeticError as failure:
+            return replace(self._row(control, 0.0, 0, failure=str(failure)), h=None, steps=None)
+        times = self._net(samples(lambda: self.arrive(control)), lambda: self.arrive(math.inf))
+        tried, accepted = arrival.accepted + arrival.rejected, arrival.accepted
+        row = self._row(control, (last - first) / accepted, tried, error, times, statistics)
+        return replace(row, steps=accepted, ns_per_step=1e9 * times[0] / accepted)

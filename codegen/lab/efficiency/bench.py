@@ -1,0 +1,179 @@
+"""A bench: candidates on a scene, measured, ranked, and written as a table and a picture."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+
+from codegen import scenes
+from codegen.artifact import write_texts
+from codegen.errors import MethodError
+from codegen.lab.default_methods import methods_for
+from codegen.lab.efficiency.adaptive_candidate import AdaptiveCandidate
+from codegen.lab.efficiency.emitted_candidate import EmittedCandidate
+from codegen.lab.efficiency.peer_candidate import PeerCandidate
+from codegen.lab.efficiency.ranking import Place, places
+from codegen.lab.efficiency.work_precision import Candidate, Refused, Row, measure_rows
+from codegen.lab.measurement_cache import MeasurementCache
+from codegen.lab.page.figures import Curve, efficiency_figure, standalone
+from codegen.lab.peers import find
+from codegen.lab.progress import Progress
+from codegen.lab.reference import Reference, cached_reference
+from codegen.method import Method
+from codegen.scene.problem import Problem
+from orderconds.errors import InputError
+
+TARGETS = ("c", "python")
+
+
+@dataclass(frozen=True)
+class Result:
+    """All rows by candidate, the fastest for each decade of accuracy, and the files written."""
+
+    scene: Problem
+    entries: dict[str, tuple[Row, ...]]
+    places: tuple[Place, ...]
+    paths: tuple[str, ...] = ()
+
+    @property
+    def rows(self) -> tuple[Row, ...]:
+        """Every row in order."""
+        return tuple(row for rows in self.entries.values() for row in rows)
+
+    @property
+    def setups(self) -> tuple[tuple[str, float, float], ...]:
+        """Candidate, seconds of emission, seconds of compilation (the most over its runs)."""
+        return tuple(
+            (label, rows[0].emission_seconds, max(r.compile_seconds for r in rows))
+            for label, rows in self.entries.items()
+        )
+
+
+@dataclass(frozen=True)
+class Bench:
+    """Candidates on one scene, ready to run; ``folder`` is where results go, or None."""
+
+    scene: Problem
+    exact: Reference
+    candidates: tuple[Candidate, ...]
+    folder: Path | None = None
+
+    def run(self, done: Callable[[Row], object], cache: MeasurementCache | None = None) -> Result:
+        """Measure all rows that the cache does not hold, rank the candidates, and write the files.
+
+        ``done`` is called with each row. The default cache is a hidden folder beside the files, which is
+        deleted when they are complete, so that an interrupted bench continues.
+        """
+        name = self.scene.name
+        own = MeasurementCache(self.folder / f".{name}.measured" if self.folder else None)
+        entries = {
+            c.label + (" (python)" if c.target == "python" else ""): measure_rows(
+                c, name, self.exact, cache or own, done
+            )
+            for c in self.candidates
+        }
+        result = Result(self.scene, entries, places(entries))
+        if self.folder is None:
+            return result
+        texts = {
+            f"{name}.csv": table(result.rows),
+            f"{name}.json": json.dumps([r.as_json() for r in result.rows], indent=2) + "\n",
+            f"{name}.svg": picture(result),
+        }
+        written = write_texts({self.folder / file: text for file, text in texts.items()})
+        own.remove()
+        return replace(result, paths=tuple(str(path) for path in written))
+
+
+def bench(
+    scene: str,
+    methods: Sequence[str],
+    targets: Sequence[str],
+    peers: Sequence[str],
+    budget: float,
+    output: str | None,
+    progress: Progress,
+    adaptive: Sequence[str] = (),
+) -> Bench:
+    """Return a bench of methods (by default the usual ones) and peers on a scene.
+
+    Methods in ``adaptive`` run with step-size control by their embedded rows. Names and options are checked
+    before anything is measured (InputError). A method that cannot be emitted for the scene becomes a row with
+    the reason.
+    """
+    for target in targets:
+        if target not in TARGETS:
+            raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(TARGETS)}")
+    problem = scenes.load(scene)
+    fixed = () if adaptive and not methods else methods_for(problem, methods)
+    controlled = methods_for(problem, adaptive) if adaptive else ()
+    for method in controlled:
+        replace(method, adaptive=True).embedded()  # MethodError without an embedded row
+    others = find(peers)
+    folder = _folder(output)
+    progress(f"{problem.name}: reference solution")
+    exact = cached_reference(problem)
+    ours: list[Candidate] = []
+    for method, adapt in [*((m, False) for m in fixed), *((m, True) for m in controlled)]:
+        for target in dict.fromkeys(targets):
+            progress(f"{problem.name}: emitting {method.label}")
+            ours.append(emitted(problem, method, exact, target, budget, adaptive=adapt))
+    theirs = [PeerCandidate(problem, peer, exact, budget) for peer in others]
+    return Bench(problem, exact, (*ours, *theirs), folder)
+
+
+def emitted(
+    scene: Problem, method: Method, exact: Reference, target: str, budget: float, *, adaptive: bool = False
+) -> Candidate:
+    """Return the candidate of a method, or a :class:`Refused` one if it cannot be emitted for the scene."""
+    kind = AdaptiveCandidate if adaptive else EmittedCandidate
+    try:
+        return kind(scene, method, exact, target, budget)
+    except (InputError, ArithmeticError) as error:
+        return Refused(f"adaptive {method.label}" if adaptive else method.label, target, str(error))
+
+
+def _folder(output: str | None) -> Path | None:
+    if output is None:
+        return None
+    folder = Path(output)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(
+            f"cannot write there: {error.strerror}", where=output, expected="a folder that can be written to"
+        ) from None
+    return folder
+
+
+def table(rows: Sequence[Row]) -> str:
+    """Return the rows as CSV with a header; unknown values are empty."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    names = [field.name for field in fields(Row)]
+    writer.writerow(names)
+    for row in rows:
+        values = row.as_json()
+        writer.writerow(["" if values[n] is None else values[n] for n in names])
+    return stream.getvalue()
+
+
+def curves(result: Result) -> list[Curve]:
+    """Return error against CPU time of every candidate with at least one successful run."""
+    drawn = []
+    for label, rows in result.entries.items():
+        points = [(r.seconds, r.error) for r in rows if r.error and r.seconds]
+        if points:
+            drawn.append(Curve(label, tuple(points), peer=rows[0].target == "peer"))
+    return drawn
+
+
+def picture(result: Result) -> str:
+    """Return the work-precision diagram as an SVG document."""
+    title = f"Error against CPU time, {result.scene.title}"
+    label = f"error at t = {float(result.scene.span[1]):g}"
+    return standalone(efficiency_figure(f"bench-{result.scene.name}", curves(result), label), title)

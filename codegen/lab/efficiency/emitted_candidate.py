@@ -1,0 +1,146 @@
+"""An emitted method with equal steps as a candidate of a work-precision diagram."""
+
+from __future__ import annotations
+
+import math
+import tempfile
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+
+from codegen.build import compile_files, find_compiler
+from codegen.certify import certified_order
+from codegen.emitter import Compiled, compile_method
+from codegen.ir.operations import Operation
+from codegen.ir.program import Assign
+from codegen.lab.distance import distance
+from codegen.lab.efficiency.work_precision import (
+    BUDGET,
+    COUNTED,
+    Row,
+    at_rounding,
+    beyond_budget,
+    doubled_steps,
+)
+from codegen.lab.reference import Reference
+from codegen.lab.runner import Emitted, RunFailed
+from codegen.lab.timing import cost, samples
+from codegen.loader import Statistics
+from codegen.method import Method
+from codegen.printers.c.module import FLAGS
+from codegen.scene.problem import Problem
+
+
+@dataclass
+class EmittedCandidate:
+    """A method emitted to a target, compiled, and run over the span in equal steps.
+
+    ``precompiled`` is the compiled method if there is one already; its emission then takes almost no time.
+    """
+
+    scene: Problem
+    method: Method
+    exact: Reference
+    target: str = "c"
+    budget: float = BUDGET
+    precompiled: Compiled | None = None
+
+    def __post_init__(self) -> None:
+        start = time.perf_counter()
+        self.compiled: Compiled = self.precompiled or compile_method(self.scene, self.method)
+        self.runner = Emitted(self.compiled, self.target, certified_order(self.method, self.scene))
+        self.label = self.method.label
+        self.key = repr(sorted(self.runner.artifact.manifest["files"].items()))
+        self.emission_seconds = time.perf_counter() - start
+        self.compile_seconds = 0.0
+        self.overhead = math.inf
+
+    def controls(self) -> Iterator[float]:
+        """Double the number of steps."""
+        return doubled_steps()
+
+    def prepare(self) -> None:
+        """Compile outside the cache, so that the time is the compiler's, then load."""
+        if self.target == "c":
+            self.compile_seconds = _compile_seconds(self.runner.artifact.files)
+        self.runner.final(0)
+
+    def measure(self, control: float) -> Row:
+        """Run over the span in ``control`` steps."""
+        steps = int(control)
+        first, last = self.scene.span
+        h = float(Fraction(last - first) / steps)
+        statistics = Statistics()
+        try:
+            state = self.runner.final(steps, statistics)
+            error = distance(self.scene, state, self.exact.state)
+            if not math.isfinite(error):
+                raise RunFailed("the final state is not finite")
+        except ArithmeticError as failure:
+            return self._row(control, h, steps, failure=str(failure))
+        times = self._net(samples(lambda: self.runner.final(steps)), lambda: self.runner.final(0))
+        return self._row(control, h, steps, error, times, statistics)
+
+    def _net(self, spent: Sequence[float], nothing: Callable[[], object]) -> list[float]:
+        """Return times minus the overhead of a call, the least seen of ``nothing``, if they are short."""
+        if spent[0] >= COUNTED:
+            return list(spent)
+        self.overhead = min(self.overhead, cost(nothing))
+        return [s - min(self.overhead, s) for s in spent]
+
+    def enough(self, rows: Sequence[Row]) -> bool:
+        """Stop at the budget, and at rounding."""
+        return beyond_budget(rows, self.budget) or at_rounding(rows, self.exact)
+
+    def _row(
+        self,
+        control: float,
+        h: float,
+        steps: int,
+        error: float | None = None,
+        times: Sequence[float] = (),
+        statistics: Statistics | None = None,
+        failure: str = "",
+    ) -> Row:
+        iterations = statistics.sweeps if statistics is not None else []
+        return Row(
+            scene=self.scene.name,
+            method=self.label,
+            target=self.target,
+            control=control,
+            h=h,
+            steps=steps,
+            error=error,
+            seconds=times[0] if times else None,
+            spread=times[-1] / times[0] - 1 if times and times[0] else None,
+            ns_per_step=1e9 * times[0] / steps if times else None,
+            evaluations=None if failure else self._count(lambda o: o.evaluates_scene, steps, iterations),
+            exponentials=None if failure else self._count(lambda o: o.exponentials, steps, iterations),
+            iterations=None if failure else sum(iterations),
+            emission_seconds=self.emission_seconds,
+            compile_seconds=self.compile_seconds,
+            failure=failure,
+        )
+
+    def _count(self, cost: Callable[[Operation], int], steps: int, iterations: Sequence[int]) -> int:
+        """Return how often operations are executed: once a step outside blocks, once an iteration inside."""
+        total, block = 0, 0
+        parts = steps * max(1, len(self.compiled.program.substeps))
+        for statement in self.compiled.program.body:
+            if isinstance(statement, Assign):
+                total += parts * cost(statement.operation)
+                continue
+            inside = sum(cost(a.operation) for a in statement.body)
+            total += inside * iterations[block]
+            block += 1
+        return total
+
+
+def _compile_seconds(files: Mapping[str, str]) -> float:
+    with tempfile.TemporaryDirectory() as folder:
+        start = time.perf_counter()
+        flags = (*FLAGS, "-fPIC", "-shared")
+        compile_files(files, Path(folder), Path(folder) / "out", flags, find_compiler())
+        return time.perf_counter() - start

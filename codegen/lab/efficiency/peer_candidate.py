@@ -1,0 +1,90 @@
+"""A peer as a candidate of a work-precision diagram, on the ambient equations of the scene."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from codegen.lab.distance import distance
+from codegen.lab.efficiency.work_precision import (
+    BUDGET,
+    COUNTED,
+    Row,
+    at_rounding,
+    beyond_budget,
+    doubled_steps,
+)
+from codegen.lab.peers import TOLERANCES, Peer, PeerFailed
+from codegen.lab.reference import Reference
+from codegen.lab.timing import cost, samples
+from codegen.scene.problem import Problem
+from orderconds.errors import InputError
+
+
+@dataclass
+class PeerCandidate:
+    """A peer on a scene. A peer that refuses the scene has one row, with its reason."""
+
+    scene: Problem
+    peer: Peer
+    exact: Reference
+    budget: float = BUDGET
+    target: str = "peer"
+
+    def __post_init__(self) -> None:
+        self.label = self.peer.name
+        self.key = self.peer.version
+        self.refused = False
+
+    def controls(self) -> Iterator[float]:
+        """Tighten the tolerance, or double the number of steps."""
+        return iter(TOLERANCES) if self.peer.controlled == "tolerance" else doubled_steps()
+
+    def prepare(self) -> None:
+        """Do nothing: the code of a peer may depend on its tolerance, so each run prepares it."""
+
+    def measure(self, control: float) -> Row:
+        """Prepare, run and time."""
+        start = time.perf_counter()
+        try:
+            prepared = self.peer.prepare(self.scene, control)
+            setup = time.perf_counter() - start
+            outcome = prepared.run()
+            error = distance(self.scene, outcome.state, self.exact.state)
+            if not math.isfinite(error):
+                raise PeerFailed("the final state is not finite")
+            spent = samples(prepared.run)
+            subtract = prepared.idle is not None and spent[0] < COUNTED
+            overhead = cost(prepared.idle) if subtract and prepared.idle is not None else 0.0
+        except Exception as failure:  # other software may raise anything; the other candidates go on
+            self.refused = not isinstance(failure, PeerFailed)
+            setup = time.perf_counter() - start
+            reason = str(failure)
+            if not isinstance(failure, PeerFailed | InputError):
+                reason = f"{type(failure).__name__}: {reason}"
+            names = (self.scene.name, self.label, self.target)
+            return Row(*names, control, compile_seconds=setup, failure=reason)
+        times = [s - min(overhead, s) for s in spent]
+        first, last = map(float, self.scene.span)
+        return Row(
+            self.scene.name,
+            self.label,
+            self.target,
+            control,
+            h=(last - first) / max(outcome.steps, 1),
+            steps=outcome.steps,
+            error=error,
+            seconds=times[0],
+            spread=times[-1] / times[0] - 1 if times[0] else None,
+            ns_per_step=1e9 * times[0] / max(outcome.steps, 1),
+            evaluations=outcome.evaluations,
+            compile_seconds=setup,
+        )
+
+    def enough(self, rows: Sequence[Row]) -> bool:
+        """Stop at the budget or a refusal, and with equal steps at rounding."""
+        if self.refused or beyond_budget(rows, self.budget):
+            return True
+        return self.peer.controlled != "tolerance" and at_rounding(rows, self.exact)

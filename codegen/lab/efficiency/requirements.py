@@ -1,0 +1,127 @@
+"""Requirements on a method besides accuracy, and the fastest method that meets each of them.
+
+A recommendation follows from the work-precision rows: for each requirement and accuracy, the fastest
+candidate that meets the requirement. Properties of a method are derived from its program and tableau, not
+declared.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from codegen.artifact import Artifact
+from codegen.emitter import Compiled
+from codegen.lab.efficiency.ranking import seconds_to
+from codegen.lab.efficiency.work_precision import Row
+from codegen.lower import lowering
+
+DECADES = (3, 6, 9, 12)
+"""The accuracies of the recommendations: errors of 10^-decade."""
+
+STACK = 4096
+"""Bytes of stack of a call on a small processor."""
+
+
+@dataclass(frozen=True)
+class Features:
+    """Properties of an emitted method.
+
+    ``on_manifold``: a step acts by group elements, so the state stays on the manifold up to rounding;
+    ``explicit``: no equations are solved, so every step of one size takes the same time; ``stack`` is a
+    bound of the stack of a call in bytes, ``lines`` the length of the emitted C.
+    """
+
+    label: str
+    on_manifold: bool
+    symplectic: bool
+    explicit: bool
+    adaptive: bool
+    stack: int
+    lines: int
+
+
+def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Features:
+    """Return the properties of a method as emitted to C; ``label`` is by default that of the method."""
+    source = artifact.files[f"{artifact.manifest['module']}.c"]
+    stack = re.search(r"stack: +at most (\d+) bytes", source)
+    return Features(
+        label or compiled.method.label,
+        compiled.method.kind.keeps_manifold or compiled.scene.group.abelian,
+        is_symplectic(compiled),
+        not compiled.kernel.loops,
+        compiled.method.adaptive,
+        int(stack[1]) if stack else 0,
+        source.count("\n"),
+    )
+
+
+def is_symplectic(compiled: Compiled) -> bool:
+    """Whether steps of one size are symplectic maps.
+
+    Step-size control destroys the long-time behaviour of symplectic methods, so a run with it does not count.
+    """
+    scene, method = compiled.scene, compiled.method
+    if not scene.is_hamiltonian or method.adaptive:
+        return False
+    return lowering(method.family).symplectic(scene, method)
+
+
+@dataclass(frozen=True)
+class Need:
+    """A requirement: its name, its meaning, and whether a method meets it."""
+
+    name: str
+    meaning: str
+    met: Callable[[Features], bool]
+
+
+NEEDS = (
+    Need("any emitted method", "no requirement", lambda f: True),
+    Need("on the manifold", "the state stays on the manifold up to rounding", lambda f: f.on_manifold),
+    Need(
+        "symplectic",
+        "energy and momenta stay close to their initial values for long times",
+        lambda f: f.symplectic,
+    ),
+    Need("explicit", "no equations are solved; each step takes the same time", lambda f: f.explicit),
+    Need("adaptive", "step sizes are controlled by an error estimate", lambda f: f.adaptive),
+    Need(
+        "embedded target",
+        f"explicit, equal steps, at most {STACK} bytes of stack",
+        lambda f: f.explicit and not f.adaptive and 0 < f.stack <= STACK,
+    ),
+)
+
+
+@dataclass(frozen=True)
+class Advice:
+    """For one requirement: the fastest candidate and its CPU seconds for each of :data:`DECADES`, or None."""
+
+    need: str
+    meaning: str
+    best: tuple[tuple[str, float] | None, ...]
+
+
+def advise(entries: Mapping[str, Sequence[Row]], known: Sequence[Features]) -> tuple[Advice, ...]:
+    """Return the advice for every requirement, and last for peers if some ran."""
+    ours = [(need, [f.label for f in known if need.met(f) and f.label in entries]) for need in NEEDS]
+    advice = [Advice(need.name, need.meaning, _best(entries, labels)) for need, labels in ours]
+    peers = [label for label, rows in entries.items() if rows and rows[0].target == "peer"]
+    if peers:
+        advice.append(
+            Advice("a peer, for comparison", "other software on the same equations", _best(entries, peers))
+        )
+    return tuple(advice)
+
+
+def _best(
+    entries: Mapping[str, Sequence[Row]], labels: Sequence[str]
+) -> tuple[tuple[str, float] | None, ...]:
+    best = []
+    for decade in DECADES:
+        times = [(seconds_to(entries[label], 10.0**-decade), label) for label in labels]
+        reached = sorted((t, label) for t, label in times if t is not None)
+        best.append((reached[0][1], reached[0][0]) if reached else None)
+    return tuple(best)

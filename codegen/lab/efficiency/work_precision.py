@@ -1,0 +1,160 @@
+"""Work-precision diagrams: error against CPU time, over a sequence of step sizes or tolerances.
+
+A :class:`Candidate` is an emitted method or a peer. Each run gives one :class:`Row`: the error at the end of
+the span in the norm of the scene, and CPU time as :mod:`codegen.lab.timing` measures it. A run that fails is
+a row with its reason, and so is a candidate that cannot be prepared.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass
+from typing import Protocol
+
+from codegen.lab.measurement_cache import MeasurementCache
+from codegen.lab.reference import Reference
+from orderconds.errors import InputError
+
+BUDGET = 1.0
+"""CPU seconds that one run may take."""
+
+MOST_STEPS = 5 * 2**21
+COUNTED = 1e-3
+"""CPU seconds below which the overhead of a call from Python is subtracted."""
+
+NEAR_ROUNDING = 1e-9
+"""Below this error, relative to the state, rounding may stop the convergence."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """One run. ``control`` is the requested tolerance or number of steps, ``h`` the (mean) step.
+
+    ``seconds`` is the least CPU time of several batches, ``spread`` the relative excess of the largest.
+    ``evaluations``, ``exponentials`` and ``iterations`` count the whole run; they are None if not counted.
+    ``failure`` is the reason if there is neither error nor time.
+    """
+
+    scene: str
+    method: str
+    target: str
+    control: float
+    h: float | None = None
+    steps: int | None = None
+    error: float | None = None
+    seconds: float | None = None
+    spread: float | None = None
+    ns_per_step: float | None = None
+    evaluations: int | None = None
+    exponentials: int | None = None
+    iterations: int | None = None
+    emission_seconds: float = 0.0
+    compile_seconds: float = 0.0
+    failure: str = ""
+
+    def as_json(self) -> dict[str, str | float | int | None]:
+        """Return plain data."""
+        return asdict(self)
+
+
+class Candidate(Protocol):
+    """A method or peer to measure: ``label`` and ``target`` name it; ``key`` identifies its code."""
+
+    label: str
+    target: str
+    key: str
+
+    def controls(self) -> Iterator[float]:
+        """Yield numbers of steps or tolerances, coarse to fine."""
+
+    def prepare(self) -> None:
+        """Do the work before the first run; InputError if the candidate cannot run on the scene."""
+
+    def measure(self, control: float) -> Row:
+        """Run once for the error, then several times for the CPU time."""
+
+    def enough(self, rows: Sequence[Row]) -> bool:
+        """Whether finer runs are not needed."""
+
+
+def measure_rows(
+    candidate: Candidate,
+    scene: str,
+    exact: Reference,
+    cache: MeasurementCache,
+    done: Callable[[Row], object],
+) -> tuple[Row, ...]:
+    """Return the rows of a candidate; ``done`` is called with each. Rows that ``cache`` holds are not
+    repeated.
+
+    The candidate is prepared only if some row is missing. If it cannot be prepared, the last row has the
+    reason.
+    """
+    rows: list[Row] = []
+    ready = False
+    for control in candidate.controls():
+        key = ("bench", candidate.label, candidate.target, candidate.key, control, exact.digits())
+        row = cache.find(key, Row)
+        if row is None:
+            try:
+                if not ready:
+                    candidate.prepare()
+            except (InputError, ArithmeticError) as error:
+                row = Row(scene, candidate.label, candidate.target, control, failure=str(error))
+                return (*rows, row)
+            ready = True
+            row = candidate.measure(control)
+            cache.store(key, row)
+        rows.append(row)
+        done(row)
+        if candidate.enough(rows):
+            break
+    return tuple(rows)
+
+
+@dataclass
+class Refused:
+    """A method that cannot be emitted for the scene, as a candidate with the reason."""
+
+    label: str
+    target: str
+    reason: str
+    key: str = ""
+
+    def controls(self) -> Iterator[float]:
+        """Yield one control, for the row with the reason."""
+        yield 0.0
+
+    def prepare(self) -> None:
+        """Raise the reason."""
+        raise InputError(self.reason)
+
+    def measure(self, control: float) -> Row:
+        """Never called, because it cannot be prepared."""
+        raise NotImplementedError
+
+    def enough(self, rows: Sequence[Row]) -> bool:
+        """Stop at once."""
+        return True
+
+
+def doubled_steps() -> Iterator[float]:
+    """Yield 1, 2, 4, ... steps."""
+    n = 1
+    while n <= MOST_STEPS:
+        yield float(n)
+        n *= 2
+
+
+def beyond_budget(rows: Sequence[Row], budget: float) -> bool:
+    """Whether the next run would take longer than ``budget`` CPU seconds."""
+    last = rows[-1]
+    return last.seconds is not None and 2 * last.seconds > budget
+
+
+def at_rounding(rows: Sequence[Row], exact: Reference) -> bool:
+    """Whether two halvings of the step in a row reduced the error little, near rounding."""
+    errors = [r.error for r in rows[-3:] if r.error is not None]
+    size = max(1.0, math.hypot(*map(float, exact.state)))
+    return len(errors) == 3 and errors[0] <= NEAR_ROUNDING * size and min(errors[1:]) > errors[0] / 3

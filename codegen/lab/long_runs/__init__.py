@@ -1,0 +1,1 @@
+"""Long runs: drift of conserved quantities, growth of rounding errors, symplecticity, reversibility."""

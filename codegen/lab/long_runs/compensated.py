@@ -1,0 +1,152 @@
+"""Compensated steps: the state together with the rounding error of each coordinate (Kahan summation).
+
+A step y1 = y0 + d rounds the sum at the last bit of y0, however small d is. If the increment d is available,
+the lost part is carried to the next step: with s = d + carry, y1 = y0 + s and carry' = s - (y1 - y0). The
+remaining rounding errors are those of d, which are smaller by the factor d/y0. A step of a group, exp(x) y0,
+has the same form: it is y0 + (exp(x) - 1) y0, and the entries of exp(x) - 1 are computed without
+cancellation. The increments are extracted from the kernel, for any method.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from codegen.emitter import Compiled
+from codegen.errors import MethodError
+from codegen.ir.expr import Expr, walk
+from codegen.ir.kernel import Field, Kernel, Let, Loop, Start
+from codegen.kernel.translate import to_kernel
+
+CARRY = "carry_"
+
+Statement = Let | Start | Loop
+
+
+def compensated(compiled: Compiled) -> Compiled:
+    """Return the method with a state that is followed by the carry of each coordinate, initially zero.
+
+    :class:`MethodError` if the new value of some coordinate is not the old value plus an increment.
+    """
+    kernel = compiled.kernel
+    if kernel.deferred is not None:  # deferred flows would be applied once for many steps
+        kernel = to_kernel(compiled.program, compiled.view)
+    if kernel.carried is not None:
+        solvers = {loop.label: loop.solver for loop in kernel.loops}
+        kernel = to_kernel(compiled.program, compiled.view, solvers, whole=True)
+    return replace(compiled, kernel=with_carries(kernel))
+
+
+def with_carries(kernel: Kernel) -> Kernel:
+    """Return a kernel with a carry for each coordinate; MethodError as :func:`compensated`."""
+    space = kernel.outputs[0].space
+    increments = Increments(kernel)
+    symbols = [s for field in kernel.state for s in field.symbols]
+    body, sums, carries = list(kernel.body), [], []
+    for name, output in zip(symbols, kernel.outputs, strict=True):
+        old, added = space.sym(name), increments.of(output, name)
+        if added is None:
+            raise MethodError(
+                f"the new value of {name} is not its old value plus an increment",
+                expected="a method that adds an increment to every coordinate",
+            )
+        if added.is_zero:
+            sums.append(old)
+            carries.append(space.sym(CARRY + name))
+            continue
+        body += [
+            Let(f"added_{name}", added + space.sym(CARRY + name)),
+            Let(f"sum_{name}", old + space.sym(f"added_{name}")),
+        ]
+        total = space.sym(f"sum_{name}")
+        sums.append(total)
+        carries.append(space.sym(f"added_{name}") - (total - old))
+    fields = tuple(
+        Field(CARRY + f.name, tuple(CARRY + s for s in f.symbols), f"rounding errors of {f.name}")
+        for f in kernel.state
+    )
+    return replace(
+        kernel,
+        state=(*kernel.state, *fields),
+        body=_live(body, (*sums, *carries)),
+        outputs=(*sums, *carries),
+        deferred=None,
+        estimate=None,
+        vary=None,
+    )
+
+
+def _live(body: Sequence[Statement], outputs: Sequence[Expr]) -> tuple[Statement, ...]:
+    """Return a body without assignments that are no longer read."""
+    needed = {n.payload for n in walk(outputs) if n.op == "sym"}
+    kept: list[Statement] = []
+    for statement in reversed(body):
+        if isinstance(statement, Let) and statement.name not in needed:
+            continue
+        roots = replace(_EMPTY, body=(statement,)).expressions()
+        needed |= {n.payload for n in walk(roots) if n.op == "sym"}
+        kept.append(statement)
+    return tuple(reversed(kept))
+
+
+_EMPTY = Kernel("", (), (), (), ())
+
+
+class Increments:
+    """Finds increments without cancellation: e - x for e = x + increment, f - 1 for f = 1 + increment."""
+
+    def __init__(self, kernel: Kernel) -> None:
+        self.values = {let.name: let.value for let in kernel.lets()}
+        self.space = kernel.outputs[0].space
+        self.increments: dict[tuple[int, str], Expr | None] = {}
+        self.factors: dict[int, Expr | None] = {}
+
+    def of(self, e: Expr, name: str) -> Expr | None:
+        """Return e minus the symbol ``name``; None if e does not have the form symbol + increment."""
+        key = (e.id, name)
+        if key not in self.increments:
+            self.increments[key] = self._of(e, name)
+        return self.increments[key]
+
+    def _of(self, e: Expr, name: str) -> Expr | None:
+        if e.op == "sym":
+            if e.payload == name:
+                return self.space.zero
+            return self.of(self.values[e.payload], name) if e.payload in self.values else None
+        if e.op in ("add", "sub"):
+            a, b = e.args
+            if (rest := self.of(a, name)) is not None:
+                return rest + b if e.op == "add" else rest - b
+            if e.op == "add" and (rest := self.of(b, name)) is not None:
+                return a + rest
+        if e.op == "mul":
+            for factor, base in (e.args, e.args[::-1]):
+                rest, more = self.of(base, name), self.less_one(factor)
+                if rest is not None and more is not None:
+                    return more * base + rest
+        return None
+
+    def less_one(self, f: Expr) -> Expr | None:
+        """Return f - 1; None if f does not have the form 1 + increment."""
+        if f.id not in self.factors:
+            self.factors[f.id] = self._less_one(f)
+        return self.factors[f.id]
+
+    def _less_one(self, f: Expr) -> Expr | None:
+        if f is self.space.one:
+            return self.space.zero
+        if f.op == "sym":
+            return self.less_one(self.values[f.payload]) if f.payload in self.values else None
+        if f.op in ("add", "sub"):
+            a, b = f.args
+            if (rest := self.less_one(a)) is not None:
+                return rest + b if f.op == "add" else rest - b
+            if f.op == "add" and (rest := self.less_one(b)) is not None:
+                return a + rest
+        if f.op == "mul":
+            first, second = map(self.less_one, f.args)
+            if first is not None and second is not None:
+                return first + second + first * second
+        if f.op == "call" and f.payload == "stumpff0":  # c_0(z) = 1 - z c_2(z)
+            return -(f.args[0] * self.space.call("stumpff2", f.args[0]))
+        return None

@@ -1,0 +1,128 @@
+"""The drift of a conserved quantity: a slope with its confidence interval, and the growth of the deviation.
+
+Errors along one trajectory are correlated, so the interval of a least-squares line would be far too narrow.
+The record is cut into blocks much longer than its oscillations. Block means are nearly independent, and a
+line through them has a valid interval from Student's distribution (batch means).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy
+
+BLOCKS = 20
+CONFIDENCE = 0.95
+
+LOST = 1.0
+"""Relative deviation from which a quantity is lost: its error is as large as the quantity itself."""
+
+BOUNDED, WALK = 0.25, 0.75
+"""Exponents of growth below which a deviation counts as bounded, and as a random walk."""
+
+
+@dataclass(frozen=True)
+class Drift:
+    """The slope per unit of time with its half width at 95 %, the largest deviation, and the growth exponent.
+
+    ``exponent`` p means that the largest deviation grows like t^p: 0 if it is bounded, 1/2 for a random
+    walk, 1 for a drift. ``rounding`` is the largest deviation that rounding explains. A slope that cannot be
+    fitted, because too few values are finite, is NaN.
+    """
+
+    slope: float
+    half_width: float
+    largest: float
+    exponent: float
+    rounding: float = 0.0
+
+    @property
+    def is_drift(self) -> bool:
+        """Whether the interval of the slope excludes zero."""
+        return abs(self.slope) > self.half_width
+
+    @property
+    def law(self) -> str:
+        """The verdict in words.
+
+        ``lost`` if the deviation reaches the size of the quantity, ``exact`` without deviation, ``rounding``
+        if rounding explains it; otherwise ``bounded``, ``random walk`` or ``drift`` by its growth, and ``too
+        short to tell`` if it grows but the interval of the slope contains zero.
+        """
+        if not self.largest < LOST:
+            return "lost"
+        if self.largest == 0.0:
+            return "exact"
+        if self.largest <= self.rounding:
+            return "rounding"
+        if self.exponent < BOUNDED:
+            return "bounded"
+        if not self.is_drift:
+            return "too short to tell"
+        return "random walk" if self.exponent < WALK else "drift"
+
+    def as_json(self) -> dict[str, object]:
+        """Return plain data; numbers that are not finite are null."""
+        numbers = {
+            "largest": self.largest,
+            "slope": self.slope,
+            "half_width": self.half_width,
+            "exponent": self.exponent,
+        }
+        return {name: x if math.isfinite(x) else None for name, x in numbers.items()} | {"law": self.law}
+
+
+def fit(
+    times: Sequence[float],
+    deviations: Sequence[float],
+    peaks: Sequence[float] | None = None,
+    rounding: float = 0.0,
+) -> Drift:
+    """Return the drift of relative deviations from an initial value, sampled after the start.
+
+    ``times`` increase, or decrease in a backward run. ``peaks`` are the largest absolute deviations up to
+    each sample since the sample before, by default the samples themselves. Values from the first one that is
+    not finite on are not used for the slope; the largest deviation is then infinite.
+
+    >>> found = fit([float(k) for k in range(1, 401)], [1e-9 * k for k in range(1, 401)])
+    >>> f"{found.slope:.1e}", found.law, found.is_drift
+    ('1.0e-09', 'drift', True)
+    """
+    if len(times) < 2 * BLOCKS:
+        raise ValueError(f"expected at least {2 * BLOCKS} samples, found {len(times)}")
+    t, y = numpy.array(times, dtype=float), numpy.array(deviations, dtype=float)
+    size = numpy.abs(y) if peaks is None else numpy.array(peaks, dtype=float)
+    finite = numpy.isfinite(y) & numpy.isfinite(size)
+    count = len(t) if finite.all() else int(numpy.argmin(finite))
+    largest = float(size.max()) if count == len(t) else math.inf
+    if count < 2 * BLOCKS:
+        return Drift(math.nan, math.nan, largest, math.nan, rounding)
+    whole, scale = float(t[count - 1]), float(size[:count].max()) or 1.0
+    t, y, size = t[:count] / whole, y[:count] / scale, size[:count] / scale  # no overflow of squares
+    slope, half = _slope(t, y)
+    factor = scale / whole
+    return Drift(slope * factor, half * abs(factor), largest, _exponent(t, size), rounding)
+
+
+def _slope(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
+    """Return the slope of a line through block means, and the half width of its interval."""
+    import scipy.stats
+
+    pairs = zip(numpy.array_split(t, BLOCKS), numpy.array_split(y, BLOCKS), strict=True)
+    x, z = numpy.array([(a.mean(), b.mean()) for a, b in pairs]).T
+    centred = x - x.mean()
+    slope = float(centred @ z / (centred @ centred))
+    residual = z - z.mean() - slope * centred
+    error = math.sqrt(float(residual @ residual) / (BLOCKS - 2) / float(centred @ centred))
+    return slope, float(scipy.stats.t.ppf((1 + CONFIDENCE) / 2, BLOCKS - 2)) * error
+
+
+def _exponent(t: numpy.ndarray, size: numpy.ndarray) -> float:
+    """Return the slope of log(largest so far) against log t over the later nine tenths of the record."""
+    largest = numpy.maximum.accumulate(size)
+    late = (t >= t[0] + 0.1 * (t[-1] - t[0])) & (largest > 0)
+    if late.sum() < 2:
+        return 0.0
+    return float(numpy.polyfit(numpy.log(t[late]), numpy.log(largest[late]), 1)[0])

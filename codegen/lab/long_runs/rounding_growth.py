@@ -1,0 +1,216 @@
+"""The growth of rounding errors over many steps, with and without compensated summation.
+
+It is measured in the quantities that a method conserves exactly in exact arithmetic: the manifold equations,
+and invariants that one step in 60 digits does not change. Independent rounding errors make such a quantity a
+random walk, whose deviation grows like the square root of the number of steps (Brouwer 1937). Biased
+rounding errors make it drift proportionally to the number of steps: a body that rotates by the same angle in
+every step makes the same rounding error in every step, and compensation does not remove it. Deviations are
+computed in 60 digits for several starts along one trajectory. The exponent is that of their root mean
+square; its interval is from the jackknife over the starts.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+
+from codegen.emitter import Compiled, emit_compiled
+from codegen.errors import MethodError
+from codegen.ir.domain import NotConverged, PreciseDomain
+from codegen.lab.invariants import MANIFOLD, expressions
+from codegen.lab.long_runs.compensated import compensated
+from codegen.lab.long_runs.drift import CONFIDENCE
+from codegen.lab.number_types import Evaluate, Vector
+from codegen.lab.runner import Emitted
+from codegen.lab.stability.extreme_steps import DIGITS, precise_step
+from codegen.lab.straight_line_field import straight_line
+from codegen.loader import Integrator, StepFailed, load
+
+STARTS = 16
+APART = 37
+"""Steps from one start to the next."""
+
+TIMES = 9
+"""Number of times at which deviations are measured, each after twice as many steps as the one before."""
+
+EXACT = 1e-30
+"""A quantity is conserved exactly if one step in 60 digits changes it by less than this, relatively."""
+
+
+NEARLY = 1e-14
+"""The same for a state that is off the manifold by rounding."""
+
+
+@dataclass(frozen=True)
+class Growth:
+    """The root mean square of the relative deviation of a quantity after numbers of steps, and its exponent.
+
+    ``half_width`` is the half width of the 95 % interval of the exponent.
+    """
+
+    quantity: str
+    compensated: bool
+    steps: tuple[int, ...]
+    sizes: tuple[float, ...]
+    exponent: float
+    half_width: float
+
+    @property
+    def law(self) -> str:
+        """The growth in words: the laws that the interval of the exponent does not exclude."""
+        if self.exponent + self.half_width < 0.25:
+            return "bounded"
+        laws = {"random walk": 0.5, "systematic": 1.0}
+        held = [name for name, p in laws.items() if abs(self.exponent - p) <= max(self.half_width, 0.1)]
+        return " or ".join(held) or "neither law"
+
+    def as_json(self) -> dict[str, object]:
+        """Return plain data."""
+        return {
+            "quantity": self.quantity,
+            "compensated": self.compensated,
+            "steps": list(self.steps),
+            "rms": list(self.sizes),
+            "exponent": self.exponent,
+            "half_width": self.half_width,
+            "law": self.law,
+        }
+
+
+def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, ...]:
+    """Return the growth of rounding in every exactly conserved quantity, plain and compensated.
+
+    A step without a compensated form gives the plain results only; a run that fails gives none.
+    """
+    scene, plain = compiled.scene, Emitted(compiled, "c")
+    domain = PreciseDomain(0, DIGITS)
+    first = float(scene.span[0])
+    if not exactly_conserved(compiled, [(first, plain.initial)], h):
+        return ()
+    runs: list[tuple[bool, Integrator]] = [(False, plain.integrator)]
+    with suppress(MethodError):
+        runs.append((True, load(emit_compiled(compensated(compiled), "c"))))
+    counts = [steps >> k for k in reversed(range(TIMES)) if steps >> k]
+    growths = []
+    try:
+        starts = _starts(runs[-1], plain.initial, first, h)
+        kept = exactly_conserved(compiled, (starts[0], starts[-1]), h)
+        for carried, integrator in runs:
+            deviations = [
+                _deviations(kept, integrator, start, t, h, counts, domain, carried) for t, start in starts
+            ]
+            for name in kept:
+                sizes = [[row[name] for row in member] for member in deviations]
+                growths.append(_growth(name, carried, counts, sizes))
+    except StepFailed:
+        return ()
+    return tuple(sorted(growths, key=lambda g: (list(kept).index(g.quantity), g.compensated)))
+
+
+def _starts(
+    run: tuple[bool, Integrator], initial: Sequence[float], t: float, h: float
+) -> list[tuple[float, list[float]]]:
+    """Return times and states along a trajectory, of the compensated step if there is one.
+
+    A start that is off the manifold keeps its distance while it rotates, so starts must be accurate.
+    """
+    carried, integrator = run
+    size, starts = len(initial), []
+    state = [*initial, *([0.0] * size if carried else [])]
+    for k in range(STARTS):
+        starts.append((t + k * APART * h, state[:size]))
+        state = integrator.run(state, h, APART, t + k * APART * h)
+    return starts
+
+
+def exactly_conserved(
+    compiled: Compiled, starts: Sequence[tuple[float, Sequence[float]]], h: float
+) -> dict[str, Evaluate]:
+    """Return the quantities, as functions over 60 digits, that steps in 60 digits do not change.
+
+    ``starts`` are times and states. The first state is exact, so the quantity must not change at all. The
+    others are off the manifold by rounding, so a change of the size of rounding is allowed. A step from the
+    initial state alone is not enough, because a quantity may be stationary there. Empty if the interpreter
+    cannot make a step.
+    """
+    domain = PreciseDomain(0, DIGITS)
+    functions = {name: getattr(domain.context, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
+    quantities = {
+        name: straight_line(compiled.scene, exprs).python(domain.number, functions)
+        for name, exprs in expressions(compiled.scene).items()
+    }
+    for k, (t, state) in enumerate(starts):
+        numbers = [domain.context.mpf(x) for x in state]
+        try:
+            after = precise_step(compiled, numbers, t, h)
+            quantities = {
+                name: evaluate
+                for name, evaluate in quantities.items()
+                if _distance(name, evaluate(after, t + h), evaluate(numbers, t)) < (NEARLY if k else EXACT)
+            }
+        except (NotConverged, ArithmeticError, ValueError):
+            return {}
+    return quantities
+
+
+def _distance(name: str, values: Vector, before: Vector) -> float:
+    """Return the largest change; of an invariant relative to its size, if that is not zero."""
+    scale = 1 if name == MANIFOLD else max(abs(x) for x in before) or 1
+    return float(max(abs(a - b) for a, b in zip(values, before, strict=True)) / scale)
+
+
+def _deviations(
+    kept: dict[str, Evaluate],
+    integrator: Integrator,
+    start: list[float],
+    t: float,
+    h: float,
+    counts: Sequence[int],
+    domain: PreciseDomain,
+    carried: bool,
+) -> list[dict[str, float]]:
+    """Return the deviation of every quantity after each number of steps."""
+    number, size = domain.context.mpf, len(start)
+
+    def values(state: Sequence[float]) -> dict[str, Vector]:
+        carries = state[size:] if carried else [0.0] * size
+        exact = [number(x) + number(c) for x, c in zip(state[:size], carries, strict=True)]
+        return {name: evaluate(exact, t) for name, evaluate in kept.items()}
+
+    state, done, rows = [*start, *([0.0] * size if carried else [])], 0, []
+    before = values(state)
+    for count in counts:
+        state = integrator.run(state, h, count - done, t + done * h)
+        done = count
+        rows.append({name: _distance(name, x, before[name]) for name, x in values(state).items()})
+    return rows
+
+
+def _growth(name: str, carried: bool, counts: Sequence[int], members: Sequence[Sequence[float]]) -> Growth:
+    """Return the growth of the root mean square over members, with the interval of the jackknife."""
+    import scipy.stats
+
+    sizes = _rms(members)
+    exponent = _slope(counts, sizes)
+    n = len(members)
+    left = [_slope(counts, _rms([m for j, m in enumerate(members) if j != k])) for k in range(n)]
+    mean = sum(left) / n
+    error = math.sqrt((n - 1) / n * sum((x - mean) ** 2 for x in left))
+    half = float(scipy.stats.t.ppf((1 + CONFIDENCE) / 2, n - 1)) * error
+    return Growth(name, carried, tuple(counts), tuple(sizes), exponent, half)
+
+
+def _rms(members: Sequence[Sequence[float]]) -> list[float]:
+    return [math.sqrt(sum(x * x for x in column) / len(members)) for column in zip(*members, strict=True)]
+
+
+def _slope(counts: Sequence[int], sizes: Sequence[float]) -> float:
+    """Return the least-squares slope of log size against log count, without zeros."""
+    pairs = [(math.log(n), math.log(x)) for n, x in zip(counts, sizes, strict=True) if x > 0]
+    if len(pairs) < 2:
+        return 0.0
+    x, y = (sum(values) / len(pairs) for values in zip(*pairs, strict=True))
+    slope: float = sum((a - x) * (b - y) for a, b in pairs) / sum((a - x) ** 2 for a, _ in pairs)
+    return slope

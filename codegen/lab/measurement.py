@@ -1,0 +1,75 @@
+"""The base class of measurements: what is measured, its JSON, and its section of the report."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar, cast
+
+if TYPE_CHECKING:
+    from codegen.lab.subject import Subject
+
+R = TypeVar("R")
+
+
+@dataclass(frozen=True)
+class Section:
+    """The body of a section: a Jinja template, as source text, and its variables.
+
+    The template may import macros from ``parts.html.j2``. Text is escaped unless it is ``Markup``. The
+    heading is the title of the measurement.
+    """
+
+    template: str
+    data: Mapping[str, object] = field(default_factory=dict)
+
+
+class Measurement(ABC, Generic[R]):
+    """A measurement of methods on a scene, with a result of type R.
+
+    Subclasses set ``name`` (for ``report --only``, the JSON and anchors), ``title`` (heading of the section)
+    and ``about`` (one line for ``orderconds list measurements``), and define :meth:`run`, :meth:`as_json`
+    and :meth:`section`. ``json_key`` is the key in the JSON of the report, by default the name. A
+    measurement with ``part_of`` is selected together with the measurement of that name.
+    """
+
+    name: ClassVar[str]
+    title: ClassVar[str]
+    about: ClassVar[str]
+    json_key: ClassVar[str] = ""
+    part_of: ClassVar[str] = ""
+
+    @abstractmethod
+    def run(self, subject: Subject) -> R:
+        """Measure. Methods that fail must not affect the others (see :meth:`Subject.each`)."""
+
+    @abstractmethod
+    def as_json(self, result: R) -> object:
+        """Return the result as plain data."""
+
+    @abstractmethod
+    def section(self, result: R, subject: Subject) -> Section | None:
+        """Return the body of the section, or None if there is nothing to show."""
+
+    def holds(self, result: R) -> bool:
+        """Whether every check holds; the exit status of ``report`` is 1 otherwise."""
+        return True
+
+    def lines(self, result: R, subject: Subject) -> Iterable[str]:
+        """Return lines for the terminal."""
+        return ()
+
+    def overview(self, result: R, subject: Subject) -> Section | None:
+        """Return a paragraph or table for the overview of all scenes."""
+        return None
+
+    def files(self, result: R, subject: Subject) -> Mapping[str, str]:
+        """Return files to write beside the page, by name."""
+        return {}
+
+    def result(self, subject: Subject) -> R:
+        """Return the result on a subject; it is measured once."""
+        if self.name not in subject.results:
+            subject.results[self.name] = self.run(subject)
+        return cast("R", subject.results[self.name])

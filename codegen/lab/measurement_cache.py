@@ -1,0 +1,126 @@
+"""Measurements kept on disk by content, so that the same measurement is made once.
+
+The name of an entry is a digest of everything that the result depends on: the emitted files, the scene, the
+settings, the kind of processor. An entry holds a digest of its own bytes. It is written under a temporary
+name and then moved into place, so that an interrupted write leaves no entry. An entry that is truncated,
+changed, or of another type is measured again. A folder that another user owns is never read or written.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import platform
+import shutil
+import stat
+import tempfile
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TypeVar
+
+from codegen.cache_entry import cache_directory
+
+T = TypeVar("T")
+
+FORMAT = 1
+"""Version of the file format; part of every key."""
+
+FOLDER = ".measured"
+"""Name of the folder that holds the entries of an unfinished report or bench, beside its results."""
+
+DIGEST = 32
+"""Bytes of SHA-256 at the start of an entry."""
+
+
+class MeasurementCache:
+    """Results by key in a folder; a cache without a folder keeps nothing.
+
+    >>> MeasurementCache(None).get(("a key",), int, lambda: 3)
+    3
+    """
+
+    def __init__(self, folder: Path | None) -> None:
+        self.folder = folder
+
+    def get(self, key: Sequence[object], kind: type[T], measure: Callable[[], T]) -> T:
+        """Return the stored result of ``key``, or call ``measure`` and store what it returns.
+
+        ``kind`` is the result's type, built of dataclasses, tuples and plain values. ``key`` consists of
+        values whose ``repr`` is the same in every process. A folder that cannot be used costs time and
+        raises nothing; exceptions of ``measure`` are passed on, and nothing is stored.
+        """
+        result = self.find(key, kind)
+        if result is None:
+            result = measure()
+            self.store(key, result)
+        return result
+
+    def find(self, key: Sequence[object], kind: type[T]) -> T | None:
+        """Return the stored result of ``key``; None if it is missing, damaged or not of type ``kind``."""
+        import msgspec
+
+        if self.folder is None or not _secured(self.folder):
+            return None
+        try:
+            content = self._path(self.folder, key).read_bytes()
+            digest, body = content[:DIGEST], content[DIGEST:]
+            if hashlib.sha256(body).digest() != digest:
+                return None
+            return msgspec.msgpack.decode(body, type=kind)
+        except (OSError, msgspec.DecodeError):  # msgspec.ValidationError is a DecodeError
+            return None
+
+    def store(self, key: Sequence[object], result: object) -> None:
+        """Store a result; does nothing if the folder cannot be written to or belongs to another user."""
+        import msgspec
+
+        if self.folder is None:
+            return
+        body = msgspec.msgpack.encode(result)
+        try:
+            self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+            if not _secured(self.folder):
+                return
+            _replace(self._path(self.folder, key), hashlib.sha256(body).digest() + body)
+        except OSError:
+            return
+
+    def remove(self) -> None:
+        """Delete the folder with all entries."""
+        if self.folder is not None and _secured(self.folder):
+            shutil.rmtree(self.folder, ignore_errors=True)
+
+    @staticmethod
+    def _path(folder: Path, key: Sequence[object]) -> Path:
+        text = repr((FORMAT, platform.machine(), *key))
+        return folder / hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+def user_cache() -> MeasurementCache:
+    """Return the cache of this user, in :func:`codegen.cache_entry.cache_directory`."""
+    return MeasurementCache(cache_directory() / "measurements")
+
+
+def _secured(folder: Path) -> bool:
+    """Set the mode of a folder to 0700; return whether it is a real directory of this user."""
+    try:
+        status = os.lstat(folder)
+        if not stat.S_ISDIR(status.st_mode) or (hasattr(os, "getuid") and status.st_uid != os.getuid()):
+            return False
+        if stat.S_IMODE(status.st_mode) != 0o700:
+            os.chmod(folder, 0o700)
+    except OSError:
+        return False
+    return True
+
+
+def _replace(path: Path, content: bytes) -> None:
+    """Write a file under a temporary name in the same folder, then move it into place."""
+    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(content)
+        os.replace(temporary, path)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise

@@ -1,0 +1,118 @@
+"""Order conditions: the independent conditions of each family, and the first that each method violates."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from markupsafe import Markup
+
+from codegen.lab.measurement import Measurement, Section
+from codegen.lab.measurements.orders import Orders
+from codegen.lab.orders.order_study import OrderStudy
+from codegen.lab.page.formatting import scientific
+from codegen.lab.page.formula_html import formula_html
+from codegen.lab.subject import Subject
+from orderconds.conditions import OrderCondition
+from orderconds.derivation import derive
+from orderconds.families import names
+
+DEEPEST = 4
+"""Order up to which all conditions are shown; beyond it only the violated ones."""
+
+LONGEST = 48
+"""Characters of an exact residual that fit a line; longer ones are shown in decimals."""
+
+
+@dataclass(frozen=True)
+class FamilyConditions:
+    """The independent order conditions of one family, grouped by order."""
+
+    family: str
+    by_order: tuple[tuple[int, tuple[OrderCondition, ...]], ...]
+
+    @property
+    def counts(self) -> str:
+        """The numbers of conditions, order by order."""
+        return ", ".join(str(len(rows)) for _, rows in self.by_order)
+
+
+@dataclass(frozen=True)
+class ConditionTables:
+    """The conditions of all families of a page, and the studies of its methods."""
+
+    families: tuple[FamilyConditions, ...]
+    methods: tuple[OrderStudy, ...]
+
+
+class Conditions(Measurement[ConditionTables]):
+    """The conditions that define the orders, and the violated ones with their residuals."""
+
+    name = "conditions"
+    title = "Order conditions"
+    about = "the independent order conditions, and the residuals of the violated ones"
+    part_of = "orders"
+
+    def run(self, subject: Subject) -> ConditionTables:
+        """Derive the conditions of every family on the page."""
+        studies = Orders().result(subject).measured
+        return ConditionTables(tuple(_conditions(*pair) for pair in _families(studies)), studies)
+
+    def as_json(self, result: ConditionTables) -> object:
+        """Return the numbers of conditions by family, and the violated conditions by method."""
+        return {
+            "counts": {f.family: [len(rows) for _, rows in f.by_order] for f in result.families},
+            "violated": {
+                m.method.label: [{"tree": f.condition.tree, "residual": f.residual} for f in m.order.failing]
+                for m in result.methods
+            },
+        }
+
+    def section(self, result: ConditionTables, subject: Subject) -> Section | None:
+        """Return a table a family, and the violated conditions."""
+        if not result.methods:
+            return None
+        families = [
+            {
+                "family": f.family,
+                "counts": f.counts,
+                "by_order": [(n, [_row(c) for c in rows]) for n, rows in f.by_order],
+            }
+            for f in result.families
+        ]
+        values = {"conditions": families, "failing": [_violated(m) for m in result.methods]}
+        return Section('{% include "sections/conditions.html.j2" %}', values)
+
+
+def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
+    """Return the families of a study, each with the highest order that is shown, in order of appearance."""
+    highest: dict[str, int] = {}
+    for each in study:
+        label = each.method.family_label
+        if each.method.family not in names():
+            continue  # a variant that only the compiler has; it has no index sums
+        highest[label] = max(highest.get(label, 1), min(each.order.order, DEEPEST))
+    return list(highest.items())
+
+
+def _conditions(family: str, order: int) -> FamilyConditions:
+    groups = enumerate(derive(family, order).by_order, start=1)
+    return FamilyConditions(family, tuple((n, tuple(conditions)) for n, conditions in groups))
+
+
+def _row(condition: OrderCondition) -> tuple[str, Markup]:
+    return condition.tree, Markup(formula_html(str(condition)))
+
+
+def _violated(study: OrderStudy) -> dict[str, object]:
+    rows = []
+    for failure in study.order.failing[:3]:
+        short = len(failure.residual) <= LONGEST
+        residual = formula_html(failure.residual) if short else scientific(float(failure.decimal), 4)
+        rows.append((_row(failure.condition)[1], Markup(residual)))
+    return {
+        "label": study.method.label,
+        "order": study.order.order,
+        "count": len(study.order.failing),
+        "rows": rows,
+    }

@@ -1,0 +1,121 @@
+"""Cost: error against CPU time, the fastest for each accuracy, and the operations of a step."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from markupsafe import Markup
+
+from codegen.lab.efficiency.bench import Bench, Result, curves, emitted, table
+from codegen.lab.efficiency.emitted_candidate import EmittedCandidate
+from codegen.lab.efficiency.peer_candidate import PeerCandidate
+from codegen.lab.efficiency.work_precision import Candidate, Refused, Row
+from codegen.lab.measurement import Measurement, Section
+from codegen.lab.page.figures import efficiency_figure
+from codegen.lab.page.formatting import Picture, decade, duration
+from codegen.lab.peers import find
+from codegen.lab.subject import Subject
+
+
+@dataclass(frozen=True)
+class CostResult:
+    """The rows of the bench, and the candidates that were measured."""
+
+    result: Result
+    candidates: tuple[Candidate, ...]
+
+
+class Cost(Measurement[CostResult]):
+    """Error against CPU time of all methods and peers."""
+
+    name = "cost"
+    title = "Error against run time"
+    about = "error against CPU time, beside peers; the operations of a step"
+
+    def run(self, subject: Subject) -> CostResult:
+        """Measure all methods, the ones with step-size control, and the peers."""
+        scene, exact, budget = subject.scene, subject.exact, subject.effort.budget
+        candidates: list[Candidate] = []
+        for method in subject.compiled.measured:
+            own = EmittedCandidate(scene, method.compiled.method, exact, "c", budget, method.compiled)
+            own.emission_seconds += method.seconds
+            candidates.append(own)
+        candidates += [Refused(f.method, "c", f.reason) for f in subject.compiled.failures]
+        candidates += [emitted(scene, m, exact, "c", budget, adaptive=True) for m in subject.adaptive]
+        candidates += [PeerCandidate(scene, peer, exact, budget) for peer in find(subject.peers)]
+
+        def done(row: Row) -> None:
+            unit = "" if row.steps is None else "steps"
+            subject.progress(f"{scene.name}, {row.method}: {row.control:g} {unit}")
+
+        result = Bench(scene, exact, tuple(candidates)).run(done, subject.cache)
+        return CostResult(result, tuple(candidates))
+
+    def as_json(self, result: CostResult) -> object:
+        """Return the rows."""
+        return [row.as_json() for row in result.result.rows]
+
+    def section(self, result: CostResult, subject: Subject) -> Section:
+        """Return the work-precision diagram and its tables."""
+        return Section('{% include "sections/cost.html.j2" %}', data(result.result, subject))
+
+    def files(self, result: CostResult, subject: Subject) -> Mapping[str, str]:
+        """Return the rows as CSV."""
+        return {f"{subject.scene.name}.csv": table(result.result.rows)}
+
+
+def data(result: Result, subject: Subject) -> dict[str, object]:
+    """Return the variables of the template."""
+    name, last = result.scene.name, float(result.scene.span[1])
+    picture = efficiency_figure(f"{name} efficiency", curves(result), f"error at t = {last:g}")
+    return {
+        "picture": Picture(
+            Markup(picture),
+            "Error against the CPU time of the whole run, the least of several measurements. Dashed: peers.",
+            subject.bench_command(),
+        ),
+        "places": [
+            {
+                "error": decade(p.decade),
+                "winner": p.winner,
+                "time": duration(p.seconds),
+                "second": p.second,
+                "behind": "" if p.behind is None else f"{p.behind / p.seconds:.2f}",
+            }
+            for p in result.places
+        ],
+        "split": _operations(result.entries),
+        "failures": [
+            (label, next(r.failure for r in rows if r.failure))
+            for label, rows in result.entries.items()
+            if rows and all(r.failure for r in rows)
+        ],
+    }
+
+
+def _operations(entries: Mapping[str, tuple[Row, ...]]) -> list[dict[str, str]]:
+    """Return the operations of a step in the finest run of each candidate, and its set-up times."""
+    lines = []
+    for label, rows in entries.items():
+        good = [r for r in rows if r.steps and r.error is not None]
+        if not good:
+            continue
+        last = good[-1]
+        emit_seconds, compile_seconds = rows[0].emission_seconds, max(r.compile_seconds for r in rows)
+        lines.append(
+            {
+                "label": label,
+                "evaluations": _per_step(last.evaluations, last.steps),
+                "exponentials": _per_step(last.exponentials, last.steps),
+                "iterations": _per_step(last.iterations, last.steps),
+                "ns": f"{last.ns_per_step:.0f}" if last.ns_per_step else "–",
+                "emission": duration(emit_seconds) if emit_seconds else "–",
+                "compilation": duration(compile_seconds) if compile_seconds > 1e-3 else "–",
+            }
+        )
+    return lines
+
+
+def _per_step(count: int | None, steps: int | None) -> str:
+    return "–" if count is None or not steps else f"{count / steps:.3g}"

@@ -1,0 +1,43 @@
+"""Emitted code: operations of a step, files, and the parts that were left out."""
+
+from __future__ import annotations
+
+from codegen.kernel.operations import sentences
+from codegen.lab.measurement import Measurement, Section
+from codegen.lab.subject import CompiledMethod, Subject
+
+
+class EmittedCode(Measurement[tuple[CompiledMethod, ...]]):
+    """The emitted C of every method, as its manifest describes it."""
+
+    name = "emitted"
+    title = "Emitted code"
+    about = "operations of a step, emitted files, and the parts that were left out"
+    part_of = "orders"
+
+    def run(self, subject: Subject) -> tuple[CompiledMethod, ...]:
+        """Return the compiled methods."""
+        return subject.compiled.measured
+
+    def as_json(self, result: tuple[CompiledMethod, ...]) -> object:
+        """Return module, operations and parts left out of every method."""
+        keys = ("module", "operations", "left_out", "command")
+        return [{"method": m.label, **{k: m.artifact.manifest[k] for k in keys}} for m in result]
+
+    def section(self, result: tuple[CompiledMethod, ...], subject: Subject) -> Section | None:
+        """Return one entry a method."""
+        if not result:
+            return None
+        entries = [_entry(m) for m in result]
+        return Section('{% include "sections/emitted.html.j2" %}', {"emissions": entries})
+
+
+def _entry(method: CompiledMethod) -> dict[str, object]:
+    manifest = method.artifact.manifest
+    return {
+        "label": method.label,
+        "operations": sentences(manifest["operations"]),
+        "left_out": manifest["left_out"],
+        "command": manifest["command"],
+        "lines": {name: text.count("\n") for name, text in sorted(method.artifact.files.items())},
+    }

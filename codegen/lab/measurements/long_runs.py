@@ -1,0 +1,141 @@
+"""Long runs: deviations of energy and other conserved quantities, and their growth."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+from markupsafe import Markup
+
+from codegen.lab.invariants import MANIFOLD
+from codegen.lab.long_runs.drift import CONFIDENCE
+from codegen.lab.long_runs.long_run import LongRun, long_run
+from codegen.lab.measurement import Measurement, Section
+from codegen.lab.page.figures import Curve, growth_figure
+from codegen.lab.page.formatting import Picture, scientific
+from codegen.lab.subject import CompiledMethod, MethodResults, Subject
+
+LEAST = 1e-17
+"""Smallest deviation in a logarithmic plot; smaller ones are drawn there."""
+
+Result = MethodResults[LongRun]
+
+
+class LongRuns(Measurement[Result]):
+    """Drift of conserved quantities over many steps of a hundredth of the span."""
+
+    name = "long"
+    title = "Long runs"
+    about = "drift of energy, invariants and manifold over many steps; growth of rounding errors"
+    json_key = "longruns"
+
+    def run(self, subject: Subject) -> Result:
+        """Run every method over many steps."""
+        effort, scene = subject.effort, subject.scene
+        h = float((scene.span[1] - scene.span[0]) / 100)
+
+        def measure(m: CompiledMethod) -> LongRun:
+            subject.progress(f"{scene.name}, {m.label}: {effort.steps} steps")
+            key = ("long", m.files, h, effort.steps, effort.back, effort.rounding)
+            return subject.cache.get(
+                key,
+                LongRun,
+                lambda: long_run(m.compiled, h, effort.steps, back=effort.back, rounding=effort.rounding),
+            )
+
+        return subject.each(measure)
+
+    def as_json(self, result: Result) -> object:
+        """Return one object a method."""
+        return [*(run.as_json() for run in result.measured), *(f.as_json() for f in result.failures)]
+
+    def holds(self, result: Result) -> bool:
+        """Whether every method could be run."""
+        return not result.failures
+
+    def lines(self, result: Result, subject: Subject) -> Iterable[str]:
+        """Return one line for each method that failed."""
+        for failure in result.failures:
+            yield f"{subject.scene.name} {failure.method}: no long run: {failure.reason}"
+
+    def section(self, result: Result, subject: Subject) -> Section:
+        """Return growth diagrams and tables."""
+        runs, effort = result.measured, subject.effort
+        values = {
+            "pictures": _pictures(runs, subject.report_command("long")),
+            "steps": f"{effort.steps:,}".replace(",", "\u00a0"),
+            "h": f"{float((subject.scene.span[1] - subject.scene.span[0]) / 100):g}",
+            "confidence": f"{100 * CONFIDENCE:.0f}\u00a0%",
+            "rounded": max((g.steps[-1] for run in runs for g in run.rounding), default=0),
+            "runs": [_run(run) for run in runs],
+            "failures": result.failures,
+        }
+        return Section('{% include "sections/long.html.j2" %}', values)
+
+
+def _pictures(runs: Sequence[LongRun], command: str) -> list[Picture]:
+    names = list(dict.fromkeys(k.name for run in runs for k in run.kept))
+    shown = [n for n in names if n == "energy"] or [n for n in names if n != MANIFOLD][:1]
+    shown += [MANIFOLD] if MANIFOLD in names else []
+    pictures = []
+    for name in shown:
+        curves = [
+            Curve(run.method, points, place=k) for k, run in enumerate(runs) if (points := _growth(run, name))
+        ]
+        if curves:
+            title = f"{runs[0].scene} {name}"
+            pictures.append(
+                Picture(
+                    Markup(growth_figure(title, curves, f"largest deviation of {name}")),
+                    f"The largest deviation of the {name} up to a time. Dotted: growth like √t and t.",
+                    command,
+                )
+            )
+    return pictures
+
+
+def _growth(run: LongRun, name: str) -> tuple[tuple[float, float], ...]:
+    """Return the running maximum of the deviation: a point where it increases, and the last one."""
+    for kept in run.kept:
+        if kept.name != name:
+            continue
+        points: list[tuple[float, float]] = []
+        largest = LEAST
+        for t, x in zip(kept.times, kept.peaks, strict=True):
+            if not math.isfinite(x):
+                return tuple(points)
+            if x > 1.02 * largest or not points:
+                largest = max(x, LEAST)
+                points.append((abs(t), largest))
+        end = (abs(kept.times[-1]), largest)
+        return (*points, end) if points[-1] != end else tuple(points)
+    return ()
+
+
+def _run(run: LongRun) -> dict[str, object]:
+    return {
+        "label": run.method,
+        "kept": [
+            {
+                "name": k.name,
+                "largest": scientific(k.drift.largest),
+                "slope": f"{scientific(k.drift.slope)} ± {scientific(k.drift.half_width, 1)}",
+                "exponent": f"{k.drift.exponent:.2f}" if math.isfinite(k.drift.exponent) else "–",
+                "law": k.drift.law,
+            }
+            for k in run.kept
+        ],
+        "symplectic": "–" if run.symplectic is None else scientific(run.symplectic),
+        "back": "; ".join(f"{scientific(x)} after {n}" for n, x in run.reversals),
+        "failure": run.failure,
+        "rounding": [
+            {
+                "name": g.quantity,
+                "steps": "compensated" if g.compensated else "plain",
+                "rms": scientific(g.sizes[-1]),
+                "exponent": f"{g.exponent:.2f} ± {g.half_width:.2f}",
+                "law": g.law,
+            }
+            for g in run.rounding
+        ],
+    }

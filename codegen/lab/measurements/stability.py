@@ -1,0 +1,160 @@
+"""Stability: the largest usable step, extreme input, stiff variants, endurance runs."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+
+from markupsafe import Markup
+
+from codegen.lab.measurement import Measurement, Section
+from codegen.lab.page.figures import region_figure
+from codegen.lab.page.formatting import Picture, scientific
+from codegen.lab.stability.endurance import Endurance
+from codegen.lab.stability.extreme_steps import ACCURATE, WRONG, Answer
+from codegen.lab.stability.linear_stability import region
+from codegen.lab.stability.stability_study import Findings, Stability, StiffScenes, findings, stiff_scenes
+from codegen.lab.subject import CompiledMethod, MethodResults, Subject
+
+OVERVIEW = '<p class="note">Extreme steps: {{ wrong }} silent wrong answers in {{ all }}.</p>'
+
+Result = MethodResults[Stability]
+
+
+class StabilityTests(Measurement[Result]):
+    """Stress tests of single steps and long runs, and linear stability."""
+
+    name = "stability"
+    title = "Stability"
+    about = "the largest usable step, extreme input, stiff variants, endurance runs"
+
+    def run(self, subject: Subject) -> Result:
+        """Run all stability tests of every method."""
+        effort, scene, exact = subject.effort, subject.scene, subject.exact
+        stiff = stiff_scenes(scene, subject.progress) if effort.stiff else StiffScenes()
+
+        def measure(m: CompiledMethod) -> Stability:
+            key = ("stability", m.files, exact.digits(), effort.stiff, effort.endurance)
+            measured = subject.cache.get(
+                key,
+                Findings,
+                lambda: findings(m.compiled, exact, stiff, subject.progress, endurance=effort.endurance),
+            )
+            return Stability(scene.name, m.label, region(m.compiled.method), measured)
+
+        return subject.each(measure)
+
+    def as_json(self, result: Result) -> object:
+        """Return one object a method."""
+        return [*(s.as_json() for s in result.measured), *(f.as_json() for f in result.failures)]
+
+    def holds(self, result: Result) -> bool:
+        """Whether no result is wrong."""
+        return not result.failures and all(s.honest for s in result.measured)
+
+    def lines(self, result: Result, subject: Subject) -> Iterable[str]:
+        """Return one line for each wrong result and each method that failed."""
+        for stability in result.measured:
+            for wrong in stability.wrong:
+                yield f"{stability.scene} {stability.method}: {wrong.case.name}: {wrong.verdict}"
+        for failure in result.failures:
+            yield f"{subject.scene.name} {failure.method}: no stability tests: {failure.reason}"
+
+    def section(self, result: Result, subject: Subject) -> Section:
+        """Return all tables."""
+        return Section('{% include "sections/stability.html.j2" %}', data(result, subject))
+
+    def overview(self, result: Result, subject: Subject) -> Section | None:
+        """Return the number of wrong results."""
+        answers = sum(len(s.findings.answers) for s in result.measured)
+        wrong = sum(len(s.wrong) for s in result.measured)
+        return Section(OVERVIEW, {"wrong": wrong, "all": answers}) if answers else None
+
+
+def data(result: Result, subject: Subject) -> dict[str, object]:
+    """Return the variables of the template."""
+    methods = result.measured
+    stiff = [(s, v) for s in methods for v in s.findings.stiff]
+    command = subject.report_command("stability")
+    return {
+        "rows": [_row(s) for s in methods],
+        "failures": result.failures,
+        "picture": _picture(methods, command),
+        "command": command,
+        "cases": [_cases(s) for s in methods],
+        "variants": [
+            {"variant": name, "verdicts": [(s.method, v.verdict) for s, v in stiff if v.variant == name]}
+            for name in dict.fromkeys(v.variant for _, v in stiff)
+        ],
+        "endurance": [(s.method, e.name, endurance_text(e)) for s in methods for e in s.findings.endurance],
+        "notes": list(dict.fromkeys(note for s in methods for note in s.findings.notes)),
+    }
+
+
+def _picture(methods: Sequence[Stability], command: str) -> Picture | None:
+    functions = [(s.method, k, s.region.value) for k, s in enumerate(methods) if s.region is not None]
+    if not functions:
+        return None
+    return Picture(
+        Markup(region_figure(f"{methods[0].scene} regions", functions)),
+        "The curves |R(hλ)| = 1 bound the regions of linear stability for y′ = λy. Zero lies on each curve; "
+        "the stable side is on its left.",
+        command,
+    )
+
+
+def _row(stability: Stability) -> dict[str, object]:
+    kinds = Counter(_kind(a) for a in stability.findings.answers)
+    limit, linear = stability.findings.limit, stability.region
+    return {
+        "label": stability.method,
+        "h": "none" if limit.h is None else f"{limit.h:.3g}",
+        "reason": limit.reason,
+        "real": "–" if linear is None else _length(linear.real),
+        "imaginary": "–" if linear is None else _length(linear.imaginary),
+        "accurate": kinds["accurate"],
+        "status": kinds["status"],
+        "other": kinds["undetermined"],
+        "wrong": kinds["wrong"],
+    }
+
+
+def _kind(answer: Answer) -> str:
+    if answer.verdict.startswith(WRONG):
+        return "wrong"
+    return answer.verdict.partition(":")[0] if answer.verdict != ACCURATE else "accurate"
+
+
+def _length(x: float) -> str:
+    return "unbounded" if x == float("inf") else f"{x:.3g}" if x else "none"
+
+
+def _cases(stability: Stability) -> dict[str, object]:
+    """Return the cases of a method; neighbours with the same status share a row."""
+    rows: list[dict[str, object]] = []
+    names: list[str] = []
+    for a in stability.findings.answers:
+        if rows and a.error is None and rows[-1]["verdict"] == a.verdict:
+            names.append(a.case.name)
+            continue
+        names = [a.case.name]
+        rows.append(
+            {
+                "names": names,
+                "verdict": a.verdict,
+                "kind": _kind(a),
+                "error": "" if a.error is None else scientific(a.error),
+                "digits": "" if a.determined in (None, float("inf")) else f"{a.determined:.0f}",
+            }
+        )
+    return {"label": stability.method, "count": len(stability.findings.answers), "rows": rows}
+
+
+def endurance_text(run: Endurance) -> str:
+    """Return the end of an endurance run in words."""
+    if run.failure:
+        return run.failure
+    parts = [f"{run.steps} steps"]
+    parts += [] if run.defect is None else [f"{scientific(run.defect)} off the manifold"]
+    parts += [] if run.returned is None else [f"{scientific(run.returned)} from the start"]
+    return ", ".join(parts) + ("" if run.held else ": more than rounding explains")

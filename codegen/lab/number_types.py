@@ -1,0 +1,19 @@
+"""Names for the types of numbers that the lab computes with.
+
+One formula serves floats, mpmath numbers, Arb balls, power series and expressions, so no class describes
+them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+Scalar: TypeAlias = Any
+"""A number of some domain: float, mpmath number, ball, power series or expression."""
+
+Vector: TypeAlias = tuple[Scalar, ...]
+"""Coordinates of a state, or of an element of a Lie algebra, in order."""
+
+Evaluate: TypeAlias = Callable[..., Vector]
+"""A function ``(state, t) -> values`` compiled from a scene, over the numbers that it was compiled for."""

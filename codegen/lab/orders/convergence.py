@@ -1,0 +1,125 @@
+"""Convergence: the observed order of a method on a scene, compared with the stated order.
+
+The error at the end of the span is measured in the norm of the scene (:mod:`codegen.lab.distance`) against a
+reference from extrapolation. Steps are halved until the slopes have settled
+(:mod:`codegen.lab.orders.step_sizes`). The stated order comes from the order conditions, never from the
+slopes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from codegen.certify import CertifiedOrder
+from codegen.lab.distance import distance
+from codegen.lab.orders.step_sizes import CLEAR, Refinement, Run, refine, rounding
+from codegen.lab.reference import Reference
+from codegen.lab.runner import RunFailed, Runner
+from codegen.scene.problem import Problem
+
+ROUNDING = "rounding"
+FEWEST = 4
+"""Number of runs that three slopes need."""
+
+
+@dataclass(frozen=True)
+class Convergence:
+    """The runs of one method on one scene, and the order from the order conditions."""
+
+    scene: str
+    method: str
+    target: str
+    stated: CertifiedOrder
+    refinement: Refinement
+
+    @property
+    def observed(self) -> float | None:
+        """The last slope of clean runs."""
+        return self.refinement.observed
+
+    @property
+    def verdict(self) -> str:
+        """``holds``, ``fails`` or ``undecided``."""
+        return self.refinement.verdict(self.stated.order)
+
+    def as_json(self) -> dict[str, object]:
+        """Return the JSON object of ``orderconds converge``; an error that is not finite is null."""
+        runs = self.refinement.runs
+        observed = self.observed
+        return {
+            "scene": self.scene,
+            "method": self.method,
+            "target": self.target,
+            "stated_order": self.stated.order,
+            "certificate": self.stated.certificate,
+            "steps": [r.steps for r in runs],
+            "h": [r.h for r in runs],
+            "error": [r.error if math.isfinite(r.error) else None for r in runs],
+            "excluded": [r.excluded for r in runs],
+            "slopes": [round(s, 4) for s in self.refinement.slopes],
+            "observed_order": None if observed is None else round(observed, 4),
+            "verdict": self.verdict,
+        }
+
+    def sentence(self) -> str:
+        """Return the verdict and its reason in one line."""
+        if self.observed is None:
+            reasons = sorted({r.excluded for r in self.refinement.runs if r.excluded})
+            return f"undecided: no two neighbouring runs are usable ({'; '.join(reasons) or 'too few steps'})"
+        about = f"observed order {self.observed:.2f}, stated {self.stated.order} ({self.stated.certificate})"
+        if self.verdict == "undecided":
+            return f"undecided: {about}, but {self._unsettled()}"
+        return f"{self.verdict}: {about}"
+
+    def _unsettled(self) -> str:
+        """Return why the slopes have not settled, and what the user can do."""
+        if any(r.excluded == ROUNDING for r in self.refinement.runs):
+            return "rounding dominates before the slopes settle; use --target interpreter --digits 40"
+        if len(self.refinement.clean) < FEWEST:
+            return f"{FEWEST} usable runs are needed, there are {len(self.refinement.clean)}"
+        return "the slopes have not settled; try finer steps"
+
+
+def converge(
+    runner: Runner,
+    stated: CertifiedOrder,
+    exact: Reference,
+    *,
+    steps: Sequence[int] = (),
+    to_rounding: bool = False,
+) -> Convergence:
+    """Run a method with shorter and shorter steps and return its convergence.
+
+    ``steps`` prescribes the numbers of steps. Without it they are doubled from five until the slopes settle
+    (with ``to_rounding``: until rounding dominates), or until the runner's largest number of steps.
+    """
+    scene = runner.compiled.scene
+    size = math.hypot(*(float(x) for x in exact.state))
+
+    def run(n: int) -> Run:
+        return _rung(scene, runner, exact, n, size)
+
+    refinement = (
+        Refinement(tuple(run(n) for n in sorted(steps)))
+        if steps
+        else refine(run, runner.most_steps, to_rounding)
+    )
+    return Convergence(scene.name, runner.compiled.method.label, runner.target, stated, refinement)
+
+
+def _rung(scene: Problem, runner: Runner, exact: Reference, steps: int, size: float) -> Run:
+    h = float(Fraction(scene.span[1] - scene.span[0]) / steps)
+    try:
+        error = distance(scene, runner.final(steps), exact.state)
+    except RunFailed as failure:
+        return Run(steps, h, math.inf, f"no run: {failure}")
+    if not math.isfinite(error):
+        return Run(steps, h, math.inf, "the final state is not finite")
+    if error <= CLEAR * rounding(steps, runner.epsilon, size):
+        return Run(steps, h, error, ROUNDING)
+    if error <= CLEAR * exact.uncertainty:
+        return Run(steps, h, error, "below the accuracy of the reference")
+    return Run(steps, h, error)

@@ -1,0 +1,155 @@
+"""Exact elementary differentials of a scene over any ring, computed with nilpotent numbers.
+
+For x in the Lie algebra, a group action defines the frozen field y -> x.y. The derivative along a frozen
+field is computed by substituting y + eps x.y for y, with eps^2 = 0. After k substitutions, the coefficient
+of eps_1 ... eps_k is the k-th derivative. This works for every scene that is polynomial in its coordinates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isqrt
+
+from codegen.groups import LieGroup
+from codegen.groups.capabilities import MatrixRepresentation
+from codegen.groups.linear_algebra import units
+from codegen.ir.domain import Domain
+from codegen.ir.expr import evaluate
+from codegen.ir.number import Number
+from codegen.lab.number_types import Scalar, Vector
+from codegen.scene.problem import Problem
+from orderconds.ring.protocol import Element, Ring
+from orderconds.series.action_fields import ActionFields, Nilpotent
+from orderconds.trees.directed import DirectedTree
+from orderconds.trees.directed import branches as directed_branches
+from orderconds.trees.levels import Forest, Tree, branches, trees_of
+
+
+class RingDomain(Domain):
+    """An exact ring as a domain, for polynomial scenes. There is no step size: ``h`` is one."""
+
+    def __init__(self, ring: Ring) -> None:
+        self.ring = ring
+        self.h = ring.one
+
+    def number(self, value: Number) -> Element:
+        """Return an exact number of the ring, or a rational one."""
+        if value.ring is self.ring:
+            return value.element
+        fraction = value.fraction()
+        return self.ring.rational(fraction.numerator, fraction.denominator)
+
+    def rational(self, p: int, q: int = 1) -> Element:
+        """Return p/q."""
+        return self.ring.rational(p, q)
+
+    def call(self, function: str, *args: Scalar) -> Scalar:
+        """Raise ArithmeticError: the scene is not polynomial."""
+        raise ArithmeticError(f"{function} is not polynomial")
+
+    def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
+        """Raise ArithmeticError: there is nothing to iterate."""
+        raise ArithmeticError("elementary differentials are not iterated")
+
+
+def _coefficient(x: Scalar, mask: int, zero: Element) -> Element:
+    if isinstance(x, Nilpotent):
+        return x.parts.get(mask, zero)
+    return x if mask == 0 else zero
+
+
+class FrozenFields:
+    """The elementary differentials of the field of an autonomous scene at its initial point.
+
+    Trees and forests are ordered (:mod:`orderconds.trees.levels`), the first tree of a forest acts first.
+    """
+
+    def __init__(self, scene: Problem, ring: Ring) -> None:
+        self.scene, self.ring = scene, ring
+        self.domain = RingDomain(ring)
+        self.point: Vector = scene.initial(self.domain)
+        self._known: dict[Tree, Vector] = {}
+
+    def tree(self, tree: Tree) -> Vector:
+        """Return F(t) in the algebra: f differentiated along the frozen fields of the branches."""
+        if tree not in self._known:
+            point, mask = self._displaced(branches(tree))
+            values = evaluate(self.scene.roots, self.domain, self.scene.values(self.domain, point))
+            self._known[tree] = tuple(_coefficient(v, mask, self.ring.zero) for v in values)
+        return self._known[tree]
+
+    def forest(self, forest: Forest) -> Vector:
+        """Return the coordinates of the point differentiated along the frozen fields of a forest."""
+        point, mask = self._displaced(forest)
+        return tuple(_coefficient(v, mask, self.ring.zero) for v in point)
+
+    def _displaced(self, forest: Forest) -> tuple[Vector, int]:
+        point, bit = self.point, 1
+        for tree in trees_of(forest):
+            x = tuple(Nilpotent({bit: a}) for a in self.tree(tree))
+            velocity = self.scene.action.velocity(self.domain, self.scene.group, x, point)
+            point = tuple(a + b for a, b in zip(point, velocity, strict=True))
+            bit <<= 1
+        return point, bit - 1
+
+
+class CanonicalFields:
+    """The elementary differentials of Hamilton's equations on T*R^n, over trees with directed edges.
+
+    A vertex is H, differentiated by q along xi for each branch of kind 0 and by mu along n for each
+    branch of kind 1 (:mod:`orderconds.trees.directed`).
+    """
+
+    def __init__(self, scene: Problem, ring: Ring) -> None:
+        self.scene, self.ring = scene, ring
+        self.domain = RingDomain(ring)
+        self.point: Vector = scene.initial(self.domain)
+        self._known: dict[DirectedTree, Vector] = {}
+
+    def tree(self, tree: DirectedTree) -> Vector:
+        """Return (xi, n) = (D_mu, -D_q) of the derivative of H at the root."""
+        if tree not in self._known:
+            n, point, bit = self.scene.dimension(), list(self.point), 1
+            for kind, child in directed_branches(tree):
+                below = self.tree(child)
+                for k in range(n):
+                    at = n * kind + k
+                    point[at] = point[at] + Nilpotent({bit: below[at]})
+                bit <<= 1
+            values = evaluate(self.scene.roots, self.domain, self.scene.values(self.domain, point))
+            self._known[tree] = tuple(_coefficient(v, bit - 1, self.ring.zero) for v in values)
+        return self._known[tree]
+
+
+def action_fields(scene: Problem, ring: Ring) -> ActionFields:
+    """Return the elementary velocities and covectors of an autonomous polynomial Hamiltonian scene.
+
+    The group is represented by its own matrices, or for R^n by translations of affine space.
+    """
+    domain, q_size = RingDomain(ring), len(scene.state[0].symbols)
+    group = scene.group.require(MatrixRepresentation, where=scene.name)
+    algebra: tuple[Vector, ...] = units(domain, group.dim)
+    basis = tuple(_rows(group.hat(domain, unit)) for unit in algebra)
+    start = scene.initial(domain)
+    hamiltonian = scene.hamiltonian
+    assert hamiltonian is not None
+
+    def energy(q: Scalar, mu: Scalar) -> Scalar:
+        values = scene.values(domain, (*element_coordinates(group, q), *mu))
+        return evaluate([hamiltonian], domain, values)[0]
+
+    def coordinates(x: Scalar) -> Vector:
+        return group.vee(domain, tuple(entry for row in x for entry in row))
+
+    point = _rows(group.matrix(domain, start[:q_size]))
+    return ActionFields(ring, energy, point, start[q_size:], basis, coordinates)
+
+
+def _rows(flat: Vector) -> tuple[Vector, ...]:
+    n = isqrt(len(flat))
+    return tuple(flat[n * i : n * i + n] for i in range(n))
+
+
+def element_coordinates(group: LieGroup, matrix: Sequence[Vector]) -> Vector:
+    """Return the coordinates of a group element, or of a difference of two, from its matrix."""
+    return group.require(MatrixRepresentation).element(tuple(x for row in matrix for x in row))

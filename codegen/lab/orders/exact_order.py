@@ -1,0 +1,142 @@
+"""The exact order of an emitted step program, computed from its local error over Q[[h]].
+
+A slope only estimates the order. For a scene whose field is polynomial or rational, the Taylor coefficients
+of the local error are exact numbers: the order is p if the coefficients of h, ..., h^p vanish and that of
+h^(p+1) does not. Coordinates of the initial state that are not in the ring of the coefficients are replaced
+by nearby rational numbers. The point may then lie off the manifold; the equations, the group action and the
+order conditions remain valid there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from codegen.certify import CertifiedOrder, certified_order
+from codegen.emitter import optimise_method
+from codegen.errors import MethodError, SceneError
+from codegen.ir.domain import FloatDomain, SeriesDomain
+from codegen.ir.expr import Expr, evaluate
+from codegen.ir.number import Number
+from codegen.lab.number_types import Vector
+from codegen.lab.orders.local_error import local_error
+from codegen.lower import problem_for
+from codegen.method import Method
+from codegen.scene.problem import Problem, StateField
+from orderconds.ring.protocol import Ring
+
+DENOMINATOR = 64
+"""Largest denominator of a rational number that replaces an initial coordinate."""
+
+
+@dataclass(frozen=True)
+class ExactLocalError:
+    """The leading term of the local error of one step, with exact coefficients.
+
+    ``order`` is the exact order; if ``vanishes``, all coefficients up to h^(order) vanish and the next one
+    was not computed, so the order on this scene is at least ``order``. ``coefficients`` are those of
+    h^(order+1) by symbol, empty if ``vanishes``. ``start`` is the initial state that was used.
+    """
+
+    scene: str
+    method: str
+    certified: CertifiedOrder
+    order: int
+    vanishes: bool
+    symbols: tuple[str, ...]
+    start: tuple[str, ...]
+    coefficients: tuple[str, ...]
+
+    @property
+    def verdict(self) -> str:
+        """``holds`` if the order is at least the one that the order conditions state, else ``fails``."""
+        return "holds" if self.order >= self.certified.order else "fails"
+
+    def sentence(self) -> str:
+        """Return the verdict and the orders in one line."""
+        least = "at least " if self.vanishes else ""
+        return (
+            f"{self.verdict}: exact order {least}{self.order} on this scene, "
+            f"order conditions {self.certified.order} ({self.certified.certificate})"
+        )
+
+    def as_json(self) -> dict[str, object]:
+        """Return plain data."""
+        return {
+            "scene": self.scene,
+            "method": self.method,
+            "stated_order": self.certified.order,
+            "certificate": self.certified.certificate,
+            "order": self.order,
+            "at_least": self.vanishes,
+            "initial_state": dict(zip(self.symbols, self.start, strict=True)),
+            "leading_coefficients": dict(zip(self.symbols, self.coefficients, strict=False)),
+            "verdict": self.verdict,
+        }
+
+
+def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
+    """Return the leading term of the local error of the step program that is emitted for a method on a scene.
+
+    :class:`codegen.errors.SceneError` if the field is not rational in the coordinates (it calls ``sqrt``,
+    say); :class:`codegen.errors.MethodError` if the coefficients are balls, whose zeros cannot be decided.
+    """
+    ring = method.ring
+    third = ring.rational(1, 3)
+    if ring.is_zero(third - third) is not True:
+        raise MethodError(
+            f"the coefficients of {method.label} are balls", expected="exact coefficients, for exact zeros"
+        )
+    certified = certified_order(method, scene)
+    start = with_exact_start(scene, ring)
+    optimised = optimise_method(start, method)
+    problem = problem_for(start, method)
+    highest = certified.order + 1
+    domain = SeriesDomain(ring, 1)
+    try:
+        error = local_error(optimised.program, problem, ring, highest)
+        initial = tuple(ring.text(x.coefficients[0]) for x in problem.initial(domain))
+    except ArithmeticError as reason:
+        raise SceneError(
+            f"the local error is not computed exactly: {reason}",
+            where=scene.name,
+            expected="a field and flows that are rational functions of the coordinates",
+            hint="orderconds converge estimates the order from slopes",
+        ) from reason
+    power = min(int(x.ring.valuation(x)) for x in error)
+    vanishes = power > highest
+    return ExactLocalError(
+        scene.name,
+        method.label,
+        certified,
+        min(power, highest + 1) - 1,
+        vanishes,
+        problem.symbols,
+        initial,
+        () if vanishes else _texts(ring, error, power),
+    )
+
+
+def _texts(ring: Ring, error: Vector, power: int) -> tuple[str, ...]:
+    return tuple(ring.text(x.coefficients[power]) for x in error)
+
+
+def with_exact_start(scene: Problem, ring: Ring) -> Problem:
+    """Return a scene with initial coordinates in ``ring``; others become nearby rational numbers."""
+    values = iter(scene.initial(FloatDomain(0.0)))
+    domain = SeriesDomain(ring, 1)
+    parameters = {name: domain.number(number) for name, number in scene.parameters.items()}
+
+    def exact(e: Expr, value: float) -> Expr:
+        try:
+            evaluate([e], domain, parameters)
+        except (ArithmeticError, ValueError):
+            near = Fraction(value).limit_denominator(DENOMINATOR)
+            return e.space.const(Number.rational(near.numerator, near.denominator))
+        return e
+
+    def fields(state: Sequence[StateField]) -> tuple[StateField, ...]:
+        return tuple(replace(f, initial=tuple(exact(e, next(values)) for e in f.initial)) for f in state)
+
+    return replace(scene, state=fields(scene.state))

@@ -1,0 +1,164 @@
+"""The exact local error of a step program: its Taylor coefficients in h, and the values that conditions
+predict.
+
+The interpreter runs a program on a polynomial scene over Q[[h]] and returns the series of its step. Picard
+iteration gives the series of the exact flow. Their difference starts at h^(p+1), where p is the order. Its
+leading coefficient is the sum of the residuals of the order conditions times the elementary differentials of
+the scene. So the emitted program is compared with the conditions from which its order was derived.
+"""
+
+from __future__ import annotations
+
+from codegen.certify import family_of
+from codegen.errors import SceneError
+from codegen.ir.domain import SeriesDomain
+from codegen.ir.interpret import interpret
+from codegen.ir.program import Program
+from codegen.lab.number_types import Scalar, Vector
+from codegen.lab.orders.elementary_differentials import (
+    CanonicalFields,
+    FrozenFields,
+    action_fields,
+    element_coordinates,
+)
+from codegen.method import Method
+from codegen.scene.problem import Problem
+from orderconds.families.action_family import ActionFamily
+from orderconds.families.ordered_forests import scale
+from orderconds.ring import PowerSeries
+from orderconds.ring.protocol import Element, Ring
+from orderconds.series import action_exact
+from orderconds.trees import directed, levels
+
+
+def step(program: Program, scene: Problem, ring: Ring, order: int) -> Vector:
+    """Return the state after one step from the initial state of the scene, as series in h up to ``order``.
+
+    ``scene`` is the problem in which the program was lowered. ArithmeticError if its field is not rational in
+    the coordinates, or its initial state is not in ``ring``.
+    """
+    domain = SeriesDomain(ring, order)
+    inputs: dict[str, Scalar] = {"t": _time(scene, domain)}
+    first, start = 0, scene.initial(domain)
+    for block in scene.state:
+        inputs[block.name] = start[first : first + len(block.symbols)]
+        first += len(block.symbols)
+    result = interpret(program, scene, domain, inputs)
+    return tuple(x for block in scene.state for x in result[block.name])
+
+
+def exact_flow(scene: Problem, ring: Ring, order: int) -> Vector:
+    """Return the exact solution after the time h from the initial state, by Picard iteration."""
+    domain = SeriesDomain(ring, order)
+    start = scene.initial(domain)
+    t = _time(scene, domain) + domain.h
+    state = start
+    for _ in range(order):
+        velocity = scene.velocity(domain, state, t)
+        state = tuple(x + _integral(domain.ring, v) for x, v in zip(start, velocity, strict=True))
+    return state
+
+
+def _time(scene: Problem, domain: SeriesDomain) -> Scalar:
+    return domain.rational(scene.span[0].numerator, scene.span[0].denominator)
+
+
+def _integral(ring: PowerSeries, x: Scalar) -> Scalar:
+    terms = (c * ring.base.rational(1, k + 1) for k, c in enumerate(x.coefficients))
+    return ring.from_coefficients((ring.base.zero, *terms))
+
+
+def local_error(program: Program, scene: Problem, ring: Ring, order: int) -> Vector:
+    """Return the state after one step minus the exact flow, as series in h up to ``order``."""
+    pairs = zip(step(program, scene, ring, order), exact_flow(scene, ring, order), strict=True)
+    return tuple(x - y for x, y in pairs)
+
+
+def valuation(error: Vector) -> int:
+    """Return the lowest power of h in which a local error does not vanish."""
+    return min(int(x.ring.valuation(x)) for x in error)
+
+
+def leading_term(error: Vector) -> tuple[int, Vector]:
+    """Return the lowest power of h in which a local error does not vanish, and its coefficients."""
+    power = valuation(error)
+    return power, tuple(x.coefficients[power] for x in error)
+
+
+def predicted(scene: Problem, method: Method, power: int) -> Vector:
+    """Return the coefficients of h^power that the order conditions of a method predict.
+
+    All lower coefficients must vanish. ``scene`` is the problem in which the method is lowered; it must be
+    autonomous and polynomial. Symplectic partitioned methods are predicted by trees with directed edges, on a
+    Hamiltonian scene on T*R^n.
+    """
+    if not scene.autonomous:
+        raise SceneError("a scene that depends on time", where=scene.name, expected="an autonomous one")
+    if method.kind.trees == "directed":
+        return _partitioned(scene, method, power)
+    if scene.is_hamiltonian:
+        return _action(scene, method, power)
+    return (_trees if method.kind.trees == "rooted" else _forests)(scene, method, power)
+
+
+def _residuals(method: Method, power: int) -> list[tuple[Scalar, Element]]:
+    """Return the residual of every condition of one order, with its tree or forest."""
+    family = family_of(method)
+    conditions = family.all_conditions(power)
+    coefficients = family.read(method.tableau)
+    assert coefficients is not None
+    residuals = family.residuals(coefficients, method.ring, conditions)
+    return [
+        (c.key, x) for c, x in zip(conditions, residuals, strict=True) if method.ring.is_zero(x) is not True
+    ]
+
+
+def _sum(ring: Ring, terms: list[tuple[Element, Vector]], width: int) -> Vector:
+    total = [ring.zero] * width
+    for weight, vector in terms:
+        total = [a + weight * x for a, x in zip(total, vector, strict=True)]
+    return tuple(total)
+
+
+def _trees(scene: Problem, method: Method, power: int) -> Vector:
+    """The B-series: sum over rooted trees of residual/symmetry F(t) (HLW III.1)."""
+    fields = FrozenFields(scene, method.ring)
+    terms = [
+        (x * method.ring.rational(1, levels.symmetry(t)), fields.forest(t))
+        for t, x in _residuals(method, power)
+    ]
+    return _sum(method.ring, terms, len(scene.symbols))
+
+
+def _forests(scene: Problem, method: Method, power: int) -> Vector:
+    """The Lie-Butcher series: sum over ordered forests of (value - exact value) F(w)."""
+    fields = FrozenFields(scene, method.ring)
+    terms = [(x * method.ring.rational(1, scale(w)), fields.forest(w)) for w, x in _residuals(method, power)]
+    return _sum(method.ring, terms, len(scene.symbols))
+
+
+def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
+    """The P-series: sum over trees with directed edges of residual/symmetry (xi, n)(t)."""
+    fields = CanonicalFields(scene, method.ring)
+    terms = [
+        (x * method.ring.rational(1, directed.symmetry(t)), fields.tree(t))
+        for t, x in _residuals(method, power)
+    ]
+    return _sum(method.ring, terms, len(scene.symbols))
+
+
+def _action(scene: Problem, method: Method, power: int) -> Vector:
+    """The action series: the words of the update minus their exact values."""
+    ring = method.ring
+    family = family_of(method)
+    assert isinstance(family, ActionFamily)
+    coefficients = family.read(method.tableau)
+    assert coefficients is not None
+    series = family.series(coefficients, ring)
+    defects = {}
+    for word, x in series.update_words(power).items():
+        if sum(tree.vertices for tree in word) == power:
+            exact = action_exact.update(word)
+            defects[word] = x - ring.rational(exact.numerator, exact.denominator)
+    point, momentum = action_fields(scene, ring).local_error(defects)
+    return (*element_coordinates(scene.group, point), *momentum)

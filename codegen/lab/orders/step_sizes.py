@@ -1,0 +1,125 @@
+"""The observed order from errors at a sequence of step sizes, with a verdict against the stated order.
+
+Slopes are taken between neighbouring runs and divided by the true logarithm of the step ratio. Runs whose
+error may be rounding are excluded, and so are all finer ones. For a smooth problem the error is C h^p (1 +
+O(h)), so a slope differs from p by O(h). Dividing h by r divides this difference by r, so the last change of
+the slope divided by r - 1 estimates what remains. Slopes have *settled* when this estimate has been at most
+:data:`SETTLED` twice in a row. The last slope must then be within :data:`TOLERANCE` of the stated order,
+from below and from above. This is two and a half times the estimate and a quarter of the distance to the
+next order, so that a method whose order is higher than stated fails as well.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+SETTLED = 0.1
+TOLERANCE = 0.25
+CLEAR = 100.0
+"""A run counts if its error is this many times the possible rounding error; then rounding changes a slope by
+less than 0.03."""
+
+FIRST = 5
+"""Number of steps of the first run."""
+
+LONGER = (2, 3, 4)
+"""Numbers of steps of the runs added below :data:`FIRST`."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run: ``steps`` of size ``h``, its error, and the reason if it is excluded (else '')."""
+
+    steps: int
+    h: float
+    error: float
+    excluded: str = ""
+
+
+@dataclass(frozen=True)
+class Refinement:
+    """Runs from coarse to fine, and the order that their slopes show."""
+
+    runs: tuple[Run, ...]
+
+    @property
+    def clean(self) -> tuple[Run, ...]:
+        """The runs that count: the longest stretch of neighbours without an excluded run."""
+        stretches: list[list[Run]] = [[]]
+        for run in self.runs:
+            if run.excluded:
+                stretches.append([])
+            else:
+                stretches[-1].append(run)
+        longest: list[Run] = max(stretches, key=len)
+        return tuple(longest)
+
+    @property
+    def slopes(self) -> tuple[float, ...]:
+        """log(error ratio)/log(step ratio) of neighbouring clean runs."""
+        return slopes(self.clean)
+
+    @property
+    def settled(self) -> bool:
+        """Whether the last two changes of the slope leave an estimated error of at most :data:`SETTLED`."""
+        last, ratio = self.slopes[-3:], [a.h / b.h for a, b in pairwise(self.clean)][-2:]
+        changes = [abs(b - a) for a, b in pairwise(last)]
+        return len(last) == 3 and all(c <= SETTLED * (r - 1) for c, r in zip(changes, ratio, strict=True))
+
+    @property
+    def observed(self) -> float | None:
+        """The last slope of clean runs, or None if there is none."""
+        return self.slopes[-1] if self.slopes else None
+
+    def verdict(self, stated: int) -> str:
+        """Return ``holds``, ``fails`` or, if the slopes have not settled, ``undecided``."""
+        if self.observed is None or not self.settled:
+            return "undecided"
+        return "holds" if abs(self.observed - stated) <= TOLERANCE else "fails"
+
+
+def slopes(runs: Sequence[Run]) -> tuple[float, ...]:
+    """Return the slopes between neighbouring runs.
+
+    >>> slopes([Run(10, 0.1, 1e-2), Run(30, 0.1 / 3, 1e-2 / 9)])
+    (2.0,)
+    """
+    return tuple(round(math.log(a.error / b.error) / math.log(a.h / b.h), 12) for a, b in pairwise(runs))
+
+
+def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> Refinement:
+    """Double the number of steps from :data:`FIRST` until the slopes settle, rounding dominates, or ``most``.
+
+    With ``to_rounding`` the refinement continues after the slopes have settled. It also continues after a run
+    that failed: Newton's method may converge to some solution for a long step, fail for half of it, and find
+    the right solution for shorter ones. If a method of high order reaches rounding before three slopes have
+    settled, runs with longer steps and intermediate runs are added.
+    """
+    runs: list[Run] = []
+    steps = FIRST
+    while steps <= most:
+        runs.append(run(steps))
+        refinement = Refinement(tuple(runs))
+        last = runs[-1]
+        too_fine = bool(last.excluded) and math.isfinite(last.error)
+        if (refinement.settled and not to_rounding) or (refinement.clean and too_fine):
+            break
+        steps *= 2
+    refinement = Refinement(tuple(runs))
+    if refinement.settled or not refinement.clean or not refinement.runs[-1].excluded:
+        return refinement
+    known = {r.steps: r for r in runs}
+    more = [*LONGER, *(k * r.steps // FIRST for r in refinement.clean for k in (6, 7))]
+    known |= {n: run(n) for n in more if n <= most}
+    return Refinement(tuple(known[n] for n in sorted(known)))
+
+
+def rounding(steps: int, epsilon: float, size: float) -> float:
+    """Return a bound of the accumulated rounding error: one epsilon of the state's size for each step.
+
+    This is the worst case; errors of random sign grow like the square root of the number of steps.
+    """
+    return steps * epsilon * max(1.0, size)

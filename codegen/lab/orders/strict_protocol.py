@@ -1,0 +1,42 @@
+"""The strict protocol: the order of a method on demanding scenes, computed with fifty digits.
+
+The slopes are compared with a stated order: the claim of the tableau file for the family, or a given number.
+A method passes if its slopes settle within a quarter of that order on every scene of
+:mod:`codegen.lab.orders.strict_scenes`. A method whose order is higher than stated fails as well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from codegen.certify import CertifiedOrder, certified_order
+from codegen.emitter import Optimised, optimise_method
+from codegen.lab.orders.convergence import Convergence, converge
+from codegen.lab.orders.strict_scenes import strict_scenes
+from codegen.lab.reference import cached_reference
+from codegen.lab.runner import Interpreted
+from codegen.lower import lowering
+from codegen.method import Method
+
+DIGITS = 50
+Alter = Callable[[Optimised], Optimised]
+
+
+def stated_order(method: Method, stated: int | None = None) -> CertifiedOrder:
+    """Return the order to compare with: ``stated``, the claim of the tableau file, or the certified order."""
+    if stated is not None:
+        return CertifiedOrder(stated, "stated")
+    for claim in method.tableau.claims.orders:
+        if claim.family == method.family and (claim.cutoff is None or claim.cutoff == method.cutoff):
+            return CertifiedOrder(claim.order, "claimed")
+    return certified_order(method)
+
+
+def strict(
+    method: Method, stated: CertifiedOrder, tell: Callable[[str], object] = str, alter: Alter = lambda c: c
+) -> Iterator[Convergence]:
+    """Yield the convergence on each scene; ``alter`` changes the program, to test the protocol."""
+    for scene in strict_scenes(lowering(method.family).hamiltonian):
+        tell(f"{method.label} on {scene.name}")
+        compiled = alter(optimise_method(scene, method))
+        yield converge(Interpreted(compiled, DIGITS), stated, cached_reference(scene))

@@ -1,0 +1,140 @@
+"""The scenes of the strict protocol, chosen so that an error in a method cannot cancel by symmetry.
+
+Published software has shipped methods of order 2 as order 4, because its tests used rotations about one
+axis, generators orthogonal to the state, or fields that do not depend on time. Here every field is
+polynomial, depends on state and time and does not commute; on the sphere it has a component along the state.
+The groups are SO(3), GL(3) and the unipotent 4 x 4 matrices, which are nilpotent of class three, acting on
+themselves or on vectors. Variational methods run on T*G with Hamiltonians that have no symmetry and depend
+on time.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+from sympy import Matrix, Rational, Symbol
+
+from codegen.groups import GL, SO3, LeftMultiplication, MatrixGroup, Rotation
+from codegen.scene import FieldScene, HamiltonianScene
+from codegen.scene.problem import Problem
+
+SPAN = (0, "1/4")
+"""Short, because solutions of polynomial equations may reach infinity soon."""
+
+
+@cache
+def fields() -> tuple[Problem, ...]:
+    """Return the field scenes."""
+    return _rotations(), _sphere(), _linear(), _nilpotent()
+
+
+def _span() -> tuple[Rational, ...]:
+    return tuple(Rational(x) for x in SPAN)
+
+
+def _rotations() -> Problem:
+    """Return SO(3) acting on itself from the left."""
+    t, half, g = Symbol("t", real=True), Rational(1, 2), SO3().point("g")
+    return FieldScene(
+        name="SO(3) on itself",
+        group=SO3(),
+        action=LeftMultiplication(),
+        y=Matrix(list(g)),
+        f=Matrix(
+            [g[0, 1] * g[1, 2] + t * g[2, 0] + 1, g[1, 1] - t + g[0, 0] * g[2, 2], g[2, 1] + t**2 - half]
+        ),
+        y0=list(_turn()),
+        span=_span(),
+    )
+
+
+def _turn() -> Matrix:
+    """Return a rotation matrix with rational entries."""
+    a, b = Rational(3, 5), Rational(4, 5)
+    return Matrix(3, 3, [0, -1, 0, a, 0, -b, b, 0, a])
+
+
+def _sphere() -> Problem:
+    """Return SO(3) acting on a sphere, with a field that has a component along the state."""
+    t, m = Symbol("t", real=True), SO3().dual("m")
+    return FieldScene(
+        name="SO(3) on a sphere",
+        group=SO3(),
+        action=Rotation(),
+        y=m,
+        f=Matrix([m[1] * m[2] + t + m[0], m[0] - t * m[1] + 1, m[2] * m[2] - m[0] * t + 2]),
+        y0=Matrix([Rational(2, 3), -Rational(1, 3), Rational(2, 3)]),
+        span=_span(),
+    )
+
+
+def _linear() -> Problem:
+    """Return GL(3) acting on itself from the left."""
+    t, half, a = Symbol("t", real=True), Rational(1, 2), GL(3).point("a")
+    entries = [
+        a[(i + 1) % 3, j] * (half + t) - a[j, i] * a[i, (j + 2) % 3] / 3 + (t if i == j else half * (i - j))
+        for i in range(3)
+        for j in range(3)
+    ]
+    return FieldScene(
+        name="GL(3) on itself",
+        group=GL(3),
+        action=LeftMultiplication(),
+        y=Matrix(list(a)),
+        f=Matrix(entries),
+        y0=[1, half, 0, -half, 1, Rational(1, 3), 0, 0, 1],
+        span=_span(),
+    )
+
+
+def _nilpotent() -> Problem:
+    """Return the unipotent 4 x 4 matrices acting on vectors."""
+    t = Symbol("t", real=True)
+    places = ((0, 1), (1, 2), (2, 3), (0, 2), (1, 3), (0, 3))
+    basis = [[[int((i, j) == p) for j in range(4)] for i in range(4)] for p in places]
+    x = [Symbol(f"x{k}", real=True) for k in range(4)]
+    return FieldScene(
+        name="unipotent matrices on vectors",
+        group=MatrixGroup("U(4)", basis),
+        action=Rotation(),
+        y=Matrix(x),
+        f=Matrix(
+            [
+                *(3 * x[2] * x[1] + 5 * t, 2 * x[0] - 4 * t * x[2] + x[1], x[1] * x[3] - 6 * t),
+                *(x[2] + x[0] * x[0], t - x[1] * x[0], x[2] * x[1]),
+            ]
+        ),
+        y0=Matrix([Rational(1, 2), -1, Rational(3, 2), 1]),
+        span=_span(),
+    )
+
+
+@cache
+def hamiltonians() -> tuple[Problem, ...]:
+    """Return the Hamiltonian scenes."""
+    t, half = Symbol("t", real=True), Rational(1, 2)
+    places = ((0, 1), (1, 2), (0, 2))
+    basis = [[[int((i, j) == p) for j in range(3)] for i in range(3)] for p in places]
+    upper = Matrix(3, 3, [1, half, 2, 0, 1, -Rational(1, 3), 0, 0, 1])
+    spaces: tuple[tuple[str, SO3 | MatrixGroup, Matrix], ...] = (
+        ("T*SO(3)", SO3(), _turn()),
+        ("T*GL(2)", GL(2), Matrix(2, 2, [1, half, -Rational(1, 3), 1])),
+        ("T*Heisenberg", MatrixGroup("Heisenberg", basis), upper),
+    )
+    problems = []
+    for name, group, start in spaces:
+        q, mu = group.point("q"), group.dual("p")
+        moved = q.T * Matrix(list(mu)[: q.shape[0]])
+        H = mu.dot(mu) / 2 + mu[0] * mu[1] / 3 + moved.dot(moved) / 2
+        H += q[0, 1] * q[1, 0] + q[0, 0] * mu[1] + t * (q[0, 1] + mu[0] * mu[0] / 2) + q[0, 0] * q[1, 1]
+        momentum = [1, Rational(-1, 2), Rational(2, 3), half][: group.dim]
+        scene = HamiltonianScene(
+            name=name, group=group, q=q, mu=mu, H=H, q0=start, mu0=Matrix(momentum), span=_span()
+        )
+        problems.append(scene)
+    return tuple(problems)
+
+
+def strict_scenes(variational: bool) -> tuple[Problem, ...]:
+    """Return the scenes for variational methods, or for all others."""
+    return hamiltonians() if variational else fields()

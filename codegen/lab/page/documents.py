@@ -1,0 +1,91 @@
+"""The documents of the report: a page for each scene, and an overview with links to the pages.
+
+Each document is complete: style and pictures are inside, and nothing is fetched.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+
+from codegen import scenes
+from codegen.build import find_compiler
+from codegen.lab.efficiency.requirements import NEEDS
+from codegen.lab.measurement import Section
+from codegen.lab.page.formatting import scientific
+from codegen.lab.scene_results import SceneResults
+from codegen.scene.problem import Problem
+from orderconds import __version__
+
+OVERVIEW = "index.html"
+
+
+def page_name(results: SceneResults) -> str:
+    """Return the file name of the page of a scene."""
+    return f"{results.scene.name}.html"
+
+
+def render(results: SceneResults, command: str) -> str:
+    """Return the page of one scene; ``command`` is the command that reproduces it."""
+    scene = results.scene
+    first, last = scene.span
+    values = {
+        "name": scene.name,
+        "title": _title(scene),
+        "about": [p for p in scenes.about(results.subject.name).split("\n\n") if p],
+        "group": scene.group.name,
+        "state": ", ".join(f"{b.name} ({len(b.symbols)} numbers)" for b in scene.state),
+        "span": f"{first} ≤ t ≤ {last}",
+    }
+    sections = [
+        {"name": m.name, "title": m.title, "html": m.failure if body is None else _html(body)}
+        for m in results.measured
+        if (body := m.section()) is not None or m.failure
+    ]
+    return _filled("scene.html.j2", command, s=values, sections=sections, overview=OVERVIEW)
+
+
+def render_overview(every: Sequence[SceneResults], command: str) -> str:
+    """Return the overview of several scenes."""
+    summaries = [
+        {
+            "title": _title(results.scene),
+            "page": page_name(results),
+            "name": results.scene.name,
+            "about": scenes.about(results.subject.name).partition("\n\n")[0],
+            "sections": [_html(body) for m in results.measured if (body := m.overview()) is not None],
+        }
+        for results in every
+    ]
+    return _filled("overview.html.j2", command, scenes=summaries, needs=NEEDS)
+
+
+def _html(section: Section) -> Markup:
+    """Return the HTML of a section; text is escaped by the template environment."""
+    return Markup(_environment().from_string(section.template).render(**section.data))
+
+
+def _filled(name: str, command: str, **values: object) -> str:
+    facts = {"command": command, "version": __version__, "compiler": find_compiler().version}
+    return _environment().get_template(name).render(**facts, **values)
+
+
+@cache
+def _environment() -> Environment:
+    environment = Environment(
+        loader=PackageLoader("codegen.templates", "report"),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=True,
+    )
+    environment.filters["power"] = scientific
+    return environment
+
+
+def _title(scene: Problem) -> str:
+    return scene.title.partition(" (")[0]

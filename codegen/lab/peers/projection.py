@@ -1,0 +1,59 @@
+"""Projection of a state onto its manifold, which users of general integrators apply after each step.
+
+A rotation matrix takes one Newton step towards its polar factor, g (3 - g^T g)/2, which squares its defect.
+A point on which a rotation group acts is scaled to its initial distance from the origin. Momenta do not
+change.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+from codegen.errors import SceneError
+from codegen.groups import Rotation
+from codegen.groups.capabilities import Projection, Rotations
+from codegen.groups.linear_algebra import dot
+from codegen.ir.domain import Domain, ExprDomain, FloatDomain
+from codegen.ir.values import Kind
+from codegen.lab.number_types import Scalar, Vector
+from codegen.lab.straight_line_field import StraightLine, straight_line
+from codegen.scene.problem import Problem
+
+
+def project(scene: Problem, domain: Domain, state: Sequence[Scalar]) -> Vector:
+    """Return the projected state; :class:`SceneError` for a manifold without a projection."""
+    result: list[Scalar] = []
+    start = 0
+    for block in scene.state:
+        values = tuple(state[start : start + len(block.symbols)])
+        start += len(values)
+        projection = scene.group.offers(Projection) if block.kind is Kind.GROUP else None
+        if projection is not None:
+            result += projection.project(domain, values)
+        elif (
+            block.kind is Kind.POINT and isinstance(scene.action, Rotation) and scene.group.offers(Rotations)
+        ):
+            radius = math.hypot(*scene.initial(FloatDomain(0.0))[start - len(values) : start])
+            length = domain.call("sqrt", dot(values, values))
+            scale = domain.rational(*radius.as_integer_ratio()) / length
+            result += [scale * x for x in values]
+        elif block.kind is Kind.DUAL or scene.group.abelian:
+            result += values
+        else:
+            raise SceneError(
+                f"no projection onto {scene.group.name}", where=scene.name, expected="SO(3) or a sphere"
+            )
+    return tuple(result)
+
+
+def projection_lines(scene: Problem) -> StraightLine:
+    """Return the projection as straight-line code."""
+    domain = ExprDomain()
+    return straight_line(scene, project(scene, domain, tuple(domain.space.sym(s) for s in scene.symbols)))
+
+
+def projection(scene: Problem) -> Callable[[Sequence[float]], tuple[float, ...]]:
+    """Return the projection as a function of a list of floats."""
+    field = projection_lines(scene).python(float, {"sqrt": math.sqrt})
+    return lambda y: field(y, 0.0)

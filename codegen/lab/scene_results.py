@@ -1,0 +1,96 @@
+"""The results of all selected measurements on one scene."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from codegen.lab.measurement import Section
+from codegen.lab.registry import AnyMeasurement, measurements
+from codegen.lab.subject import Subject
+from codegen.scene.problem import Problem
+from orderconds.errors import InputError
+
+
+@dataclass(frozen=True)
+class Measured:
+    """One measurement on a subject: its result, or the reason why there is none."""
+
+    measurement: AnyMeasurement
+    subject: Subject
+    result: object = None
+    failure: str = ""
+
+    @property
+    def name(self) -> str:
+        """The name of the measurement."""
+        return self.measurement.name
+
+    @property
+    def title(self) -> str:
+        """The heading of the section."""
+        return self.measurement.title
+
+    @property
+    def holds(self) -> bool:
+        """Whether it was measured and every check holds."""
+        return not self.failure and self.measurement.holds(self.result)
+
+    def section(self) -> Section | None:
+        """Return the body of the section; None if there is nothing to show."""
+        return None if self.failure else self.measurement.section(self.result, self.subject)
+
+    def overview(self) -> Section | None:
+        """Return the paragraph for the overview."""
+        return None if self.failure else self.measurement.overview(self.result, self.subject)
+
+    def files(self) -> Mapping[str, str]:
+        """Return the files to write beside the page."""
+        return {} if self.failure else self.measurement.files(self.result, self.subject)
+
+    def lines(self) -> Iterable[str]:
+        """Return lines for the terminal."""
+        if self.failure:
+            return [f"{self.subject.scene.name}: no {self.name}: {self.failure}"]
+        return self.measurement.lines(self.result, self.subject)
+
+    def as_json(self) -> object:
+        """Return plain data."""
+        return {"failure": self.failure} if self.failure else self.measurement.as_json(self.result)
+
+
+@dataclass(frozen=True)
+class SceneResults:
+    """The selected measurements on one scene."""
+
+    subject: Subject
+    measured: tuple[Measured, ...]
+
+    @property
+    def scene(self) -> Problem:
+        """The scene."""
+        return self.subject.scene
+
+    @property
+    def held(self) -> bool:
+        """Whether all measurements hold."""
+        return all(m.holds for m in self.measured)
+
+    def as_json(self) -> dict[str, object]:
+        """Return plain data: one key a measurement, with an empty list if it was not selected."""
+        measured = {m.name: m.as_json() for m in self.measured}
+        keys = {m.name: m.json_key or m.name for m in measurements()}
+        return {"scene": self.scene.name} | {key: measured.get(name, []) for name, key in keys.items()}
+
+
+def measure_scene(subject: Subject, chosen: Sequence[AnyMeasurement]) -> SceneResults:
+    """Run the chosen measurements; one that fails does not affect the others."""
+    _ = subject.exact  # a scene without a reference solution cannot be measured: SceneError
+    return SceneResults(subject, tuple(_measure(m, subject) for m in chosen))
+
+
+def _measure(measurement: AnyMeasurement, subject: Subject) -> Measured:
+    try:
+        return Measured(measurement, subject, measurement.result(subject))
+    except (InputError, ArithmeticError) as error:
+        return Measured(measurement, subject, failure=str(error))

@@ -1,0 +1,316 @@
+"""Single steps on extreme input: emitted C compared with the interpreter in 60 digits on the same doubles.
+
+The result of a step is compared with the exact result and with probes. A probe changes the input, the result
+of every operation of the step program and both sides of the equations of an implicit step by one rounding
+error. The change of the exact result under the probes shows how many digits are *determined* by the input.
+
+- A result is *accurate* if it has at least :data:`LEAST` digits and rounding explains its error.
+- It is *undetermined* if rounding explains its error but leaves fewer digits (a rotation by 1e20 radians has
+  no correct digit). The emitted code should return a status for such a step.
+- It is *wrong* if it is finite and rounding does not explain its error.
+
+Digits are relative to the larger of a block of the state before and after the step. Numbers below the least
+normal double count as zero.
+
+The equations of a long implicit step have several solutions. If fixed-point iteration converges in the
+interpreter, its solution is taken. Otherwise Newton's method in 60 digits starts from the solution of emitted
+Python, which uses the algorithm of emitted C, and converges to a solution or shows that there is none.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import accumulate
+
+from codegen.emitter import Compiled
+from codegen.groups import Rotation
+from codegen.ir.domain import FloatDomain, NotConverged, PreciseDomain
+from codegen.ir.interpret import flatten, interpret
+from codegen.ir.values import Kind
+from codegen.lab.number_types import Scalar, Vector
+from codegen.lab.runner import Emitted, split_state
+from codegen.loader import InterpretedIntegrator, StepFailed
+from codegen.lower import problem_for
+
+DIGITS = 60
+EPSILON = 2.0**-53
+TINY = 2.0**-1022
+"""The least normal double; smaller results count as zero."""
+
+ROUNDINGS = 256.0
+"""Factor by which the error of a step may exceed the effect of one rounding of every input and operation."""
+
+LEAST = 3
+"""Smallest number of correct digits of an accurate result."""
+
+PROBES = 4
+
+SWEEPS, CORRECTIONS = 60, 30
+"""Largest numbers of iterations of the interpreter: fixed-point iteration, and Newton's method."""
+
+ACCURATE, WRONG = "accurate", "WRONG"
+SILENT = f"undetermined: rounding leaves fewer than {LEAST} digits"
+UNSOLVED = f"{WRONG}: the equations of this step have no solution near the result"
+
+ANGLES = (1e-300, 1e-8, math.pi - 1e-9, math.pi, 2 * math.pi, 100.0, 1e3, 1e4, 1e5, 1e6, 1e8, 1e300)
+STEPS = (1e-300, 1e-12, 1e-8, 1e-4)
+SCALES = (0.0, 5e-324, 1e-160, 1e-75, 1e75, 1e150, 1e308)
+
+
+@dataclass(frozen=True)
+class Case:
+    """One step: the name of the extreme feature, the state, the time and the step size."""
+
+    name: str
+    state: tuple[float, ...]
+    t: float
+    h: float
+
+
+@dataclass(frozen=True)
+class Answer:
+    """The verdict of a case: ``accurate``, a status message, ``undetermined`` or ``WRONG``.
+
+    ``error`` is the largest relative error of a block of the state, ``determined`` the number of digits that
+    the input determines; both are None if there was no result to compare.
+    """
+
+    case: Case
+    verdict: str
+    error: float | None = None
+    determined: float | None = None
+
+    def as_json(self) -> dict[str, object]:
+        """Return plain data. The digits of a state of zeros are null, because all are determined."""
+        digits = self.determined
+        return {
+            "case": self.case.name,
+            "h": self.case.h if math.isfinite(self.case.h) else None,
+            "verdict": self.verdict,
+            "error": self.error,
+            "digits_determined": None if digits is None or math.isinf(digits) else digits,
+        }
+
+
+def cases(compiled: Compiled) -> Iterator[Case]:
+    """Yield extreme cases of a method on a scene, around its initial state and a hundredth of its span."""
+    scene = compiled.scene
+    state = tuple(float(x) for x in scene.initial(FloatDomain(0.0)))
+    t, h = float(scene.span[0]), float((scene.span[1] - scene.span[0]) / 100)
+    usual = Case("usual step", state, t, h)
+    yield usual
+    yield replace(usual, name="h = 0", h=0.0)
+    yield replace(usual, name="backward", h=-h)
+    for size in STEPS:
+        yield replace(usual, name=f"h = {size:g}", h=size)
+    speed = _speed(compiled, state, t)
+    for angle in ANGLES if 0.0 < speed < math.inf else ():
+        name = {math.pi: "pi", 2 * math.pi: "2 pi", math.pi - 1e-9: "pi - 1e-9"}.get(angle, f"{angle:g}")
+        yield replace(usual, name=f"angle {name}", h=angle / speed)
+    for scale in SCALES:
+        scaled = _scaled(compiled, state, scale)
+        if scaled is not None:
+            yield replace(usual, name=f"momentum times {scale:g}", state=scaled)
+    for bad in (math.nan, math.inf, -math.inf):
+        yield replace(usual, name=f"h = {bad}", h=bad)
+        for i in dict.fromkeys(_firsts(compiled)):
+            spoilt = tuple(bad if k == i else x for k, x in enumerate(state))
+            yield replace(usual, name=f"{scene.symbols[i]} = {bad}", state=spoilt)
+
+
+def _firsts(compiled: Compiled) -> list[int]:
+    """Return the index of the first coordinate of every block, and of the last coordinate."""
+    places, start = [], 0
+    for block in compiled.scene.state:
+        places.append(start)
+        start += len(block.symbols)
+    return [*places, start - 1]
+
+
+def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple[float, ...] | None:
+    """Return the state with its vectors scaled; None if it has no vector, or a number overflows."""
+    scene, result, start, any_scaled = compiled.scene, list(state), 0, False
+    for block in scene.state:
+        free = block.kind is Kind.DUAL or scene.group.abelian
+        free |= block.kind is Kind.POINT and isinstance(scene.action, Rotation)
+        for i in range(start, start + len(block.symbols)):
+            if free:
+                result[i] = 0.0 if scale == 0.0 else result[i] * scale
+                any_scaled = True
+        start += len(block.symbols)
+    return tuple(result) if any_scaled and all(map(math.isfinite, result)) else None
+
+
+def _speed(compiled: Compiled, state: Sequence[float], t: float) -> float:
+    """Return |f(y0)|, the angle of rotation per unit of time."""
+    field = compiled.scene.as_field()
+    domain = FloatDomain(0.0)
+    (value,) = field.apply(domain, "field", None, (tuple(state), t))
+    return math.hypot(*value[: compiled.scene.group.dim])
+
+
+def answer(compiled: Compiled, runner: Emitted, case: Case) -> Answer:
+    """Make one step with emitted code and return the verdict."""
+    try:
+        answered = runner.integrator.run(list(case.state), case.h, 1, case.t)
+    except StepFailed as failure:
+        return Answer(case, f"status: {failure.reason}")
+    if not (math.isfinite(case.h) and all(map(math.isfinite, case.state))):
+        return Answer(case, f"{WRONG}: a result for input that is not finite")
+    if not all(map(math.isfinite, answered)):
+        return Answer(case, f"{WRONG}: a result that is not finite")
+    try:
+        exact, probed = _exact(compiled, runner, case)
+    except (NotConverged, ArithmeticError, ValueError):
+        return Answer(
+            case, UNSOLVED if compiled.kernel.loops else f"{WRONG}: a result where the interpreter has none"
+        )
+    error, determined, explained = 0.0, math.inf, True
+    for block in _blocks(compiled):
+        scale = max(max(abs(exact[i]), abs(case.state[i])) for i in block)
+        gap = max(abs(answered[i] - exact[i]) for i in block)
+        moves = max((abs(m[i] - exact[i]) for m in probed for i in block), default=0)
+        explained &= bool(gap <= ROUNDINGS * (moves + EPSILON * scale + TINY))
+        if scale > TINY:
+            error = max(error, float(max(gap - ROUNDINGS * TINY, 0) / scale))
+            determined = min(determined, -math.log10(max(float((moves + EPSILON * scale) / scale), 1e-17)))
+    verdict = WRONG if not explained else ACCURATE if error <= 10.0**-LEAST else SILENT
+    return Answer(case, verdict, error, max(determined, 0.0))
+
+
+def _blocks(compiled: Compiled) -> list[range]:
+    result, start = [], 0
+    for block in compiled.scene.state:
+        result.append(range(start, start + len(block.symbols)))
+        start += len(block.symbols)
+    return result
+
+
+def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
+    """Return the input with every number moved up or down by one rounding, at random."""
+    import mpmath
+
+    draw = random.Random(number)
+    context = mpmath.mp.clone()
+    context.dps = DIGITS
+
+    def rounded(x: float) -> Scalar:
+        return context.mpf(x) * (1 + draw.choice((-1, 1)) * context.mpf(EPSILON))
+
+    return tuple(rounded(x) for x in case.state), rounded(case.t), rounded(case.h)
+
+
+def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar], list[list[Scalar]]]:
+    """Return the state after the step in 60 digits, and the states after the steps of the probes.
+
+    The equations of long steps are solved in more digits, because they contain numbers of the size of h^2.
+    """
+    given, near = (case.state, case.t, case.h), None
+    more = 3 * math.ceil(math.log10(max(1.0, abs(case.h))))
+    try:
+        exact = precise_step(compiled, *given, limit=SWEEPS, newton=False)
+    except (NotConverged, ArithmeticError, ValueError):
+        near = solutions(runner, *given)
+        exact = precise_step(compiled, *given, near, limit=CORRECTIONS, digits=DIGITS + more)
+    if near is None and compiled.kernel.loops:
+        near = solutions(runner, *given)
+    probes = [
+        precise_step(
+            compiled,
+            *_probe(case, number),
+            near and list(near),
+            limit=CORRECTIONS,
+            probe=number,
+            digits=DIGITS + more,
+        )
+        for number in range(1, PROBES + 1)
+    ]
+    return exact, probes
+
+
+def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> list[list[float]] | None:
+    """Return the solved unknowns of each implicit block of a step of emitted Python, in the order of
+    solution.
+
+    None if the step fails.
+    """
+    integrator = runner.python.integrator
+    assert isinstance(integrator, InterpretedIntegrator)
+    module: Scalar = integrator.module
+    plain, solved = module._Memory, dict[int, list[float]]()
+
+    def keep(self: object, unknowns: list[float]) -> None:
+        solved[id(self)] = unknowns
+        plain.keep(self, unknowns)
+
+    module._Memory = type("_Memory", (plain,), {"keep": keep})
+    try:
+        integrator.run(list(state), h, 1, t)
+    except StepFailed:
+        return None
+    finally:
+        module._Memory = plain
+    widths = [len(loop.unknowns) for loop in runner.compiled.kernel.loops]
+    ends = list(accumulate(widths))
+    return [list(x[end - n : end]) for x in solved.values() for n, end in zip(widths, ends, strict=True)]
+
+
+class Rounding(PreciseDomain):
+    """Numbers of many digits in which every result of an operation has one rounding error of a double.
+
+    One side of every equation gets a rounding error of its own size and one of its neighbour's size. The
+    signs are random but the same throughout a probe, so that the equations remain smooth.
+    """
+
+    def __init__(self, h: Scalar, digits: int, probe: int) -> None:
+        super().__init__(h, digits)
+        self.probe = probe
+
+    def computed(self, name: str, value: Scalar) -> Scalar:
+        """Return the result of an operation with a rounding error."""
+        draw = random.Random(f"{self.probe} {name}")
+        if isinstance(value, tuple):
+            return tuple(x * (1 + draw.choice((-1, 1)) * self.context.mpf(EPSILON)) for x in value)
+        return value * (1 + draw.choice((-1, 1)) * self.context.mpf(EPSILON))
+
+    def rounded(self, images: list[Scalar]) -> list[Scalar]:
+        """Return the images of the unknowns of an equation with rounding errors."""
+        draw = random.Random(self.probe)
+        moves = [[draw.choice((-1, 1)) * EPSILON for _ in range(2)] for _ in images]
+        after = [*images[1:], images[0]]
+        return [x + a * x + b * y for x, y, (a, b) in zip(images, after, moves, strict=True)]
+
+    def increment(self, x: Scalar) -> Scalar:
+        """Return the step of a difference quotient; the effect of rounding is needed to a few digits only."""
+        return self.context.mpf(2) ** -40 * max(1, abs(x))
+
+
+def precise_step(
+    compiled: Compiled,
+    state: Sequence[Scalar],
+    t: Scalar,
+    h: Scalar,
+    near: list[list[Scalar]] | None = None,
+    *,
+    limit: int = 400,
+    newton: bool = True,
+    probe: int | None = None,
+    digits: int = DIGITS,
+) -> list[Scalar]:
+    """Return the state after one step of the program, in many digits; ``near`` as for :func:`interpret`.
+
+    ``probe`` is the seed of the rounding errors, None for exact operations.
+    """
+    domain = PreciseDomain(h, digits) if probe is None else Rounding(h, digits, probe)
+    problem = problem_for(compiled.scene, compiled.method)
+    numbers = tuple(domain.context.mpf(x) for x in state)
+    values: dict[str, Scalar] = {"t": domain.context.mpf(t), **split_state(problem, numbers)}
+    program = compiled.program
+    if near is not None:
+        near[:] = [[domain.context.mpf(x) for x in block] for block in near]
+    inputs = {v.name: values[v.name] for v in program.inputs}
+    outputs = interpret(program, problem, domain, inputs, limit=limit, newton=newton, near=near)
+    return [x for block in problem.state for x in flatten(block.kind, outputs[block.name])]

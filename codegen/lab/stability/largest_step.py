@@ -1,0 +1,77 @@
+"""The largest usable step of a method on a scene, by bisection, and the reason why a longer step is not
+usable.
+
+A number of equal steps over the span is usable if no step fails, the final error is below a tenth of the
+state's size, and a conserved energy has changed by at most a tenth of its size. The first failure with one
+step fewer is the limit: the solver, numbers that are not finite, the energy, or the accuracy.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+from codegen.emitter import Compiled
+from codegen.lab.distance import distance
+from codegen.lab.invariants import functions
+from codegen.lab.reference import Reference
+from codegen.lab.runner import Emitted
+from codegen.loader import StepFailed
+
+USABLE = 0.1
+MOST = 2**22
+ENERGY = "energy"
+
+
+@dataclass(frozen=True)
+class Limit:
+    """``steps`` of size ``h`` are usable, one fewer is not, for ``reason``; None if none are usable."""
+
+    h: float | None
+    steps: int | None
+    reason: str
+
+    def as_json(self) -> dict[str, object]:
+        """Return plain data."""
+        return {"h": self.h, "steps": self.steps, "reason": self.reason}
+
+
+def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit:
+    """Return the largest usable step over the span: the number of steps is doubled, then bisected."""
+    span = compiled.scene.span[1] - compiled.scene.span[0]
+    reason, failing, steps = "a single step over the span is usable", 0, 1
+    while (failure := _failure(compiled, runner, exact, steps)) is not None:
+        reason, failing, steps = failure, steps, 2 * steps
+        if steps > MOST:
+            return Limit(None, None, f"not usable with {MOST} steps: {reason}")
+    while steps - failing > 1:
+        middle = (steps + failing) // 2
+        failure = _failure(compiled, runner, exact, middle)
+        if failure is None:
+            steps = middle
+        else:
+            reason, failing = failure, middle
+    return Limit(float(Fraction(span) / steps), steps, reason)
+
+
+def _failure(compiled: Compiled, runner: Emitted, exact: Reference, steps: int) -> str | None:
+    """Return why a number of steps is not usable, or None if it is."""
+    scene = compiled.scene
+    first, last = scene.span
+    h = float(Fraction(last - first) / steps)
+    try:
+        end = runner.integrator.run(runner.initial, h, steps, float(first))
+    except StepFailed as failure:
+        return failure.reason
+    if not all(map(math.isfinite, end)):
+        return "a number is not finite"
+    energy = functions(scene).get(ENERGY)
+    if energy is not None and scene.autonomous:
+        before, after = energy(runner.initial, float(first))[0], energy(end, float(last))[0]
+        if abs(after - before) > USABLE * max(abs(before), abs(after)):
+            return "the energy changes by more than a tenth"
+    size = max(1.0, math.hypot(*map(float, exact.state)))
+    if distance(scene, end, exact.state) > USABLE * size:
+        return "the error is above a tenth of the state's size"
+    return None

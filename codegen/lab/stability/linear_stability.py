@@ -1,0 +1,92 @@
+"""Linear stability: the stability function of a tableau and its stability intervals on both axes.
+
+For y' = lambda y a Runge-Kutta method gives y1 = R(h lambda) y0. A method on a group solves the frozen
+linear part of the field exactly by its exponentials. For the remaining part, R of the same tableau applies,
+so the stability region of the tableau bounds the step there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from codegen.method import Method
+from orderconds.errors import InputError
+from orderconds.tableau.stability import stability_function
+
+FARTHEST = 100.0
+SLACK = 1e-9
+
+
+@dataclass(frozen=True)
+class Quotient:
+    """A rational function of complex numbers, by ascending coefficients."""
+
+    numerator: tuple[float, ...]
+    denominator: tuple[float, ...]
+
+    def __call__(self, z: complex) -> complex:
+        """Return the value at z, infinity at a pole."""
+        top, bottom = (_horner(row, z) for row in (self.numerator, self.denominator))
+        return top / bottom if bottom else complex("inf")
+
+
+@dataclass(frozen=True)
+class Region:
+    """R as a function of complex numbers, and how far |R| <= 1 reaches from zero along both axes.
+
+    ``real`` is the length of the interval on the negative real axis, ``imaginary`` on the imaginary axis;
+    infinity if it reaches beyond :data:`FARTHEST`.
+    """
+
+    label: str
+    value: Callable[[complex], complex]
+    real: float
+    imaginary: float
+
+    def as_json(self) -> dict[str, object]:
+        """Return plain data; an unbounded interval is null."""
+        return {
+            "real": None if self.real == float("inf") else self.real,
+            "imaginary": None if self.imaginary == float("inf") else self.imaginary,
+        }
+
+
+def region(method: Method) -> Region | None:
+    """Return the linear stability of a tableau on R^n; None for splittings and inexact coefficients."""
+    tableau = method.tableau
+    try:
+        R = stability_function(tableau.abelian(), tableau.ring)
+        rows = [[float(tableau.ring.approximate(x, 20)) for x in p] for p in (R.numerator, R.denominator)]
+    except (InputError, TypeError, ValueError, ArithmeticError, AttributeError):
+        return None
+
+    value = Quotient(*map(tuple, rows))
+    return Region(method.label, value, reach(value, -1.0), reach(value, 1j))
+
+
+def _horner(row: Sequence[float], z: complex) -> complex:
+    total = 0j
+    for c in reversed(row):
+        total = total * z + c
+    return total
+
+
+def reach(value: Callable[[complex], complex], direction: complex) -> float:
+    """Return the distance from zero up to which |R| <= 1 holds along a ray, infinity beyond :data:`FARTHEST`.
+
+    >>> round(reach(lambda z: 1 + z, -1.0), 6), reach(lambda z: 1 / (1 - z), -1.0)
+    (2.0, inf)
+    """
+    step, x = 1.0 / 128, 0.0
+    while x < FARTHEST:
+        if abs(value((x + step) * direction)) > 1.0 + SLACK:
+            break
+        x += step
+    else:
+        return float("inf")
+    low, high = x, x + step
+    for _ in range(40):
+        middle = (low + high) / 2
+        low, high = (middle, high) if abs(value(middle * direction)) <= 1.0 + SLACK else (low, middle)
+    return low if low > step else 0.0

@@ -1,0 +1,110 @@
+"""Order reduction: the observed order on stiff variants of a scene, with steps longer than the fast time
+scale.
+
+Steps are halved, from one step over the span. Slopes between runs with h times the rate above one show the
+order in the stiff regime; their median is compared with the stated order.
+"""
+
+from __future__ import annotations
+
+import math
+import statistics
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from typing import TypeAlias
+
+from codegen.certify import certified_order
+from codegen.emitter import compile_method
+from codegen.lab.distance import distance
+from codegen.lab.reference import Reference
+from codegen.lab.runner import Emitted, RunFailed
+from codegen.lab.stability.stiff_variants import StiffVariant
+from codegen.method import Method
+
+DOUBLINGS = 15
+"""Number of runs; each has twice as many steps as the one before."""
+
+StiffRun: TypeAlias = tuple[float, float | None, str]
+"""Step size, error (None if the run failed), and the reason of a failure."""
+
+CLOSE = 0.1
+"""Larger errors, relative to the size of the state, are not used for slopes."""
+
+
+@dataclass(frozen=True)
+class OrderReduction:
+    """Runs on a stiff variant, as (h, error or None, reason of failure), and the observed order."""
+
+    variant: str
+    rate: float
+    stated: int
+    runs: tuple[StiffRun, ...]
+    observed: float | None
+    verdict: str
+
+    def as_json(self) -> dict[str, object]:
+        """Return plain data."""
+        return {
+            "variant": self.variant,
+            "rate": self.rate,
+            "stated_order": self.stated,
+            "h": [h for h, _, _ in self.runs],
+            "error": [e for _, e, _ in self.runs],
+            "failures": [why for _, _, why in self.runs],
+            "observed_order": self.observed,
+            "verdict": self.verdict,
+        }
+
+
+def order_reduction(variant: StiffVariant, method: Method, exact: Reference) -> OrderReduction:
+    """Return the runs of a method on a stiff variant; MethodError if the method cannot be lowered onto it."""
+    scene = variant.scene
+    compiled = compile_method(scene, method)
+    order = certified_order(method, scene)
+    runner = Emitted(compiled, "c", order)
+    span = scene.span[1] - scene.span[0]
+    size = max(1.0, math.hypot(*map(float, exact.state)))
+    runs: list[StiffRun] = []
+    for k in range(DOUBLINGS):
+        h = float(Fraction(span) / 2**k)
+        try:
+            error = distance(scene, runner.final(2**k), exact.state)
+        except RunFailed as failure:
+            runs.append((h, None, str(failure).partition(": ")[2] or str(failure)))
+            continue
+        runs.append((h, error if math.isfinite(error) else None, "" if math.isfinite(error) else "infinite"))
+        if error < 1e-13 * size:
+            break
+    stiff = [
+        (h, e) for h, e, _ in runs if e is not None and h * variant.rate > 1.0 and 0.0 < e < CLOSE * size
+    ]
+    slopes = [
+        math.log(a[1] / b[1]) / math.log(a[0] / b[0]) for a, b in pairwise(stiff) if 0.4 < b[0] / a[0] < 0.6
+    ]
+    observed = statistics.median(slopes) if slopes else None
+    return OrderReduction(
+        variant.name,
+        variant.rate,
+        order.order,
+        tuple(runs),
+        observed,
+        _verdict(order.order, observed, runs, size, variant),
+    )
+
+
+def _verdict(
+    stated: int, observed: float | None, runs: Sequence[StiffRun], size: float, variant: StiffVariant
+) -> str:
+    """Return the result in words."""
+    close = [h for h, e, _ in runs if e is not None and e < CLOSE * size]
+    if not close:
+        failed = [why for _, e, why in runs if e is None]
+        return f"no usable step down to h = {runs[-1][0]:.1e}" + (f" ({failed[-1]})" if failed else "")
+    if observed is None:
+        limit = "stability or accuracy requires steps that resolve the fast motion"
+        return f"usable up to h = {max(close):.1e}, h times rate {max(close) * variant.rate:.2g}: {limit}"
+    if observed < stated - 0.5:
+        return f"order reduction {stated} to {max(observed, 0.0):.1f} while h times rate is above 1"
+    return f"order {stated} is preserved (observed {observed:.1f}) while h times rate is above 1"

@@ -1,0 +1,131 @@
+"""The stability study of one method on a scene: all tests of this package."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+from codegen.emitter import Compiled, compile_method
+from codegen.errors import MethodError, SceneError
+from codegen.lab.progress import Progress
+from codegen.lab.reference import Reference, cached_reference
+from codegen.lab.runner import Emitted
+from codegen.lab.stability.endurance import Endurance, endure
+from codegen.lab.stability.extreme_steps import SILENT, WRONG, Answer, answer, cases
+from codegen.lab.stability.largest_step import Limit, largest_step
+from codegen.lab.stability.linear_stability import Region, region
+from codegen.lab.stability.order_reduction import OrderReduction, order_reduction
+from codegen.lab.stability.stiff_variants import StiffVariant, variants_of
+from codegen.method import Method
+from codegen.scene.problem import Problem
+
+
+@dataclass(frozen=True)
+class Findings:
+    """The results that have to be measured, apart from the linear stability of the tableau."""
+
+    limit: Limit
+    answers: tuple[Answer, ...]
+    stiff: tuple[OrderReduction, ...]
+    endurance: tuple[Endurance, ...]
+    notes: tuple[str, ...] = field(default=())
+
+
+@dataclass(frozen=True)
+class Stability:
+    """The stability of one method on one scene."""
+
+    scene: str
+    method: str
+    region: Region | None
+    findings: Findings
+
+    @property
+    def wrong(self) -> tuple[Answer, ...]:
+        """The results that rounding does not explain."""
+        return tuple(a for a in self.findings.answers if a.verdict.startswith(WRONG))
+
+    @property
+    def honest(self) -> bool:
+        """Whether no result is wrong, and every endurance run holds."""
+        return not self.wrong and all(e.held for e in self.findings.endurance)
+
+    @property
+    def held(self) -> bool:
+        """Whether it is honest and every result is accurate or a status, none undetermined."""
+        return self.honest and not any(a.verdict == SILENT for a in self.findings.answers)
+
+    def as_json(self) -> dict[str, object]:
+        """Return plain data."""
+        results = self.findings
+        return {
+            "scene": self.scene,
+            "method": self.method,
+            "verdict": "holds" if self.held else "fails",
+            "linear": None if self.region is None else self.region.as_json(),
+            "largest_step": results.limit.as_json(),
+            "cases": [a.as_json() for a in results.answers],
+            "stiff": [s.as_json() for s in results.stiff],
+            "endurance": [e.as_json() for e in results.endurance],
+            "notes": list(results.notes),
+        }
+
+
+@dataclass(frozen=True)
+class StiffScenes:
+    """The stiff variants of a scene with their references, and notes on variants without a reference."""
+
+    variants: tuple[tuple[StiffVariant, Reference], ...] = ()
+    notes: tuple[str, ...] = ()
+
+
+def stability(
+    scene: Problem, methods: Sequence[Method], progress: Progress, *, endurance: bool = True
+) -> Iterator[Stability]:
+    """Yield the stability of each method on a scene; ``endurance`` includes runs of many steps."""
+    progress(f"{scene.name}: reference solution")
+    exact = cached_reference(scene)
+    stiff = stiff_scenes(scene, progress)
+    for method in methods:
+        progress(f"{scene.name}, {method.label}: emitting")
+        compiled = compile_method(scene, method)
+        results = findings(compiled, exact, stiff, progress, endurance=endurance)
+        yield Stability(scene.name, method.label, region(method), results)
+
+
+def stiff_scenes(scene: Problem, progress: Progress) -> StiffScenes:
+    """Return the stiff variants of a scene with their references."""
+    variants: list[tuple[StiffVariant, Reference]] = []
+    notes: list[str] = []
+    for variant in variants_of(scene):
+        progress(f"{variant.name}: reference solution")
+        try:
+            variants.append((variant, cached_reference(variant.scene)))
+        except SceneError as error:
+            notes.append(f"{variant.name}: {error.found}")
+    return StiffScenes(tuple(variants), tuple(notes))
+
+
+def findings(
+    compiled: Compiled, exact: Reference, stiff: StiffScenes, progress: Progress, *, endurance: bool = True
+) -> Findings:
+    """Run all stability tests of one compiled method, on its scene and on the stiff variants given."""
+    method = compiled.method
+    name = f"{compiled.scene.name}, {method.label}"
+    runner = Emitted(compiled, "c")
+    answers = []
+    for case in cases(compiled):
+        progress(f"{name}: {case.name}")
+        answers.append(answer(compiled, runner, case))
+    progress(f"{name}: largest step")
+    limit = largest_step(compiled, runner, exact)
+    reductions, notes = [], list(stiff.notes)
+    for variant, reference in stiff.variants:
+        progress(f"{name}: {variant.name}")
+        try:
+            reductions.append(order_reduction(variant, method, reference))
+        except MethodError as error:
+            notes.append(f"{variant.name}: {error.found}")
+    progress(f"{name}: long runs")
+    runs = endure(compiled, runner) if endurance else ()
+    return Findings(limit, tuple(answers), tuple(reductions), runs, tuple(notes))

@@ -1,0 +1,179 @@
+"""The subject of a report page: one scene with the methods that are measured on it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Generic, TypeVar
+
+from codegen.artifact import Artifact
+from codegen.certify import certified_order
+from codegen.emitter import Compiled, bare, compile_method, emit_compiled, quoted
+from codegen.lab.default_methods import report_methods
+from codegen.lab.measurement_cache import MeasurementCache
+from codegen.lab.peers import GROUPS, find, installed
+from codegen.lab.progress import Progress
+from codegen.lab.reference import Reference, cached_reference
+from codegen.lower import families_for
+from codegen.method import Method, parse
+from codegen.scene.problem import Problem
+from orderconds.errors import InputError
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How much is measured.
+
+    ``budget`` is the CPU time in seconds that one run of the bench may take, ``steps`` the number of steps
+    of a long run. ``back`` includes the run back, ``rounding`` the growth of rounding errors, ``stiff`` the
+    stiff variants of the scene, ``endurance`` runs of ten million steps.
+    """
+
+    budget: float
+    peers: tuple[str, ...]
+    steps: int
+    back: bool
+    rounding: bool
+    stiff: bool
+    endurance: bool
+
+
+QUICK = Effort(0.002, ("c-dop853",), 10_000, back=False, rounding=False, stiff=False, endurance=False)
+USUAL = Effort(0.05, ("c-dop853", "heyoka"), 100_000, back=True, rounding=True, stiff=True, endurance=False)
+FULL = Effort(0.5, ("all",), 1_000_000, back=True, rounding=True, stiff=True, endurance=True)
+EFFORTS = {"quick": QUICK, "usual": USUAL, "full": FULL}
+
+
+@dataclass(frozen=True)
+class CompiledMethod:
+    """A method compiled for the scene, the seconds that took, and the emitted C."""
+
+    compiled: Compiled
+    seconds: float
+    artifact: Artifact
+
+    @property
+    def label(self) -> str:
+        """The name of the method."""
+        return self.compiled.method.label
+
+    @property
+    def files(self) -> list[tuple[str, str]]:
+        """The emitted files, sorted, as part of a cache key."""
+        return sorted(self.artifact.files.items())
+
+
+@dataclass(frozen=True)
+class MethodFailure:
+    """A method that could not be measured, with the reason."""
+
+    method: str
+    reason: str
+
+    def as_json(self) -> dict[str, object]:
+        """Return plain data."""
+        return {"method": self.method, "verdict": "fails", "failure": self.reason}
+
+
+@dataclass(frozen=True)
+class MethodResults(Generic[T]):
+    """The results of the methods that could be measured, and the failures of the others."""
+
+    measured: tuple[T, ...]
+    failures: tuple[MethodFailure, ...] = ()
+
+
+@dataclass
+class Subject:
+    """One scene with the methods to measure; the input of every measurement.
+
+    ``name`` is the scene as the user wrote it. ``adaptive`` methods run once more with step-size control.
+    ``results`` holds the results of measurements by name, so that one can use the result of another.
+    """
+
+    name: str
+    scene: Problem
+    methods: tuple[Method, ...]
+    adaptive: tuple[Method, ...]
+    peers: tuple[str, ...]
+    effort: Effort
+    cache: MeasurementCache = field(default_factory=lambda: MeasurementCache(None))
+    progress: Progress = str
+    results: dict[str, object] = field(default_factory=dict)
+
+    @cached_property
+    def exact(self) -> Reference:
+        """The reference solution."""
+        self.progress(f"{self.scene.name}: reference solution")
+        return cached_reference(self.scene)
+
+    @cached_property
+    def compiled(self) -> MethodResults[CompiledMethod]:
+        """The compiled methods."""
+        methods, failures = [], []
+        for method in self.methods:
+            self.progress(f"{self.scene.name}, {method.label}: compiling")
+            start = time.perf_counter()
+            try:
+                compiled = compile_method(self.scene, method)
+                seconds = time.perf_counter() - start
+                artifact = emit_compiled(compiled, "c", order=certified_order(method, self.scene))
+            except (InputError, ArithmeticError) as error:
+                failures.append(MethodFailure(method.label, str(error)))
+                continue
+            methods.append(CompiledMethod(compiled, seconds, artifact))
+        return MethodResults(tuple(methods), tuple(failures))
+
+    def each(self, measure: Callable[[CompiledMethod], T]) -> MethodResults[T]:
+        """Return the results of ``measure`` by method; a failure does not affect other methods."""
+        results, failures = [], list(self.compiled.failures)
+        for method in self.compiled.measured:
+            try:
+                results.append(measure(method))
+            except (InputError, ArithmeticError) as error:
+                failures.append(MethodFailure(method.label, str(error)))
+        return MethodResults(tuple(results), tuple(failures))
+
+    def report_command(self, part: str) -> str:
+        """Return the command that measures one part of this page again."""
+        words = ["orderconds report", bare(self.name), *self._methods()]
+        return " ".join([*words, f"--only {part}", "-o DIR"])
+
+    def bench_command(self) -> str:
+        """Return the command that measures the cost again."""
+        words = ["orderconds bench", bare(self.name), *self._methods()]
+        words += [f"--adaptive {quoted(bare(m.label))}" for m in self.adaptive]
+        words += [f"-a {peer}" for peer in self.peers]
+        return " ".join([*words, f"--budget {self.effort.budget:g}", "-o DIR"])
+
+    def _methods(self) -> list[str]:
+        return [f"-m {quoted(bare(m.label))}" for m in self.methods]
+
+
+def subject(
+    name: str,
+    scene: Problem,
+    methods: Sequence[str] = (),
+    peers: Sequence[str] = (),
+    effort: Effort = USUAL,
+    adaptive: Sequence[str] = (),
+) -> Subject:
+    """Return the subject of a page; errors of names as :func:`codegen.method.parse` and ``peers.find``.
+
+    Without methods the defaults of the report are chosen, without peers those of the effort that are
+    installed.
+    """
+    families = families_for(scene)
+    chosen = tuple(parse(m, families) for m in methods)
+    controlled = tuple(replace(parse(m, families), adaptive=True) for m in adaptive)
+    for method in controlled:
+        method.embedded()  # MethodError without an embedded row
+    if not methods and not adaptive:
+        chosen, controlled = report_methods(scene)
+    others = tuple(peers) if peers else tuple(p for p in effort.peers if p in GROUPS or installed(p))
+    find(others)
+    return Subject(name, scene, chosen, controlled, others, effort)

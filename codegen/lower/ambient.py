@@ -1,0 +1,25 @@
+"""Runge-Kutta methods in the coordinates of the state, which leave the manifold by their error."""
+
+from __future__ import annotations
+
+from codegen.ir.program import Program
+from codegen.lower.base import Lowering
+from codegen.lower.rkmk import with_cutoff
+from codegen.method import Method
+from codegen.scene.ambient import ambient
+from codegen.scene.problem import Problem
+
+
+class Ambient(Lowering):
+    """Runge-Kutta methods for y' = F(y) in R^n, where F is the field in the coordinates of the state."""
+
+    family = "ambient"
+    repeats_substeps = True
+
+    def problem(self, scene: Problem, method: Method) -> Problem:
+        """Return the scene in the coordinates of its state; it has no group."""
+        return ambient(scene)
+
+    def lower(self, problem: Problem, method: Method) -> Program:
+        """Return the program."""
+        return with_cutoff(problem, method, 0)

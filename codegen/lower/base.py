@@ -1,0 +1,98 @@
+"""The base class of lowerings: what one family makes of a tableau and a problem.
+
+A family of methods is two classes. :class:`orderconds.families.Family` knows its order conditions;
+:class:`Lowering` knows which scenes it takes and writes the step program. :func:`codegen.lower.register`
+makes a lowering known to every command.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from codegen.ir.program import Program
+from codegen.method import Method
+from codegen.scene.problem import Problem
+
+if TYPE_CHECKING:
+    from orderconds.checking import FamilyOrder
+    from orderconds.families import Family
+
+
+@dataclass(frozen=True)
+class Objection:
+    """Why a family does not take a scene: the property found, the one expected, and a hint.
+
+    ``found`` continues the sentence "FAMILY on SCENE"; without a ``hint`` the message lists the families that
+    take the scene.
+    """
+
+    found: str
+    expected: str
+    hint: str = ""
+
+
+class Lowering(ABC):
+    """How methods of one family become step programs.
+
+    A subclass sets :attr:`family` and implements :meth:`problem` and :meth:`lower`. It usually derives from
+    :class:`codegen.lower.field.FieldLowering` (vector fields),
+    :class:`codegen.lower.variational.VariationalLowering` (Hamiltonians on T*G) or
+    :class:`codegen.lower.flow_words.FlowLowering` (Hamiltonians in parts), which implement :meth:`problem`.
+    All other members have defaults.
+    """
+
+    family: ClassVar[str] = ""
+    """The name of the family in :mod:`orderconds.families` and in methods, as ``vcg:midpoint``."""
+    hamiltonian: ClassVar[bool] = False
+    """Whether programs work on (q, mu) of a Hamiltonian scene, not on a point y of a vector field."""
+    preference: ClassVar[int] = 0
+    """Families with a higher number come first where a method names no family."""
+    repeats_substeps: ClassVar[bool] = False
+    """Whether the tableau of a composition gives, in this family, the composition of the shorter steps.
+
+    It does not for a family that expands dexp^{-1} over the whole step.
+    """
+
+    def objection(self, scene: Problem) -> Objection | None:
+        """Return why the family does not take a scene, None where it does."""
+        return None
+
+    @abstractmethod
+    def problem(self, scene: Problem, method: Method) -> Problem:
+        """Return the scene as programs of this family see it; there is no :meth:`objection` to it.
+
+        :class:`codegen.errors.MethodError` where the scene does not suit this method.
+        """
+
+    @abstractmethod
+    def lower(self, problem: Problem, method: Method) -> Program:
+        """Return the verified step program of a method, all its stages in one block.
+
+        ``problem`` is the result of :meth:`problem`. :class:`codegen.errors.MethodError` for a tableau that
+        the family does not read, :class:`orderconds.errors.ZeroWeight` for weights that it divides by.
+        """
+
+    def symplectic(self, scene: Problem, method: Method) -> bool:
+        """Whether steps of one size are symplectic maps on a Hamiltonian scene.
+
+        By default this is so where T*G is a vector space and the tableau is symplectic.
+        """
+        from orderconds.tableau.properties import symplectic
+
+        tableau = method.tableau
+        return bool(scene.group.abelian) and symplectic(tableau.abelian(), tableau.ring) is True
+
+    def conditions(self, method: Method, scene: Problem | None = None) -> Family:
+        """Return the family whose order conditions hold for the program; they may depend on the scene."""
+        from orderconds import families
+
+        return families.get(method.family_label)
+
+    def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
+        """Return the order of a method, computed from :meth:`conditions`; it may be undecided."""
+        from orderconds.checking import check
+
+        (found,) = check(method.tableau, family=self.conditions(method, scene).label()).orders
+        return found

@@ -1,0 +1,30 @@
+"""Crouch-Grossman methods on a field: commutator-free methods with one exponential a coefficient.
+
+A Butcher tableau is read by equation (1.4) of Marthinsen's thesis.
+"""
+
+from __future__ import annotations
+
+from codegen.ir.program import Program
+from codegen.lower.cf import products
+from codegen.lower.field import FieldLowering
+from codegen.method import Method
+from codegen.scene.problem import Problem
+from orderconds.tableau import CommutatorFree
+
+
+class CrouchGrossman(FieldLowering):
+    """Crouch-Grossman methods; their tableaux are Butcher tableaux only."""
+
+    family = "cg"
+    repeats_substeps = True
+
+    def lower(self, problem: Problem, method: Method) -> Program:
+        """Return the program."""
+        embedded = method.embedded()
+        lower = None if embedded is None else _exponentials(embedded).update
+        return products(problem, method, _exponentials(method), lower)
+
+
+def _exponentials(method: Method) -> CommutatorFree:
+    return method.runge_kutta().as_crouch_grossman(method.ring)

@@ -1,0 +1,26 @@
+"""Compositions of a second-order step with rescaled ones: Strang's step of the parts' flows is repeated."""
+
+from __future__ import annotations
+
+from codegen.ir.number import Number
+from codegen.lower.flow_words import FlowLowering, Parts, Word, adjoint_word, kicks_first, pairs, unread
+from codegen.method import Method
+from orderconds.tableau import AdjointComposition, Composition
+
+HALF = Number.rational(1, 2)
+
+
+class CompositionLowering(FlowLowering):
+    """Symmetric compositions, with Strang's step as their base, and compositions of Phi and Phi*."""
+
+    family = "composition"
+
+    def word(self, parts: Parts, method: Method) -> tuple[Word, str]:
+        """Return the word and the label of its conditions."""
+        tableau = method.tableau.method
+        if isinstance(tableau, AdjointComposition):
+            return adjoint_word(parts, method, tableau)
+        if not isinstance(tableau, Composition):
+            raise unread(parts, method)
+        halves = [method.number(x) * HALF for x in tableau.gamma]
+        return pairs(kicks_first(parts.summands), [(x, x) for x in halves]), self.family

@@ -1,0 +1,215 @@
+"""Lowerings that compose exact flows: a step is a word in the flows of a Hamiltonian's parts, on T*G.
+
+Time moves with the flows of one summand that does not depend on it, and stands still in all others.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from codegen.errors import MethodError
+from codegen.flows.kick import Kick
+from codegen.flows.part import Part, Summand
+from codegen.flows.recognise import recognise
+from codegen.ir.number import Number
+from codegen.ir.program import Builder, Program
+from codegen.ir.values import Coefficient, Kind, Var
+from codegen.ir.verify import verify
+from codegen.lower.base import Lowering, Objection
+from codegen.method import Method
+from codegen.scene.orbit import orbit_of
+from codegen.scene.problem import Problem
+from orderconds.tableau import AdjointComposition
+
+if TYPE_CHECKING:
+    from orderconds.families import Family
+
+Word = list[tuple[Summand, Number]]
+"""Summands and how long they flow, as multiples of h, the first acting first."""
+
+
+@dataclass(frozen=True)
+class Parts:
+    """The parts of a scene with their exact flows; ``where`` names method and scene in messages."""
+
+    scene: Problem
+    parts: tuple[Part, ...]
+    where: str
+
+    @property
+    def summands(self) -> list[Summand]:
+        """The summands of all parts, each with exact flows that commute."""
+        return [summand for part in self.parts for summand in part.summands]
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How a method is read on a scene: its word, the summand that carries time, its family of conditions."""
+
+    word: tuple[tuple[Summand, Number], ...]
+    carrier: Summand | None
+    conditions: str
+
+
+class FlowLowering(Lowering):
+    """A family that composes exact flows; it sees the scene with the flows that its word names."""
+
+    hamiltonian = True
+
+    def objection(self, scene: Problem) -> Objection | None:
+        """Return why the family does not take a scene."""
+        if not scene.is_hamiltonian:
+            return Objection("", "a Hamiltonian scene")
+        if scene.forced or scene.inputs:
+            what = "a wrench" if scene.forced else "run-time inputs"
+            return Objection(
+                f", which is driven by {what}", "a Hamiltonian that is the sum of parts with exact flows"
+            )
+        if not scene.parts:
+            hint = 'write parts={"T": T, "V": V} in the scene'
+            return Objection(", a scene without parts", "named summands of H", hint)
+        return None
+
+    def problem(self, scene: Problem, method: Method) -> Problem:
+        """Return the scene with the exact flows that the method composes, by name."""
+        word = self.read(scene, method).word
+        flows = {name: flow for summand, _ in word for name, flow in summand.flows}
+        return replace(scene, flows=dict(sorted(flows.items())))
+
+    def symplectic(self, scene: Problem, method: Method) -> bool:
+        """Return True: flows of Hamiltonians are symplectic maps."""
+        return True
+
+    def conditions(self, method: Method, scene: Problem | None = None) -> Family:
+        """Return the conditions that hold for the parts of a scene, without a scene those of the family."""
+        from orderconds import families
+
+        if scene is None:
+            return super().conditions(method)
+        return families.get(self.read(scene, method).conditions)
+
+    @abstractmethod
+    def word(self, parts: Parts, method: Method) -> tuple[Word, str]:
+        """Return the word of a method and the label of its family of conditions.
+
+        :class:`codegen.errors.MethodError` for a tableau that does not suit the parts.
+        """
+
+    def read(self, scene: Problem, method: Method) -> Reading:
+        """Return how a method is read on a Hamiltonian scene in parts.
+
+        :class:`codegen.errors.MethodError` for parts that do not add up to H, a part without exact flow, a
+        tableau in another number of parts, and parts that all depend on time.
+        """
+        parts = parts_of(scene, f"{method.family}:{method.tableau.name} on {scene.name}")
+        word, conditions = self.word(parts, method)
+        return Reading(tuple(_joined(word)), _carrier(parts), conditions)
+
+    def lower(self, problem: Problem, method: Method) -> Program:
+        """Return the program: one operation for each flow."""
+        reading = self.read(problem, method)
+        q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
+        time = None if problem.autonomous else Var("t", Kind.REAL)
+        inputs = (q, mu) if time is None else (q, mu, time)
+        builder = Builder({v.name for v in inputs} | {"t", "h"})
+        for summand, duration in reading.word:
+            step = Coefficient(duration, 1)
+            for name, flow in summand.flows:
+                q, mu = builder.flow(name, q, mu, step, *((time,) if time is not None and flow.timed else ()))
+            if time is not None and summand is reading.carrier:
+                time = builder.advance("t_stage", time, step)
+        return verify(Program(method.label, inputs, builder.take(), (("q", q), ("mu", mu))))
+
+
+def parts_of(scene: Problem, where: str) -> Parts:
+    """Return the parts of a scene with their exact flows; MethodError as :meth:`FlowLowering.read`."""
+    assert scene.hamiltonian is not None
+    rest = scene.hamiltonian
+    for summand in scene.parts.values():
+        rest = rest - summand
+    if not orbit_of(scene).vanish([rest]):
+        raise MethodError(
+            f"the parts {', '.join(scene.parts)} do not add up to H",
+            where=where,
+            expected="all summands of H",
+        )
+    parts = recognise(scene)
+    for part in parts:
+        if not part.summands:
+            raise MethodError(
+                f"the part {part.name} has no exact flow: {part.reason}",
+                where=where,
+                expected="kicks, drifts, tops, turns about fixed axes and linear flows",
+                hint="split it into such parts",
+            )
+    return Parts(scene, tuple(parts), where)
+
+
+def adjoint_word(parts: Parts, method: Method, tableau: AdjointComposition) -> tuple[Word, str]:
+    """Return the word of a composition of Phi, the flows of all summands in turn, and its adjoint Phi*."""
+    both = [(method.number(y), method.number(x)) for x, y in zip(tableau.alpha, tableau.beta, strict=True)]
+    return pairs(kicks_first(parts.summands), both), "composition"
+
+
+def unread(parts: Parts, method: Method) -> MethodError:
+    """Return the error for a tableau whose format the family does not read."""
+    return MethodError(
+        f"{method.family} with the {method.tableau.family} tableau {method.tableau.name}",
+        where=parts.where,
+        expected="a tableau of family splitting or composition",
+    )
+
+
+def is_kick(summand: Summand) -> bool:
+    """Whether a summand changes the momentum alone."""
+    return all(isinstance(flow, Kick) for _, flow in summand.flows)
+
+
+def kicks_first(summands: Sequence[Summand]) -> list[Summand]:
+    """Return the summands with kicks first: at the ends of Strang's step, where they are cheapest to join."""
+    return sorted(summands, key=lambda summand: not is_kick(summand))
+
+
+def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) -> Word:
+    """Return Phi*_{beta_1}, Phi_{alpha_1}, ...: Phi goes through the summands backwards, Phi* forwards."""
+    word: Word = []
+    for beta, alpha in both:
+        word += [(summand, beta) for summand in summands] + [
+            (summand, alpha) for summand in reversed(summands)
+        ]
+    return word
+
+
+def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
+    """Yield the word with neighbouring flows of one summand joined, and without flows for no time."""
+    joined: Word = []
+    for summand, x in word:
+        if x.is_zero:
+            continue
+        if joined and joined[-1][0] is summand:
+            total = joined.pop()[1] + x
+            if total.is_zero:
+                continue
+            x = total
+        joined.append((summand, x))
+    assert all(a is not b for (a, _), (b, _) in pairwise(joined))
+    yield from joined
+
+
+def _carrier(parts: Parts) -> Summand | None:
+    """Return the summand with which time moves, None for a scene without time."""
+    if parts.scene.autonomous:
+        return None
+    for summand in parts.summands:
+        if not summand.timed:
+            return summand
+    raise MethodError(
+        "every part depends on t",
+        where=parts.where,
+        expected="one part without t, with whose flow the time moves",
+        hint="add a part that does not depend on t",
+    )

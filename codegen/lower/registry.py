@@ -1,0 +1,100 @@
+"""The registry of lowerings: one for each family that the compiler knows."""
+
+from __future__ import annotations
+
+from codegen.errors import MethodError
+from codegen.lower.base import Lowering
+from codegen.scene.problem import Problem
+
+_registered: dict[str, Lowering] = {}
+
+
+def _built_in() -> tuple[type[Lowering], ...]:
+    """Return the lowerings of this package, in the order of listings."""
+    from codegen.lower.ambient import Ambient
+    from codegen.lower.cf import CommutatorFreeLowering
+    from codegen.lower.cg import CrouchGrossman
+    from codegen.lower.composition import CompositionLowering
+    from codegen.lower.discrete_gradient import DiscreteGradient
+    from codegen.lower.rk import RungeKuttaLowering
+    from codegen.lower.rkmk import MuntheKaas
+    from codegen.lower.slgi import SymplecticIntegrator
+    from codegen.lower.splitting import SplittingLowering
+    from codegen.lower.vcf import VariationalCommutatorFree
+    from codegen.lower.vcg import VariationalCrouchGrossman
+    from codegen.lower.vrkmk import VariationalMuntheKaas
+    from codegen.lower.vrkmk_pade import VariationalMuntheKaasPade
+
+    return (
+        RungeKuttaLowering,
+        MuntheKaas,
+        CrouchGrossman,
+        CommutatorFreeLowering,
+        VariationalCrouchGrossman,
+        VariationalMuntheKaas,
+        VariationalCommutatorFree,
+        VariationalMuntheKaasPade,
+        SymplecticIntegrator,
+        DiscreteGradient,
+        SplittingLowering,
+        CompositionLowering,
+        Ambient,
+    )
+
+
+def register(lowering: type[Lowering]) -> type[Lowering]:
+    """Make a lowering known to every command, and return it; it may be used as a decorator.
+
+    :class:`codegen.errors.MethodError` for a class without :attr:`Lowering.family`, and for a family that
+    another class lowers already.
+    """
+    if not lowering.family:
+        raise MethodError(f"{lowering.__name__} names no family", expected='family = "NAME" in the class')
+    known = _lowerings().get(lowering.family)
+    if known is not None and type(known) is not lowering:
+        raise MethodError(
+            f"a second lowering of family {lowering.family}", where=lowering.__name__, expected="one"
+        )
+    _registered[lowering.family] = lowering()
+    return lowering
+
+
+def unregister(family: str) -> None:
+    """Forget the lowering of a family that :func:`register` added; built-in ones stay."""
+    if any(lowering.family == family for lowering in _built_in()):
+        raise MethodError(f"family {family} is built in", expected="a family that was registered")
+    _registered.pop(family, None)
+
+
+def names() -> tuple[str, ...]:
+    """Return the families that can be lowered, built-in ones first.
+
+    >>> names()[:4]
+    ('rk', 'rkmk', 'cg', 'cf')
+    """
+    return tuple(_lowerings())
+
+
+def lowering(family: str) -> Lowering:
+    """Return the lowering of a family; :class:`codegen.errors.MethodError` for one that has none.
+
+    >>> lowering("vcg").hamiltonian
+    True
+    """
+    found = _lowerings().get(family)
+    if found is None:
+        raise MethodError(f"family {family} cannot be lowered", expected=f"one of {', '.join(names())}")
+    return found
+
+
+def families_for(scene: Problem) -> tuple[str, ...]:
+    """Return the families that take a scene, in the order of preference where a method names none."""
+    able = [own for own in _lowerings().values() if own.objection(scene) is None]
+    return tuple(own.family for own in sorted(able, key=lambda own: -own.preference))
+
+
+def _lowerings() -> dict[str, Lowering]:
+    """Return all lowerings by family; the modules of the built-in ones are imported at the first call."""
+    if not _registered:
+        _registered.update((lowering.family, lowering()) for lowering in _built_in())
+    return _registered

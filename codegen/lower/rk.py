@@ -1,0 +1,29 @@
+"""Runge-Kutta methods on R^n: Munthe-Kaas methods without brackets, whose exponentials are translations."""
+
+from __future__ import annotations
+
+from codegen.ir.program import Program
+from codegen.lower.base import Objection
+from codegen.lower.field import FieldLowering
+from codegen.lower.rkmk import with_cutoff
+from codegen.method import Method
+from codegen.scene.problem import Problem
+
+
+class RungeKuttaLowering(FieldLowering):
+    """Runge-Kutta methods on a vector space."""
+
+    family = "rk"
+    repeats_substeps = True
+
+    def objection(self, scene: Problem) -> Objection | None:
+        """Return why the family does not take a scene: it leaves any manifold but R^n."""
+        group = scene.as_field().group
+        if group.abelian:
+            return None
+        hint = "use rkmk, cg or cf, or ambient to leave the manifold"
+        return Objection(f", whose group is {group.name}", "R^n", hint)
+
+    def lower(self, problem: Problem, method: Method) -> Program:
+        """Return the program."""
+        return with_cutoff(problem, method, 0)

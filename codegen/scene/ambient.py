@@ -1,0 +1,38 @@
+"""The ambient equation of a problem: y' = F(y) on R^n, where n is the number of coordinates of its state."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from codegen.groups.actions import LeftMultiplication
+from codegen.groups.rn import Rn
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr, evaluate
+from codegen.ir.values import Kind
+from codegen.scene.problem import TIME, Problem, StateField
+
+
+def ambient(problem: Problem) -> Problem:
+    """Return a problem as a field on R^n without its group.
+
+    A method that integrates it leaves the manifold by an amount of the size of its error.
+    """
+    field, domain = problem.as_field(), ExprDomain(problem.roots[0].space)
+    state = tuple(domain.space.sym(s) for s in problem.symbols)
+    values = field.values(domain, state, domain.space.sym(TIME))
+    values |= {name: domain.space.sym(name) for name in problem.signals}
+
+    def derivative(roots: tuple[Expr, ...]) -> tuple[Expr, ...]:
+        f = tuple(evaluate(roots, domain, values))
+        return field.action.velocity(domain, field.group, f, state)
+
+    initial = tuple(x for block in problem.state for x in block.initial)
+    return replace(
+        problem,
+        group=Rn(len(problem.symbols)),
+        action=LeftMultiplication(),
+        state=(StateField("y", Kind.POINT, problem.symbols, initial),),
+        roots=derivative(problem.roots),
+        open_roots=derivative(problem.open_roots),
+        paired=False,
+    )

@@ -1,0 +1,62 @@
+"""Checks of the arguments that both kinds of scenes take: group, action and time interval."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING, NoReturn
+
+from codegen.errors import SceneError
+from codegen.groups.actions import Action
+from codegen.groups.base import LieGroup
+from codegen.groups.linear_algebra import Vector
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr
+from codegen.scene.formulas import Reader
+
+if TYPE_CHECKING:
+    import sympy
+
+
+def check_group(name: str, group: object) -> None:
+    """Raise :class:`SceneError` for a class, a name, or another object that is no group."""
+    if not isinstance(group, LieGroup):
+        _refuse(name, "group", group, "SO3()")
+
+
+def check_action(reader: Reader, group: LieGroup, action: object) -> None:
+    """Raise :class:`SceneError` for an object that is no action, or points that the group does not move."""
+    if not isinstance(action, Action):
+        _refuse(reader.name, "action", action, "Rotation()")
+    domain = ExprDomain(reader.space)
+    y = tuple(domain.space.sym(s) for s in reader.coordinates)
+    zero: Vector[Expr] = (domain.rational(0),) * group.dim
+    width = -1
+    if group.offers(action.needs) is not None:
+        try:
+            width = len(action.velocity(domain, group, zero, y))
+        except (ValueError, IndexError):  # a product of tuples of different lengths
+            width = -1
+    if width != len(y):
+        raise SceneError(
+            f"a point with {len(y)} coordinates",
+            where=reader.name,
+            expected=f"one that {group.name} acts on by {action.name}",
+        )
+
+
+def _refuse(name: str, what: str, value: object, example: str) -> NoReturn:
+    shown = value.__name__ if isinstance(value, type) else repr(value)
+    raise SceneError(f"the {what} {shown}", where=name, expected=f"one of codegen.groups, as {example}")
+
+
+def read_span(name: str, span: tuple[sympy.Expr, sympy.Expr]) -> tuple[Fraction, Fraction]:
+    """Return the time interval; :class:`SceneError` if it is not two rational times in order."""
+    import sympy
+
+    try:
+        first, last = (Fraction(int(r.p), int(r.q)) for r in map(sympy.Rational, span))
+    except (TypeError, ValueError, AttributeError):  # AttributeError: sympy's infinities have no p and q
+        raise SceneError(f"the span {span}", where=name, expected="two rational times") from None
+    if not last > first:
+        raise SceneError(f"the span ({first}, {last})", where=name, expected="an end after the beginning")
+    return first, last

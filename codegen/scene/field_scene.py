@@ -1,0 +1,59 @@
+"""Field scenes: y' = f(y).y for a group acting on a manifold."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from codegen.groups.actions import Action
+from codegen.groups.base import LieGroup
+from codegen.ir.values import Kind
+from codegen.scene.arguments import check_action, check_group, read_span
+from codegen.scene.consistency import Stated, check_problem
+from codegen.scene.formulas import Reader
+from codegen.scene.problem import Problem, StateField
+
+if TYPE_CHECKING:
+    import sympy
+
+
+def FieldScene(
+    *,
+    group: LieGroup,
+    action: Action,
+    y: Sequence[sympy.Symbol],
+    f: Sequence[sympy.Expr],
+    y0: Sequence[sympy.Expr],
+    span: tuple[sympy.Expr, sympy.Expr],
+    velocity: Sequence[sympy.Expr] | None = None,
+    invariants: Mapping[str, sympy.Expr] | None = None,
+    name: str = "scene",
+    title: str = "",
+) -> Problem:
+    """Return the scene y' = f(y).y for a group acting on a manifold.
+
+    ``y`` is a sympy column of coordinate symbols, ``f`` a column of ``group.dim`` formulas in them, in the
+    symbol ``t`` and in parameters, ``y0`` the exact initial point, ``span`` the rational time interval,
+    ``invariants`` maps names to scalar formulas. ``velocity`` may give y' as an ambient formula; f must
+    generate it. :class:`SceneError` for a wrong shape or symbol, a start that is not on the group, an f that
+    does not generate the velocity, an invariant that changes.
+    """
+    check_group(name, group)
+    reader = Reader(name, list(y))
+    check_action(reader, group, action)
+    open_roots = reader.column(f, group.dim, "f")
+    roots = reader.closed(open_roots)
+    start = reader.column(y0, len(y), "y0", constant=True)
+    state = (StateField("y", Kind.POINT, tuple(reader.coordinates), start),)
+    known = {key: reader.scalar(value, f"invariant {key}") for key, value in (invariants or {}).items()}
+    stated: Stated = {}
+    if velocity is not None:
+        stated = {"velocity": (reader.closed(reader.column(velocity, len(y), "velocity")), None)}
+    problem = Problem(
+        *(name, title or name, group, action, state, roots, None, known, read_span(name, span)),
+        reader.parameters(),
+        signals=reader.signals,
+        open_roots=open_roots,
+    )
+    check_problem(problem, stated)
+    return problem

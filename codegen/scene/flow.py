@@ -1,0 +1,41 @@
+"""The interface of exact flows: how a problem moves its state along one part of its Hamiltonian.
+
+The part H_k of H = sum H_k moves (q, mu) for a time tau along q' = xi.q, mu' = n - ad*_xi mu with xi = D_2
+H_k and n = -(D_1 H_k).q^-1 (eq. 2.27 of H. Marthinsen's thesis). :mod:`codegen.flows` has one class for each
+kind of flow in closed form.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+
+from codegen.groups.capabilities import Coadjoint
+from codegen.groups.linear_algebra import S, Vector
+from codegen.ir.domain import Domain
+
+
+class Flow(ABC):
+    """The exact flow of one part, in closed form over any domain.
+
+    ``timed`` says that the part depends on t. The flow then keeps t fixed while the state moves. ``values``
+    are those of all symbols at the start: the state, the parameters and t.
+    """
+
+    timed: bool = False
+
+    @abstractmethod
+    def advance(
+        self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
+    ) -> tuple[Vector[S], Vector[S]]:
+        """Return (q, mu) after the time tau."""
+
+    @abstractmethod
+    def field(
+        self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
+    ) -> tuple[Vector[S], Vector[S]]:
+        """Return (xi, n), whose flow this is; ArithmeticError if only the flow is known."""
+
+    @abstractmethod
+    def text(self) -> str:
+        """Return a description of the motion."""

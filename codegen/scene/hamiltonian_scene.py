@@ -1,0 +1,174 @@
+"""Hamiltonian scenes: a right-trivialised Hamiltonian H(q, mu) on T*G."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from codegen.errors import SceneError
+from codegen.groups.actions import LeftMultiplication
+from codegen.groups.base import LieGroup
+from codegen.groups.capabilities import Coadjoint
+from codegen.ir.differentiate import gradient
+from codegen.ir.expr import Expr, walk
+from codegen.ir.values import Kind
+from codegen.scene.arguments import check_group, read_span
+from codegen.scene.canonical_equations import force, velocity
+from codegen.scene.consistency import check_flow, check_problem
+from codegen.scene.formulas import Reader
+from codegen.scene.orbit import orbit_of
+from codegen.scene.problem import TIME, Problem, StateField
+
+if TYPE_CHECKING:
+    import sympy
+
+    Column = Sequence[sympy.Expr]
+
+TAU = "tau"
+"""The symbol of the elapsed time in formulas of a stated flow."""
+
+
+def HamiltonianScene(
+    *,
+    group: LieGroup,
+    q: Column,
+    mu: Column,
+    H: sympy.Expr,
+    q0: Column,
+    mu0: Column,
+    span: tuple[sympy.Expr, sympy.Expr],
+    parts: Mapping[str, sympy.Expr] | None = None,
+    flows: Mapping[str, tuple[Column, Column]] | None = None,
+    xi: Column | None = None,
+    n: Column | None = None,
+    wrench: Column | None = None,
+    invariants: Mapping[str, sympy.Expr] | None = None,
+    name: str = "scene",
+    title: str = "",
+) -> Problem:
+    """Return the scene of a right-trivialised Hamiltonian H(q, mu) on T*G.
+
+    ``q`` and ``mu`` are sympy matrices of symbols (``group.point``, ``group.dual``), ``q0`` and ``mu0`` exact
+    initial values, ``parts`` named summands of H. ``flows`` gives exact flows of parts that the compiler does
+    not recognise, as formulas of (q, mu) after the time ``Symbol("tau")``. xi = D_2 H and n = -(D_1 H).q^-1
+    (:mod:`codegen.scene.canonical_equations`) follow by differentiation; ``xi`` and ``n`` given by hand must
+    agree. ``wrench`` is a column of ``group.dim`` components of a force without potential, mu' = n + wrench -
+    ad*_xi mu in space; n given by hand excludes it. A scene with a wrench has no energy and no parts. The
+    energy is an invariant of a Hamiltonian without time. :class:`SceneError` as for :func:`FieldScene`.
+    """
+    reader = _reader(name, group, q, mu)
+    system = _CanonicalSystem.read(reader, group, q, mu, H, parts or {}, wrench)
+    state = system.state(q0, mu0)
+    (energy,) = reader.closed((system.hamiltonian,))
+    known = system.invariants(energy, invariants or {})
+    stated = {
+        key: system.derived(key, column) for key, column in (("xi", xi), ("n", n)) if column is not None
+    }
+    roots = reader.closed(system.open_roots)
+    problem = Problem(
+        *(name, title or name, group, LeftMultiplication(), state, roots),
+        *(None if system.loads else energy, known, read_span(name, span), reader.parameters()),
+        paired=True,
+        parts={} if system.loads else {key: reader.closed((x,))[0] for key, x in system.summands.items()},
+        signals=reader.signals,
+        open_roots=system.open_roots,
+        forced=bool(system.loads),
+        stated=system.flows(flows or {}),
+    )
+    check_problem(problem, stated)
+    for key, formulas in problem.stated.items():
+        rates = velocity(group, system.qs, system.mus, problem.parts[key])
+        check_flow(orbit_of(problem), key, formulas, rates, TAU)
+    return problem
+
+
+def _reader(name: str, group: LieGroup, q: Column, mu: Column) -> Reader:
+    """Return the reader of a scene's formulas; SceneError for a wrong group or number of coordinates."""
+    check_group(name, group)
+    group.require(Coadjoint, where=name)
+    reader = Reader(name, [*q, *mu])
+    if (len(q), len(mu)) != (group.size, group.dim):
+        raise SceneError(
+            f"{len(q)} coordinates of q and {len(mu)} of mu",
+            where=name,
+            expected=f"{group.size} and {group.dim}, those of {group.name}",
+            hint='take group.point("q") and group.dual("mu")',
+        )
+    return reader
+
+
+@dataclass(frozen=True)
+class _CanonicalSystem:
+    """The formulas of H and of its field.
+
+    ``roots`` are xi and n, ``loads`` is the wrench, () without one, ``open_roots`` are xi and n + wrench.
+    """
+
+    reader: Reader
+    group: LieGroup
+    qs: tuple[str, ...]
+    mus: tuple[str, ...]
+    hamiltonian: Expr
+    summands: Mapping[str, Expr]
+    roots: tuple[Expr, ...]
+    loads: tuple[Expr, ...]
+    open_roots: tuple[Expr, ...]
+
+    @classmethod
+    def read(
+        cls,
+        reader: Reader,
+        group: LieGroup,
+        q: Column,
+        mu: Column,
+        H: sympy.Expr,
+        parts: Mapping[str, sympy.Expr],
+        wrench: Column | None,
+    ) -> _CanonicalSystem:
+        """Read H, its parts and the wrench, and differentiate."""
+        hamiltonian = reader.scalar(H, "H")
+        summands = {key: reader.scalar(part, f"part {key}") for key, part in parts.items()}
+        qs, mus = tuple(s.name for s in q), tuple(s.name for s in mu)
+        slopes = gradient(hamiltonian, qs + mus)
+        roots = (*slopes[len(qs) :], *force(reader.space, group, qs, slopes[: len(qs)]))
+        loads = () if wrench is None else reader.column(wrench, group.dim, "wrench")
+        open_roots = roots
+        if loads:
+            pairs = zip(roots[group.dim :], loads, strict=True)
+            open_roots = roots[: group.dim] + tuple(x + y for x, y in pairs)
+        return cls(reader, group, qs, mus, hamiltonian, summands, roots, loads, open_roots)
+
+    def state(self, q0: Column, mu0: Column) -> tuple[StateField, StateField]:
+        """Return the blocks q and mu with their initial values."""
+        initial = self.reader.column
+        return (
+            StateField("q", Kind.GROUP, self.qs, initial(q0, len(self.qs), "q0", constant=True)),
+            StateField("mu", Kind.DUAL, self.mus, initial(mu0, len(self.mus), "mu0", constant=True)),
+        )
+
+    def invariants(self, energy: Expr, declared: Mapping[str, sympy.Expr]) -> dict[str, Expr]:
+        """Return the declared invariants, and before them the energy of a scene without time and wrench."""
+        timeless = not any(node.op == "sym" and node.payload == TIME for node in walk([energy]))
+        known = {"energy": energy} if timeless and not self.loads else {}
+        return known | {key: self.reader.scalar(x, f"invariant {key}") for key, x in declared.items()}
+
+    def derived(self, key: str, column: Column) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
+        """Return xi or n as given by hand, and by differentiation."""
+        dim = self.group.dim
+        own = self.roots[:dim] if key == "xi" else self.roots[dim:]
+        return self.reader.closed(self.reader.column(column, dim, key)), self.reader.closed(own)
+
+    def flows(self, flows: Mapping[str, tuple[Column, Column]]) -> dict[str, tuple[Expr, ...]]:
+        """Read the flows that the scene states for its parts."""
+        formulas: dict[str, tuple[Expr, ...]] = {}
+        for key, (q, mu) in flows.items():
+            if key not in self.summands:
+                known = ", ".join(self.summands) or "none: the scene names no parts"
+                raise SceneError(
+                    f"a flow of {key!r}", where=self.reader.name, expected=f"that of a part: {known}"
+                )
+            element = self.reader.column(q, len(self.qs), f"q of the flow of {key}", more=(TAU,))
+            momentum = self.reader.column(mu, len(self.mus), f"mu of the flow of {key}", more=(TAU,))
+            formulas[key] = (*element, *momentum)
+        return formulas

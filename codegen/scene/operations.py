@@ -1,0 +1,42 @@
+"""The operations of step programs that a group or an action carries out, by name.
+
+:mod:`codegen.ir.operations` describes the arguments. The operations of a capability raise
+:class:`codegen.errors.SceneError` for a group without it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from codegen.groups.actions import Action
+from codegen.groups.base import LieGroup
+from codegen.groups.capabilities import BodyFrame, Coadjoint
+from codegen.ir.domain import Domain, Value
+
+GroupOperation = Callable[..., Value]
+"""Of a group, a domain and the arguments; of the truncation order last, where there is one."""
+
+ON_GROUP: Mapping[str, GroupOperation] = {
+    "identity": lambda group, d: group.identity(d),
+    "exp": lambda group, d, x: group.exp(d, x),
+    "mul": lambda group, d, g, k: group.mul(d, g, k),
+    "ad": lambda group, d, x, y: group.ad(d, x, y),
+    "Ad": lambda group, d, g, x: group.require(Coadjoint).Ad(d, g, x),
+    "Adt": lambda group, d, g, mu: group.require(Coadjoint).Adt(d, g, mu),
+    "Adtinv": lambda group, d, g, mu: group.require(Coadjoint).Adtinv(d, g, mu),
+    "adt": lambda group, d, x, mu: group.require(Coadjoint).adt(d, x, mu),
+    "dexpt": lambda group, d, x, mu: group.require(Coadjoint).dexpt(d, x, mu),
+    "Adinv": lambda group, d, g, x: group.require(BodyFrame).Adinv(d, g, x),
+    "mulexp": lambda group, d, g, x: group.require(BodyFrame).mulexp(d, g, x),
+}
+
+TRUNCATED: Mapping[str, GroupOperation] = {
+    "dexpinv": lambda group, d, x, y, order: group.dexpinv(d, x, y, order),
+    "dexpinvt": lambda group, d, x, mu, order: group.require(Coadjoint).dexpinvt(d, x, mu, order),
+    "P": lambda group, d, x, y, mu, order: group.require(Coadjoint).P(d, x, y, mu, order),
+}
+
+BY_ACTION: Mapping[str, Callable[[Action, Domain, LieGroup, Value, Value], Value]] = {
+    "act": lambda action, d, group, g, y: action.act(d, group, g, y),
+    "actexp": lambda action, d, group, x, y: action.actexp(d, group, x, y),
+}

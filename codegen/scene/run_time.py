@@ -1,0 +1,55 @@
+"""Run-time inputs: the parameters and signals of a problem that emitted code takes as arguments."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from codegen.errors import SceneError
+from codegen.ir.number import Number
+from codegen.scene.consistency import check_problem
+from codegen.scene.problem import Problem
+
+
+def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
+    """Return a problem with parameters kept as run-time inputs, or folded at another value.
+
+    ``alpha`` keeps alpha as an input, ``alpha=1/2`` folds it at 1/2; the invariants and the initial state are
+    then checked again. :class:`SceneError` for an unknown parameter, two values, and a value that is no
+    number.
+    """
+    values = dict(problem.parameters)
+    runtime, fixed, folded = set(problem.runtime), dict(problem.fixed), set[str]()
+    for request in names:
+        name, given, text = request.partition("=")
+        if name not in problem.parameters:
+            known = ", ".join(sorted(problem.parameters)) or "none"
+            raise SceneError(f"unknown parameter {name!r}", where=problem.name, expected=f"one of: {known}")
+        if not given:
+            runtime.add(name)
+            continue
+        if name in folded:
+            raise SceneError(f"two values of the parameter {name}", where=problem.name, expected="one")
+        try:
+            values[name] = Number.read(text)
+        except ValueError as error:
+            raise SceneError(
+                f"the value {text[:40]!r} of the parameter {name}", where=problem.name, expected=str(error)
+            ) from None
+        folded.add(name)
+        fixed[name] = values[name].text()
+    changed = replace(
+        problem, parameters=values, runtime=tuple(sorted(runtime)), fixed=tuple(sorted(fixed.items()))
+    )
+    if fixed:
+        check_problem(changed, {})
+    return changed
+
+
+def with_inputs(problem: Problem, names: Sequence[str]) -> Problem:
+    """Return a problem with signals taken at run time, in that order; SceneError for an unknown one."""
+    for name in names:
+        if name not in problem.signals:
+            known = ", ".join(problem.signals) or "none: the scene has no signal"
+            raise SceneError(f"unknown signal {name!r}", where=problem.name, expected=f"one of: {known}")
+    return replace(problem, inputs=tuple(dict.fromkeys(names)))

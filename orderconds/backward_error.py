@@ -1,0 +1,180 @@
+"""Modified equations of a method: the vector field that it solves exactly, as a truncated series in h.
+
+A step of a method is the exact flow, over the time h, of a modified field f~ = f + h f_2 + h^2 f_3 + ... The
+terms of its series say how the numerical solution differs from the exact one over long times; those of a
+symplectic method form a modified Hamiltonian, which the method conserves (Hairer, Lubich and Wanner,
+*Geometric Numerical Integration*, Chapter IX). On Lie groups the terms are elementary differentials along
+frozen fields and their commutators (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
+
+The opposite question has an answer of the same form: the *modifying* field is the one to which the method
+must be applied so that it follows the flow of f (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007) 1941).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from orderconds import families
+from orderconds.errors import InputError
+from orderconds.explain import differentials
+from orderconds.families.ordered_forests import OrderedForestFamily, lyndon_forests
+from orderconds.families.rk import RungeKuttaFamily
+from orderconds.ring.protocol import Element, Ring
+from orderconds.series.b_series import runge_kutta_series
+from orderconds.series.characters import ORDERED, ROOTED, Character
+from orderconds.series.modified_equations import VectorField, modified_field, modified_hamiltonian
+from orderconds.series.substitution import modifying_field
+from orderconds.tableau import RungeKutta, Tableau
+from orderconds.trees.levels import Tree, symmetry, text, trees_of
+from orderconds.trees.rooted import rooted_trees
+from orderconds.words.lie import coordinates_from_values, standard_bracketing
+from orderconds.words.shuffle import Word
+
+SERIES = (RungeKuttaFamily, OrderedForestFamily)
+"""The classes of families with a B-series or a Lie-Butcher series."""
+
+DEFAULT_FAMILIES = ("rk", "cf")
+"""The families tried in turn where none is given."""
+
+
+@dataclass(frozen=True)
+class Term:
+    """One term of a series: h^(order - 1) times ``coefficient`` times the function ``name``.
+
+    ``tree`` is a tree in brackets. For a commutator it is the Lyndon word of ordered trees whose standard
+    bracketing the commutator is.
+    """
+
+    order: int
+    tree: str
+    name: str
+    coefficient: Element
+
+
+@dataclass(frozen=True)
+class ModifiedEquation:
+    """The modified field of a method up to h^(order - 1), and its Hamiltonian where it has one.
+
+    ``family`` is the label of the family in which the method was read. ``terms`` leave out coefficients that
+    are known to be zero. ``hamiltonian`` is None unless the field is a B-series of Hamiltonian form.
+    """
+
+    family: str
+    order: int
+    ring: Ring
+    terms: tuple[Term, ...]
+    hamiltonian: tuple[Term, ...] | None
+
+    def as_json(self) -> dict[str, object]:
+        """Return the JSON object of ``orderconds modified``."""
+        hamiltonian = None if self.hamiltonian is None else [self._record(term) for term in self.hamiltonian]
+        return {
+            "family": self.family,
+            "order": self.order,
+            "terms": [self._record(term) for term in self.terms],
+            "hamiltonian": hamiltonian,
+        }
+
+    def _record(self, term: Term) -> dict[str, object]:
+        return {
+            "order": term.order,
+            "tree": term.tree,
+            "name": term.name,
+            "coefficient": self.ring.text(term.coefficient),
+            "approximate": self.ring.approximate(term.coefficient, 17),
+        }
+
+
+def modified_equation(
+    tableau: Tableau, order: int, family: str | None = None, *, modifying: bool = False
+) -> ModifiedEquation:
+    """Return the modified equation of ``tableau``, with the terms up to h^(order - 1).
+
+    ``family`` is a family of B-series (``rk``) or of Lie-Butcher series (``cg``, ``cf``, ``rkmk(1)``).
+    Without it the first of :data:`DEFAULT_FAMILIES` that reads the tableau is used. With ``modifying`` the
+    result is the equation to which the method must be applied to follow the exact flow, for B-series only.
+
+    Raises :class:`~orderconds.errors.InputError` for another family, for a tableau that the family does not
+    read, for an order below 1, and for a modifying equation of a Lie-Butcher series.
+
+    >>> from orderconds.checking import read
+    >>> for term in modified_equation(read("euler"), 3).terms:
+    ...     print(term.order, term.coefficient, term.name)
+    1 1 f
+    2 -1/2 f'(f)
+    3 1/3 f'(f'(f))
+    3 1/12 f''(f, f)
+    >>> [(str(t.coefficient), t.name) for t in modified_equation(read("midpoint"), 3).hamiltonian]
+    [('1', 'H'), ('-1/24', "H''(f, f)")]
+    """
+    if order < 1:
+        raise InputError(f"order {order}", where="modified equation", expected="an order of at least 1")
+    name, step = _step(tableau, family)
+    field = modifying_field(step) if modifying else modified_field(step)
+    rooted = step.algebra is ROOTED
+    terms = (term for n in range(1, order + 1) for term in (_rooted if rooted else _ordered)(field, n))
+    return ModifiedEquation(
+        name,
+        order,
+        tableau.ring,
+        tuple(term for term in terms if tableau.ring.is_zero(term.coefficient) is not True),
+        _hamiltonian(field, order) if rooted else None,
+    )
+
+
+def _step(tableau: Tableau, family: str | None) -> tuple[str, Character]:
+    """Return the label of the family and the series of a step in it."""
+    for name in DEFAULT_FAMILIES if family is None else (family,):
+        candidate = families.get(name)
+        method = tableau.read_as(candidate.formats)
+        if method is None:
+            continue
+        if isinstance(candidate, OrderedForestFamily):
+            return candidate.label(), Character(tableau.ring, ORDERED, candidate.series(method, tableau.ring))
+        if isinstance(candidate, RungeKuttaFamily) and isinstance(method, RungeKutta):
+            series = runge_kutta_series(tableau.ring, method.A, method.b)
+            return candidate.label(), Character(tableau.ring, ROOTED, series)
+        known = [n for n in families.names() if isinstance(families.get(n), SERIES)]
+        raise InputError(
+            f"family {name}, which has neither a B-series nor a Lie-Butcher series",
+            where="modified equation",
+            expected=f"one of {', '.join(known)}",
+        )
+    raise InputError(
+        f"a tableau of format {tableau.family}",
+        where=tableau.path or tableau.name,
+        expected=f"one that family {family or ' or '.join(DEFAULT_FAMILIES)} reads",
+    )
+
+
+def _rooted(field: VectorField, order: int) -> Iterator[Term]:
+    for tree in rooted_trees(order):
+        coefficient = field(tree) * field.ring.rational(1, symmetry(tree))
+        yield Term(order, text(tree), differentials.differential(tree), coefficient)
+
+
+def _ordered(field: VectorField, order: int) -> Iterator[Term]:
+    """Yield the terms of an element of a free Lie algebra; the field's forests are in the order of action."""
+
+    def product(word: Word) -> Element:
+        return field(b"".join(reversed(word)))
+
+    words = map(trees_of, lyndon_forests(order))
+    for word, coefficient in coordinates_from_values(product, words, _place).items():
+        name = differentials.commutator(standard_bracketing(word, _place), differentials.frozen_differential)
+        yield Term(order, text(b"".join(word)), name, coefficient)
+
+
+def _place(tree: Tree) -> tuple[int, bytes]:
+    """Return the place of a tree in the alphabet of Lyndon words: larger trees first, then taller ones."""
+    return -len(tree), bytes(255 - level for level in tree)
+
+
+def _hamiltonian(field: VectorField, order: int) -> tuple[Term, ...] | None:
+    """Return the terms of the modified Hamiltonian, None where the field has none."""
+    try:
+        terms = modified_hamiltonian(field, order)
+    except InputError:
+        return None
+    return tuple(Term(len(tree), text(tree), differentials.hamiltonian(tree), x) for tree, x in terms)

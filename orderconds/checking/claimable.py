@@ -1,0 +1,41 @@
+"""The families that a tableau can claim: those in which its file should state an order.
+
+A Butcher tableau claims ``rk``, ``cg`` and ``rkmk``, and with non-zero weights ``sprk``, ``vcg`` and
+``vrkmk`` (any cut-off of ``rkmk`` and ``vrkmk`` is a claim); a commutator-free method claims ``rk``,
+``cf`` and, with non-zero weights, ``vcf``. A pair claims ``prk``, and where it is symplectic
+``sprk_separable`` instead. Families that say the same of a tableau (``prk`` of an ``rk`` one) are not
+demanded. Each family decides for itself (:meth:`orderconds.families.Family.claimable`).
+"""
+
+from __future__ import annotations
+
+from orderconds import families
+from orderconds.families import Family
+from orderconds.tableau import Tableau
+
+
+def claimable_families(tableau: Tableau) -> tuple[Family, ...]:
+    """Return the families in which a file of this tableau should claim an order.
+
+    Those that divide by weights come last; before them, those whose own format it is come first.
+
+    >>> from orderconds.checking import read
+    >>> [family.name for family in claimable_families(read("rk4"))]
+    ['rk', 'cg', 'rkmk', 'sprk', 'vcg', 'vrkmk']
+    >>> [[f.name for f in claimable_families(read(name))] for name in ("cg4", "cf3")]
+    [['rk', 'cg', 'rkmk'], ['cf', 'rk']]
+    """
+    classes = map(families.family_class, families.names())
+    found = [family for c in classes if (family := c.claimable(tableau)) is not None]
+    return tuple(sorted(found, key=lambda f: (f.needs_nonzero_weights, f.formats[0] != tableau.family)))
+
+
+def unclaimed(tableau: Tableau) -> tuple[Family, ...]:
+    """Return the families that the tableau can claim and its file claims no order in.
+
+    >>> from orderconds.tableau import find
+    >>> unclaimed(Tableau.load(find("kutta3")))
+    ()
+    """
+    claimed = {claim.family for claim in tableau.claims.orders} | {c.label for c in tableau.claims.orders}
+    return tuple(f for f in claimable_families(tableau) if f.label() not in claimed)

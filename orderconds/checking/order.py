@@ -1,0 +1,231 @@
+"""The order of one tableau in one family: orders 1, 2, ... are evaluated until a condition fails."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from decimal import Context, Decimal
+from itertools import chain, islice
+
+from orderconds.checking.limits import Meter
+from orderconds.checking.residuals import Failure, judge
+from orderconds.conditions import OrderCondition
+from orderconds.errors import InputError
+from orderconds.families import Family
+from orderconds.families.base import Key
+from orderconds.families.reductions import Reductions
+from orderconds.ring import Balls, Ring
+from orderconds.tableau import Method, Tableau
+
+EXHAUSTIVE = 2000
+"""An order with more conditions than this is evaluated in batches, the simplest trees first, up to the first
+batch in which one fails; those that fail in it are named, and the error norm is left out."""
+
+STOPPED = "stopped"
+"""The verdict on an order that a limit left open."""
+
+Tree = tuple[Key, Callable[[], OrderCondition]]
+"""A family's own encoding of a tree, and a function that returns its condition."""
+
+
+@dataclass(frozen=True)
+class FamilyOrder:
+    """The order of one tableau in one family, against what was claimed or required.
+
+    ``failing`` are the conditions of order ``order + 1`` that fail, ``error_norm`` the 2-norm of their
+    residuals. ``limit`` is the order at which the search stopped without a failing condition, None when
+    it found one; ``stopped`` how many conditions had been evaluated where a limit on work ended it.
+    ``required`` is a lower bound that was asked for; without it ``claimed`` is an equality.
+    """
+
+    family: str
+    order: int
+    certificate: str
+    decided: bool
+    failing: tuple[Failure, ...]
+    error_norm: float | None
+    claimed: int | None = None
+    required: int | None = None
+    limit: int | None = None
+    stopped: int | None = None
+
+    @property
+    def verdict(self) -> str:
+        """``holds``, ``fails`` or ``undecided``."""
+        if self.required is not None:
+            sound = self.order >= self.required
+            unknown = not self.decided or self.stopped is not None
+            return "holds" if sound else "undecided" if unknown else "fails"
+        if not self.decided:
+            return "undecided"
+        if self.stopped is not None and self.claimed is not None and self.claimed >= self.order:
+            return "undecided"
+        return "holds" if self.claimed in (None, self.order) else "fails"
+
+    def as_json(self) -> dict[str, object]:
+        """Return the JSON object of one family; ``limit`` only where the search ended there."""
+        record: dict[str, object] = {
+            "claimed": self.claimed,
+            "order": self.order,
+            "verdict": self.verdict,
+            "certificate": self.certificate,
+            "failing": [failure.as_json() for failure in self.failing],
+            # JSON has no infinity
+            "error_norm": None if self.error_norm == math.inf else self.error_norm,
+        }
+        if self.limit is not None:
+            record["limit"] = self.limit
+        if self.stopped is not None:
+            record["stopped"] = self.stopped
+        return record
+
+
+def family_order(
+    tableau: Tableau,
+    family: Family,
+    claimed: int | None = None,
+    required: int | None = None,
+    bound: FamilyOrder | None = None,
+    proved: Mapping[str, int] | None = None,
+    brief: bool = False,
+    meter: Meter | None = None,
+) -> FamilyOrder:
+    """Find the order of ``tableau`` in ``family``: evaluate orders 1, 2, ... until a condition fails.
+
+    An order at the family's limit is not exceeded where ``bound``, the order in a family whose conditions
+    are among its own, says so, and with ``brief`` no order is: the conditions that fail are then those of
+    ``bound``. Conditions that follow from others, and from the orders ``proved`` in other
+    families, are not evaluated (:mod:`orderconds.families.reductions`). The search ends where ``meter`` says
+    that a limit is reached.
+
+    >>> from orderconds.families import get
+    >>> from orderconds.tableau import find
+    >>> kutta3 = Tableau.load(find("kutta3"))
+    >>> found = family_order(kutta3, get("cg"))
+    >>> found.order, found.certificate
+    (2, 'exact')
+    """
+    method = _method(tableau, family)
+    family.require(method, tableau.ring)
+    spared = family.reductions(method, tableau.ring, proved or {})
+    return _Search(family, method, tableau.ring, spared, meter or Meter()).run(
+        claimed, required, bound, brief
+    )
+
+
+def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
+    """Return the one condition of this order that fails first in the family, where a method does not meet it.
+
+    >>> from orderconds.families import get
+    >>> from orderconds.tableau import find
+    >>> gauss3 = Tableau.load(find("gauss3"))
+    >>> [failure.condition.tree for failure in first_failing(gauss3, get("vrkmk(1)"), 4)]
+    ['o(o|L(o o))']
+    """
+    condition = family.first_unmet(order)
+    if condition is None:
+        return ()
+    return judge(family, _method(tableau, family), tableau.ring, [condition])[1]
+
+
+@dataclass(frozen=True)
+class _Search:
+    """A family, a method as the family reads it, and the conditions of it that need not be evaluated."""
+
+    family: Family
+    method: Method
+    ring: Ring
+    spared: Reductions
+    meter: Meter
+
+    def run(
+        self, claimed: int | None, required: int | None, bound: FamilyOrder | None, brief: bool
+    ) -> FamilyOrder:
+        """Return the order; arguments as of :func:`family_order`."""
+        family, label, highest = self.family, self.family.label(), self.family.order_bound
+        limit = max(family.search_limit, (claimed or 0) + 1, (required or 0) + 1)
+        limit = limit if highest is None else min(limit, highest)
+        expected = limit if claimed is None else claimed
+        certificate = "exact"
+        for n in range(1, limit + 1):
+            verdicts, failing, whole = self._judged(n, n > expected, certificate == "decimal")
+            if not failing and STOPPED in verdicts:
+                done = self.meter.total
+                return FamilyOrder(label, n - 1, certificate, True, (), None, claimed, required, n - 1, done)
+            if failing or "undecided" in verdicts:
+                decided, norm = bool(failing), None
+                certificate = certificate if decided else "none"
+                if failing and whole:
+                    norm = _norm([failure.size for failure in failing])
+                return FamilyOrder(label, n - 1, certificate, decided, failing, norm, claimed, required)
+            if "supported" in verdicts:
+                certificate = "decimal"
+            if bound is not None and n == bound.order and (brief or n >= family.search_limit):
+                return FamilyOrder(label, n, certificate, True, bound.failing, None, claimed, required)
+        ended = None if limit == highest else limit
+        return FamilyOrder(label, limit, certificate, True, (), None, claimed, required, ended)
+
+    def _judged(self, n: int, unlikely: bool, decimal: bool) -> tuple[set[str], tuple[Failure, ...], bool]:
+        """Return the verdicts on order n, the conditions that fail, and whether all were evaluated."""
+        failing: tuple[Failure, ...] = ()
+        verdicts: set[str] = set()
+        whole = True
+        if self.spared.order_follows(n):
+            return verdicts, failing, whole
+        # A theorem about balls may not say more than that their digits support an order.
+        known = decimal or not isinstance(self.ring, Balls)
+        self.meter.next_order()
+        for trees, every in _batches(self.family, n):
+            whole = every
+            if self.meter.stops(len(trees)):
+                return {STOPPED}, failing, False
+            batch = tuple(
+                condition() for key, condition in trees if not (known and self.spared.follows(n, key))
+            )
+            judged, failing = judge(self.family, self.method, self.ring, batch, unlikely)
+            self.meter.count(len(batch))
+            verdicts |= judged
+            if failing or (not every and judged == {"zero"} and self.spared.rest_follows(n)):
+                break
+        return verdicts, failing, whole
+
+
+def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
+    """Yield the conditions that decide order n: all at once (True), or in batches that double in size.
+
+    They are an independent set, or every tree where a set costs more. Batches share an engine's work.
+    """
+    trees = family.decisive_in_turn(n)
+    count = family.decisive_count(n)
+    if count is None or count <= EXHAUSTIVE:
+        first = tuple(islice(trees, EXHAUSTIVE + 1))
+        if len(first) <= EXHAUSTIVE:
+            yield first, True
+            return
+        trees = chain(first, trees)
+    size = EXHAUSTIVE // 10
+    while batch := tuple(islice(trees, size)):
+        yield batch, False
+        size *= 2
+
+
+def _norm(sizes: list[Decimal]) -> float:
+    """Return the 2-norm, to 15 digits."""
+    context = Context(prec=30)
+    total = Decimal(0)
+    for x in sizes:
+        total = context.fma(x, x, total)
+    return float(f"{context.sqrt(total):.14e}")
+
+
+def _method(tableau: Tableau, family: Family) -> Method:
+    """Return the method of a tableau as the family reads it."""
+    method = family.read(tableau)
+    if method is None:
+        raise InputError(
+            f"a tableau of format {tableau.family} has no reading in family {family.label()}",
+            where=tableau.path or tableau.name,
+            expected=f"format {' or '.join(family.formats)}",
+        )
+    return method

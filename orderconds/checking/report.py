@@ -1,0 +1,87 @@
+"""The report of a check: the orders of one tableau, of its embedded row, its properties and its claims."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from msgspec import Struct
+
+from orderconds.checking.order import FamilyOrder
+from orderconds.checking.residuals import Failure
+from orderconds.tableau.work import Work
+
+if TYPE_CHECKING:
+    from orderconds.proof.certificate import Certificate
+
+
+class EmbeddedOrder(Struct, frozen=True):
+    """The order that the embedded row was said to have in the family ``own``, and its orders by family.
+
+    ``certificates`` are those of the orders, by family. ``own`` is ``rk`` for weights, ``cf`` for an update
+    of exponentials; ``failing`` are the conditions of the next order that fail in it.
+    """
+
+    claimed: int
+    orders: dict[str, int]
+    certificates: dict[str, str]
+    own: str
+    failing: tuple[Failure, ...] = ()
+
+    def as_json(self) -> dict[str, object]:
+        """Return the JSON object of an embedded row."""
+        return {"claimed": self.claimed, "orders": self.orders, "certificates": self.certificates}
+
+
+@dataclass(frozen=True)
+class Report:
+    """The result of ``check`` for one tableau; ``broken_claims`` are property claims that do not hold."""
+
+    name: str
+    file: str | None
+    format: str
+    orders: tuple[FamilyOrder, ...]
+    properties: dict[str, bool | None]
+    broken_claims: tuple[str, ...] = ()
+    undecided: dict[str, str] = field(default_factory=dict)
+    """Property to the reason why it is neither true nor false."""
+    proof: Certificate | None = None
+    work: dict[str, Work] = field(default_factory=dict)
+    embedded: EmbeddedOrder | None = None
+
+    @property
+    def verdict(self) -> str:
+        """``fails`` if any claim fails, else ``undecided`` if any is, else ``holds``."""
+        verdicts = {family.verdict for family in self.orders}
+        if self.broken_claims or "fails" in verdicts:
+            return "fails"
+        return "undecided" if "undecided" in verdicts else "holds"
+
+    def summary(self) -> str:
+        """Return in a few lines the claims that do not hold, each with its first failing condition."""
+        lines = [f"{self.name}: {self.verdict}" + (f"  ({self.file})" if self.file else "")]
+        for family in self.orders:
+            if family.verdict != "holds":
+                wanted = family.claimed if family.required is None else f"at least {family.required}"
+                lines.append(f"  {family.family}: order {family.order}, claimed {wanted}")
+                lines += [f"    {failure}" for failure in family.failing[:1]]
+        return "\n".join([*lines, *(f"  claim fails: {broken}" for broken in self.broken_claims)])
+
+    def as_json(self) -> dict[str, object]:
+        """Return the JSON object of one tableau; ``undecided``, ``broken_claims`` where there are any."""
+        record: dict[str, object] = {
+            "name": self.name,
+            "file": self.file,
+            "format": self.format,
+            "verdict": self.verdict,
+            "orders": {family.family: family.as_json() for family in self.orders},
+            "properties": self.properties,
+            "work": {label: work.as_json() for label, work in self.work.items()},
+        }
+        if self.embedded is not None:
+            record["embedded"] = self.embedded.as_json()
+        if self.proof is not None:
+            record["proof"] = self.proof.as_json()
+        if self.undecided:
+            record["undecided"] = self.undecided
+        return {**record, "broken_claims": list(self.broken_claims)} if self.broken_claims else record

@@ -1,0 +1,67 @@
+"""``orderconds modified``: the modified equation of a method, which its steps follow exactly."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+from orderconds.commands import screen
+
+if TYPE_CHECKING:
+    from orderconds.backward_error import ModifiedEquation, Term
+
+
+@click.command(name="modified", short_help="Print the modified equation of a method.")
+@click.argument("tableau", metavar="FILE|NAME")
+@click.option("--order", "-p", type=click.IntRange(1, 10), required=True, help="Terms up to h^(ORDER - 1).")
+@click.option("--family", help="Read the tableau in this family; by its format where left out.")
+@click.option(
+    "--modifying",
+    is_flag=True,
+    help="The field to which the method must be applied so that it follows the exact flow of f.",
+)
+@click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
+def command(tableau: str, order: int, family: str | None, modifying: bool, as_json: bool) -> int:
+    """Print the modified equation of a tableau: a file, or one of the library by name.
+
+    \b
+    A step of the method is the exact flow, over the time h, of the field
+        f~ = sum h^(order - 1) * coefficient * field,
+    where each field is an elementary differential of f.
+
+    The family rk gives rooted trees. Families of Lie group methods (cg, cf, "rkmk(1)") give ordered trees:
+    f[x y] is f differentiated along the frozen fields x and y, and [x, y] = x y - y x is a commutator.
+    For a symplectic method the modified Hamiltonian H~ follows, in which f is the Hamiltonian vector field.
+
+    \b
+    Examples:
+        orderconds modified midpoint --order 5
+        orderconds modified cf4 --order 5
+        orderconds modified rk4 --family "rkmk(1)" --order 5
+        orderconds modified euler --order 4 --modifying
+    """
+    from orderconds.backward_error import modified_equation
+    from orderconds.checking import read
+
+    method = read(tableau)
+    with screen.working(f"expanding {method.name} to order {order}"):
+        equation = modified_equation(method, order, family, modifying=modifying)
+    if as_json:
+        screen.print_json({"tableau": method.name, "modifying": modifying, **equation.as_json()})
+    else:
+        _print_text(method.name, equation)
+    return 0
+
+
+def _print_text(name: str, equation: ModifiedEquation) -> None:
+    click.echo(f"{name}, family {equation.family}: f~ up to h^{equation.order - 1}")
+    _print_terms(equation, equation.terms, "field")
+    if equation.hamiltonian is not None:
+        click.echo(f"\nmodified Hamiltonian: H~ up to h^{equation.order - 1}")
+        _print_terms(equation, equation.hamiltonian, "Hamiltonian")
+
+
+def _print_terms(equation: ModifiedEquation, terms: tuple[Term, ...], kind: str) -> None:
+    rows = [(str(t.order), t.tree, equation.ring.text(t.coefficient), t.name) for t in terms]
+    screen.print_table(("order", "tree", "coefficient", kind), rows, indent=2)

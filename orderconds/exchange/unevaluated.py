@@ -1,0 +1,155 @@
+"""Unevaluated coefficients: the expressions of a file, with every name replaced by its definition.
+
+Tables and arrays have no names, and rounded decimals must keep their digits, which a computed ball loses.
+So the method is built over a ring of expressions: those of the file, and sums and products of them where a
+format is expanded (low-storage schemes). Only operations with zero and one are simplified.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+
+from orderconds.errors import TableauError
+from orderconds.ring.protocol import Element
+from orderconds.tableau.evaluate import evaluate_in
+from orderconds.tableau.grammar import MAX_TEXT, ZERO, Chain, Constant, Expression, Name, Power, spell
+from orderconds.tableau.record import File, Tableau
+
+ONE = Constant(Fraction(1))
+
+
+class CoefficientTooLong(TableauError):
+    """A coefficient that is too long when its names are inlined."""
+
+
+class Unevaluated:
+    """An unevaluated number."""
+
+    __slots__ = ("expression",)
+
+    def __init__(self, expression: Expression) -> None:
+        self.expression = expression
+
+    def __repr__(self) -> str:
+        return f"Unevaluated({spell(self.expression)})"
+
+    def __add__(self, other: Element) -> Unevaluated:
+        if self.expression == ZERO:
+            return _unevaluated(other)
+        return self if _unevaluated(other).expression == ZERO else _joined("+", self, other)
+
+    def __radd__(self, other: Element) -> Unevaluated:
+        return _unevaluated(other) + self
+
+    def __sub__(self, other: Element) -> Unevaluated:
+        return self if _unevaluated(other).expression == ZERO else _joined("-", self, other)
+
+    def __neg__(self) -> Unevaluated:
+        return Unevaluated(ZERO) - self
+
+    def __mul__(self, other: Element) -> Unevaluated:
+        factor = _unevaluated(other)
+        for x, y in ((self, factor), (factor, self)):
+            if x.expression in (ZERO, ONE):
+                return x if x.expression == ZERO else y
+        return _joined("*", self, factor)
+
+    def __rmul__(self, other: Element) -> Unevaluated:
+        return _unevaluated(other) * self
+
+    def __truediv__(self, other: Element) -> Unevaluated:
+        return self if _unevaluated(other).expression == ONE else _joined("/", self, other)
+
+    def __pow__(self, n: int) -> Unevaluated:
+        return self if n == 1 else Unevaluated(Power(self.expression, Fraction(n)))
+
+
+def _unevaluated(x: Element) -> Unevaluated:
+    return x if isinstance(x, Unevaluated) else Unevaluated(Constant(Fraction(x)))
+
+
+def _joined(operator: str, left: Unevaluated, right: Element) -> Unevaluated:
+    return Unevaluated(Chain((operator,), (left.expression, _unevaluated(right).expression)))
+
+
+class UnevaluatedNumbers:
+    """Unevaluated numbers as a ring; only expressions that are literally zero count as zero.
+
+    >>> R = UnevaluatedNumbers()
+    >>> R.text(R.constant(Fraction(1, 4), Fraction(1, 100)) * 3 - R.rational(1, 2))
+    '0.25~*3 - 1/2'
+    """
+
+    name = "unevaluated numbers"
+
+    def __init__(self) -> None:
+        self.zero, self.one = Unevaluated(ZERO), Unevaluated(ONE)
+        self._roots: dict[str, tuple[tuple[str, ...], str]] = {}
+
+    @property
+    def named_roots(self) -> tuple[tuple[str, tuple[str, ...], str], ...]:
+        """(name, minimal polynomial, isolating decimal) of the roots that have a name."""
+        return tuple((name, *root) for name, root in self._roots.items())
+
+    def rational(self, p: int, q: int = 1) -> Unevaluated:
+        """Return p/q."""
+        return _unevaluated(p) / q
+
+    def constant(self, value: Fraction, unit: Fraction) -> Unevaluated:
+        """Return a constant of the file."""
+        return Unevaluated(Constant(value, unit))
+
+    def root(self, x: Unevaluated, index: int) -> Unevaluated:
+        """Return the root of x."""
+        return Unevaluated(Power(x.expression, Fraction(1, index)))
+
+    def named_root(
+        self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str
+    ) -> Unevaluated:
+        """Return the root by its name."""
+        self._roots[name] = tuple(map(str, minpoly)), spell(Constant(near, unit)).rstrip("~")
+        return Unevaluated(Name(name))
+
+    def size(self, x: Unevaluated) -> int:
+        """Return 0: numbers that are too large were refused when the file was read."""
+        return 0
+
+    def is_zero(self, x: Unevaluated) -> bool | None:
+        """Return True for the constant 0, False for other constants, else None."""
+        if isinstance(x.expression, Constant) and not x.expression.unit:
+            return x.expression == ZERO
+        return None
+
+    def key(self, x: Unevaluated) -> tuple[str]:
+        """Return the text."""
+        return (self.text(x),)
+
+    def approximate(self, x: Unevaluated, digits: int = 20) -> str:
+        """Return the text, since nothing is evaluated."""
+        return self.text(x)
+
+    def text(self, x: Unevaluated) -> str:
+        """Return the coefficient; raise :class:`CoefficientTooLong` if a file may not hold it."""
+        text = spell(x.expression, MAX_TEXT)
+        if len(text) > MAX_TEXT:
+            raise CoefficientTooLong(
+                "a coefficient too long without names", expected="format json, which holds everything"
+            )
+        return text
+
+
+def with_names_inlined(tableau: Tableau, file: File) -> Tableau:
+    """Return the tableau over :class:`UnevaluatedNumbers`, with the expressions of ``file``.
+
+    >>> from orderconds.tableau import Tableau
+    >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a/2"]]\\nb = ["1"]\\nnumbers = { a = "0.99~" }'
+    >>> found = with_names_inlined(Tableau.loads(text), Tableau.loads(text).file)
+    >>> found.ring.text(found.method.A[0][0])
+    '0.99~/2'
+    """
+    ring, texts = UnevaluatedNumbers(), file.spelled
+    values = evaluate_in(ring, texts.expressions, texts.numbers, texts.where)
+    method, embedded = texts.build(values, ring)
+    return replace(tableau, ring=ring, method=method, embedded=embedded, file=None)

@@ -1,0 +1,191 @@
+"""How the program ends: its exit status, one message on stderr, and with ``--json`` one document on stdout.
+
+=====  ===============================================================================
+0      success
+1      the command ran, and a claim or check failed
+2      bad input or usage
+70     an internal error: a fault of this program, whatever the input was
+130    interrupted by Ctrl-C; 143 and 129 for the signals SIGTERM and SIGHUP
+141    the reader of a pipe went away, as ``head`` does; no message
+=====  ===============================================================================
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from types import FrameType
+from typing import Any
+
+import click
+
+from orderconds.errors import InputError
+
+BAD_INPUT = 2
+INTERNAL = 70
+INTERRUPTED = 130
+BROKEN_PIPE = 141
+SIGNALS = ("SIGTERM", "SIGHUP")
+"""Signals that end the program as Ctrl-C does: it removes temporary files and ends its workers first."""
+
+MAX_TEXT = 300
+"""Characters of an internal error's own text that the message shows."""
+
+
+class Terminated(KeyboardInterrupt):
+    """The program received one of :data:`SIGNALS`."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.number = number
+
+
+class Stopped(Exception):
+    """An ending that click would turn into an empty line or a status of its own."""
+
+    def __init__(self, cause: BaseException) -> None:
+        super().__init__()
+        self.cause = cause
+
+
+@dataclass
+class Run:
+    """One run of the program: what its command line asked for, and how many documents it has printed."""
+
+    as_json: bool = False
+    traceback: bool = False
+    documents: int = 0
+
+    def print_document(self, value: Any) -> None:
+        """Print one JSON document: indented, in the order given, ASCII only."""
+        import json
+
+        text = json.dumps(value, indent=2, allow_nan=False)
+        self.documents += 1
+        click.echo(text)
+
+    def end(self, error: BaseException) -> int:
+        """Print an error, and return the exit status.
+
+        >>> Run(as_json=True).end(InputError("a row of 3", where="x.toml", expected="2 entries"))
+        {
+          "error": {
+            "status": 2,
+            "kind": "InputError",
+            "message": "x.toml: a row of 3; expected 2 entries",
+            "found": "a row of 3",
+            "where": "x.toml",
+            "expected": "2 entries",
+            "hint": ""
+          }
+        }
+        2
+        """
+        error = error.cause if isinstance(error, Stopped) else error
+        if isinstance(error, BrokenPipeError):
+            _silence_stdout()
+            return BROKEN_PIPE
+        status, message = _reported(error)
+        if status == INTERNAL and self.traceback:
+            import traceback
+
+            traceback.print_exception(error)
+        record: dict[str, Any] = {"status": status, "kind": type(error).__name__, "message": message}
+        if isinstance(error, InputError):
+            record |= {key: getattr(error, key) for key in ("found", "where", "expected", "hint")}
+        self.refuse(record)
+        return status
+
+    def refuse(self, record: dict[str, Any]) -> None:
+        """Print an error's message, and its record where a document is due."""
+        with contextlib.suppress(OSError):  # a stream that takes nothing; the exit status is still right
+            click.echo(f"orderconds: {record['message']}", err=True)
+        if self.as_json and not self.documents:
+            with contextlib.suppress(OSError):
+                self.print_document({"error": record})
+                sys.stdout.flush()
+
+
+def _reported(error: BaseException) -> tuple[int, str]:
+    """Return the exit status and the message of an error."""
+    match error:
+        case InputError():
+            return BAD_INPUT, str(error)
+        case click.UsageError():
+            return BAD_INPUT, _usage_message(error)
+        case click.ClickException():
+            return BAD_INPUT, error.format_message()
+        case OSError():
+            return BAD_INPUT, f"{error.filename or 'system'}: {error.strerror or error}"
+        case Terminated():
+            name = signal.Signals(error.number).name
+            return 128 + error.number, "; ".join([f"stopped by {name}", *_notes(error)])
+        case KeyboardInterrupt() | click.Abort():
+            return INTERRUPTED, "; ".join(["interrupted", *_notes(error)])
+    text = " ".join(str(error).split())
+    shown = text if len(text) <= MAX_TEXT else text[:MAX_TEXT] + " ..."
+    return INTERNAL, (
+        f"internal error: {type(error).__name__}{': ' * bool(shown)}{shown}; please report it with this "
+        "command, its input, and the traceback that ORDERCONDS_TRACEBACK=1 shows"
+    )
+
+
+def _notes(error: BaseException) -> list[str]:
+    return list(getattr(error, "__notes__", []))
+
+
+def _usage_message(error: click.UsageError) -> str:
+    message = error.format_message().rstrip(".")
+    if error.ctx is None:
+        return message
+    path = error.ctx.command_path
+    return f"{path.partition(' ')[2] or 'usage'}: {message}; type: {path} --help"
+
+
+@contextlib.contextmanager
+def past_click() -> Iterator[None]:
+    """Take an interrupt and a closed pipe past click to :meth:`Run.end`.
+
+    >>> with past_click():
+    ...     raise KeyboardInterrupt
+    Traceback (most recent call last):
+    orderconds.exit_status.Stopped
+    """
+    try:
+        yield
+    except (KeyboardInterrupt, BrokenPipeError) as cause:
+        raise Stopped(cause) from cause
+
+
+def _silence_stdout() -> None:
+    """Let what the interpreter still flushes at its exit go nowhere: the reader of stdout went away."""
+    with contextlib.suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def catch_signals() -> None:
+    """Raise :class:`Terminated` on SIGTERM and SIGHUP; a second signal ends the program at once."""
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        signal.signal(number, signal.SIG_DFL)
+        raise Terminated(number)
+
+    for name in SIGNALS:
+        number = getattr(signal, name, None)
+        # nohup and the like have the program ignore a signal.
+        if number is not None and signal.getsignal(number) is signal.SIG_DFL:
+            signal.signal(number, stop)
+
+
+def current_run() -> Run:
+    """Return the run that the present command belongs to; a new one outside a command.
+
+    >>> current_run().documents
+    0
+    """
+    context = click.get_current_context(silent=True)
+    return (context.find_object(Run) if context is not None else None) or Run()

@@ -1,0 +1,40 @@
+"""Runge-Kutta methods on the space around the manifold: ``rk`` in coordinates of the ambient space.
+
+A step leaves the manifold by its own error, so that its order there is the classical one. The family is the
+baseline with which methods that stay on the manifold are compared.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import ClassVar, Self
+
+from orderconds.families.registry import register
+from orderconds.families.rk import RungeKuttaFamily
+from orderconds.tableau.record import Tableau
+
+
+@register
+class AmbientFamily(RungeKuttaFamily):
+    """Runge-Kutta methods in ambient coordinates; the conditions are those of ``rk``.
+
+    >>> [str(condition) for condition in AmbientFamily().conditions(2)]
+    ['sum_i b_i c_i = 1/2']
+    """
+
+    name = "ambient"
+    description = "Runge-Kutta methods in the space around the manifold, which a step leaves."
+    illustrates = ()
+    implies: ClassVar[Mapping[str, str]] = {"rk": "a vector space is its own ambient space"}
+    bounds_others = False
+    low_storage = ()
+    keeps_manifold = False
+
+    @classmethod
+    def claimable(cls, tableau: Tableau) -> Self | None:
+        """No tableau: the order is that of ``rk``."""
+        return None
+
+    def implied_order(self, orders: Mapping[str, int]) -> int:
+        """Return the classical order."""
+        return orders.get("rk", 0)

@@ -1,0 +1,373 @@
+"""The base class of families: every question that the rest of the program asks about a family.
+
+A family says how a tableau becomes a series. Its conditions compare that series with the exact flow's. Facts
+about a family are attributes and methods of its class, with defaults declared here; no other module keeps a
+table of family names.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from fractions import Fraction
+from functools import partial
+from typing import TYPE_CHECKING, ClassVar, TypeVar
+
+from orderconds.conditions import OrderCondition
+from orderconds.errors import InputError, ZeroWeight
+from orderconds.families.memo import Memo
+from orderconds.families.reductions import Reductions, Substitute, UnseenCut
+from orderconds.families.stage_form import StageForm, tableau_form
+from orderconds.ring.balls import Balls, Enclosures
+from orderconds.ring.precision import precision
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.products import Method
+
+if TYPE_CHECKING:
+    from typing import Self
+
+    from orderconds.tableau.record import OrderClaim, Tableau
+    from orderconds.tableau.work import Work
+
+Key = Hashable
+"""A family's own encoding of a tree, a forest or a word: the ``key`` of a condition."""
+
+TABLEAU_FORMAT = "rk"
+"""The file format of Butcher tableaux (A, b)."""
+
+Kind = TypeVar("Kind")
+
+
+class Family(ABC):
+    """A family of methods.
+
+    A subclass sets ``name``, ``description`` and ``formats`` and implements :meth:`conditions` and
+    :meth:`evaluate`; all else has a default. :func:`orderconds.families.register` makes it known to every
+    command. Options of a family are the parameters of its class, ``cutoff`` of RKMK; they are integers.
+    """
+
+    name: ClassVar[str] = ""
+    """The name under which commands and claims know the family; lower case."""
+    description: ClassVar[str] = ""
+    """One line for ``orderconds list families``."""
+    formats: ClassVar[tuple[str, ...]] = ()
+    """The tableau formats it reads, the preferred one first."""
+
+    # Conditions
+    needs_nonzero_weights: ClassVar[bool] = False
+    """Whether the family divides by the weights b_i."""
+    search_limit: ClassVar[int] = 8
+    """The order up to which ``check`` searches where nothing is claimed; one beyond the claim in any case."""
+    order_bound: ClassVar[int | None] = None
+    """The highest order of any member, where a theorem bounds it; no condition beyond it has a meaning."""
+    over_rationals: ClassVar[bool] = False
+    """Whether conditions are evaluated by :mod:`orderconds.ring.nodal`, without field arithmetic."""
+    trees: ClassVar[str | None] = None
+    """The kind of trees its conditions belong to (:mod:`orderconds.explain.kinds`); None for words."""
+    illustrates: ClassVar[tuple[str, ...]] = ()
+    """The kinds of trees that ``orderconds trees --explain`` shows with the conditions of this family."""
+
+    # Other families
+    implies: ClassVar[Mapping[str, str]] = {}
+    """Names of families whose conditions are among its own at every order, each with the theorem."""
+    abelian: ClassVar[str | None] = None
+    """The family that the method is where brackets vanish and exponents add up; None where no family reads
+    all of its tableaux that way."""
+    low_order: ClassVar[str | None] = None
+    """A family with exactly the same conditions up to order 2: no bracket or momentum enters before."""
+    bounds_others: ClassVar[bool] = False
+    """Whether its orders bound those of other families, and are worth computing for that."""
+    low_storage: ClassVar[tuple[str, ...]] = ()
+    """Families in which a 2N scheme has the order that it has in this one."""
+
+    # Methods
+    on_groups: ClassVar[bool] = False
+    """Whether a step consists of exponentials on a Lie group."""
+    fixed_stages: ClassVar[bool] = False
+    """Whether the stages do not depend on the weights: a second row of weights then estimates the error."""
+    keeps_manifold: ClassVar[bool] = True
+    """Whether a step stays on the manifold on which the problem is posed."""
+    keeps_energy: ClassVar[bool] = False
+    """Whether every member keeps the energy exactly."""
+    takes_cutoff: ClassVar[bool] = False
+    """Whether dexpinv, or dexp, is cut after ``cutoff`` brackets."""
+    minimal_brackets: ClassVar[int] = 0
+    """The highest order at which members without a cut-off are compiled with the fewest brackets."""
+    cutoff: int | None = None
+    """After how many brackets dexpinv is cut; None: not at all."""
+
+    # Search
+    unknowns: ClassVar[str | None] = None
+    """The tableau format whose coefficients ``orderconds solve`` looks for; None: no search."""
+    equal_abscissae: ClassVar[bool] = False
+    """Whether conditions of order three make the abscissae of a stage equal
+    (:mod:`orderconds.solve.abscissae`)."""
+    principal_error_limit: ClassVar[int | None] = None
+    """The highest order of which the principal error is computed; None: no limit."""
+
+    def label(self) -> str:
+        """Return the name with its options, as ``rkmk(1)``."""
+        return self.name
+
+    @abstractmethod
+    def conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return the independent conditions of exactly this order."""
+
+    @abstractmethod
+    def evaluate(
+        self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
+    ) -> tuple[Element, ...]:
+        """Return the left-hand sides of ``conditions`` for a method with coefficients in ``ring``.
+
+        Raises :class:`~orderconds.errors.ZeroWeight` where the family divides by a weight that is zero.
+        """
+
+    def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return those of :meth:`conditions` that follow neither from one another nor from lower ones.
+
+        By default all of them. A family overrides this where its conditions are a generating set that is
+        not independent, and explains the difference in :meth:`remark`.
+        """
+        return self.conditions(order)
+
+    def remark(self, order: int) -> str:
+        """Return what a reader of the conditions up to ``order`` should know; or an empty text."""
+        return ""
+
+    def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return the conditions of every tree or word of this order; by default the independent ones."""
+        return self.conditions(order)
+
+    def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return conditions that imply all of this order and cost less than an independent set.
+
+        By default the independent set.
+        """
+        return self.conditions(order)
+
+    def decisive_in_turn(self, order: int) -> Iterator[tuple[Key, Callable[[], OrderCondition]]]:
+        """Yield the keys of the decisive conditions, each with a function that returns the condition.
+
+        A family with very many trees yields them as they are enumerated.
+        """
+        for condition in self.decisive_conditions(order):
+            yield condition.key, partial(_itself, condition)
+
+    def decisive_count(self, order: int) -> int | None:
+        """Return how many decisive conditions there are, where that is known at no cost, else None."""
+        return None
+
+    def residuals(
+        self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
+    ) -> tuple[Element, ...]:
+        """Return left-hand side minus right-hand side of each condition, elements of ``ring``.
+
+        Raises ZeroDivisionError where a quotient of balls is not defined.
+
+        >>> from orderconds.families import get
+        >>> from orderconds.tableau import Tableau, find
+        >>> euler = Tableau.load(find("euler"))
+        >>> rk = get("rk")
+        >>> rk.residuals(euler.method, euler.ring, rk.conditions(2))
+        (-1/2,)
+        """
+        if not conditions:
+            return ()
+        if isinstance(ring, Balls):
+            with precision(ring.bits):  # once, and not in each operation
+                found = self._residuals(*_UNWRAPPED(method, ring), conditions)
+            if not all(x.is_finite() for x in found):
+                raise ZeroDivisionError("division by a ball that contains zero")
+            return tuple(map(ring.enclose, found))
+        return self._residuals(method, ring, conditions)
+
+    def _residuals(
+        self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
+    ) -> tuple[Element, ...]:
+        values = self.evaluate(method, ring, conditions)
+        return tuple(value - in_ring(ring, c.rhs) for value, c in zip(values, conditions, strict=True))
+
+    def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
+        """Return the residuals of one order whose 2-norm measures a method's error.
+
+        By default those of the family's independent conditions.
+        """
+        return self.residuals(method, ring, self.conditions(order))
+
+    # Tableaux
+
+    def read(self, tableau: Tableau) -> Method | None:
+        """Return the method of a tableau as this family reads it, None where it does not."""
+        return tableau.read_as(self.formats)
+
+    def require(self, method: Method, ring: Ring) -> None:
+        """Raise :class:`~orderconds.errors.InputError` for a method that is no member of the family."""
+        return
+
+    def for_method(self, method: Method) -> Family:
+        """Return the family in which a file without claims is checked; its format has this family's name."""
+        return self
+
+    @classmethod
+    def claimable(cls, tableau: Tableau) -> Self | None:
+        """Return the family with the options in which a file of this tableau should claim an order, or None.
+
+        By default an order may be claimed, and no claim is missed.
+        """
+        return None
+
+    def claim(self, order: int) -> OrderClaim:
+        """Return the claim that the family has this order, as files spell it."""
+        from orderconds.tableau.record import OrderClaim
+
+        return OrderClaim(self.label(), None, order)
+
+    def claimed_variants(self) -> tuple[Family, ...]:
+        """Return the members whose orders a complete file claims, by rising cost."""
+        return (self,)
+
+    def work(self, tableau: Tableau) -> Work | None:
+        """Return the field evaluations, exponentials and brackets of a step, None where they are not counted.
+
+        By default the evaluations alone.
+        """
+        from orderconds.tableau.work import evaluations
+
+        return evaluations(tableau)
+
+    def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
+        """Return the coefficients of the methods with a number of stages.
+
+        Raises :class:`~orderconds.errors.InputError` for a family whose coefficients are not numbered by
+        stages alone.
+        """
+        if self.formats[0] == TABLEAU_FORMAT:
+            return tableau_form(stages, explicit, self.needs_nonzero_weights)
+        raise InputError(
+            f"family {self.label()} is not written out by a number of stages alone",
+            where="--stages",
+            expected="a family whose coefficients are numbered by stages, as rk, sprk, cg, vcg or splitting",
+            hint="leave --stages out",
+        )
+
+    # Theorems
+
+    def implied_order(self, orders: Mapping[str, int]) -> int:
+        """Return the order that theorems give a method from its orders in other families, by label; or 0.
+
+        Families that name this one in :attr:`implies` need not be considered here.
+        """
+        return 0 if self.low_order is None else min(2, orders.get(self.low_order, 0))
+
+    def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
+        """Return an order that a theorem about the tableau's coefficients gives, without trees; or 0."""
+        return 0
+
+    def is_symmetric(self, method: Method, ring: Ring) -> bool:
+        """Whether the step of this family is proved to be symmetric."""
+        return False
+
+    def substitute(self, method: Method, ring: Ring) -> Substitute | None:
+        """Return a family with fewer conditions that imply all of this one's for this method, or None."""
+        return None
+
+    def first_unmet(self, order: int) -> OrderCondition | None:
+        """Return the condition that fails first where no member of the family has this order, or None."""
+        return None
+
+    def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
+        """Return which trees do not see the cut of dexpinv, None for a family without one."""
+        return None
+
+    def reductions(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> Reductions:
+        """Return the reductions for a method; ``orders`` are its proved orders in other families, by label.
+
+        >>> from orderconds.families import get
+        >>> from orderconds.ring import QQ
+        >>> from orderconds.tableau import Tableau, find
+        >>> rk4 = Tableau.load(find("rk4")).method
+        >>> found = get("vrkmk(2)").reductions(rk4, QQ, {"sprk": 4})
+        >>> found.cut.order, found.cut.longest
+        (4, 4)
+        """
+        cut = self.unseen_cut(method, orders)
+        if isinstance(ring, Balls):
+            return Reductions(ring, cut=cut)
+        return Reductions(ring, self.is_symmetric(method, ring), self.substitute(method, ring), cut)
+
+    def symmetric_family(self, method: Method) -> Family | None:
+        """Return the family whose conditions are enough for a symmetric ``method``, None for this one's own.
+
+        It is asked of the family that the method's format is named after.
+        """
+        return None
+
+    def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
+        """Return the orders, by label, of a symmetric method that meets the conditions up to ``order``."""
+        return ((self.label(), order),)
+
+    def solved_as(self, nystroem: bool) -> str:
+        """Return the label of the family whose conditions a search solves; ``nystroem`` is option --rkn."""
+        return self.label()
+
+
+def _itself(condition: OrderCondition) -> OrderCondition:
+    return condition
+
+
+def _unwrapped(method: Method, ring: Ring) -> tuple[Method, Enclosures]:
+    assert isinstance(ring, Balls)
+    return method.map(lambda x: x.value), Enclosures(ring.bits)
+
+
+_UNWRAPPED = Memo(_unwrapped)
+
+
+def expect(method: Method, kind: type[Kind]) -> Kind:
+    """Return ``method``, which is of this kind; TypeError for another one.
+
+    >>> from orderconds.tableau import Composition, RungeKutta
+    >>> expect(Composition("symmetric-2", (1,)), RungeKutta)
+    Traceback (most recent call last):
+    TypeError: a method of type Composition where RungeKutta is expected
+    """
+    if not isinstance(method, kind):
+        raise TypeError(f"a method of type {type(method).__name__} where {kind.__name__} is expected")
+    return method
+
+
+def in_ring(ring: Ring, q: Fraction) -> Element:
+    """Return a rational number as an element of ``ring``.
+
+    >>> from orderconds.ring import QQ
+    >>> in_ring(QQ, Fraction(1, 3))
+    1/3
+    """
+    return ring.rational(q.numerator, q.denominator)
+
+
+def all_nonzero(weights: Sequence[Element], ring: Ring) -> bool:
+    """Whether every weight is proved to be non-zero.
+
+    >>> from orderconds.ring import QQ
+    >>> all_nonzero([QQ.one, QQ.zero], QQ)
+    False
+    """
+    return all(ring.is_zero(x) is False for x in weights)
+
+
+def require_nonzero_weights(label: str, ring: Ring, b: Sequence[Element]) -> None:
+    """Raise :class:`~orderconds.errors.ZeroWeight` unless every weight is known to be non-zero.
+
+    >>> from orderconds.ring import QQ
+    >>> require_nonzero_weights("vcg", QQ, [QQ.one])
+    """
+    for i, weight in enumerate(b, start=1):
+        vanishes = ring.is_zero(weight)
+        if vanishes is None or vanishes:
+            raise ZeroWeight(
+                f"b_{i} = {ring.text(weight)}" + (", which may be zero" if vanishes is None else ""),
+                where=f"family {label}",
+                expected="every weight b_i to be non-zero, since the family divides by it",
+                hint="choose another family, or a tableau without zero weights",
+            )

@@ -1,0 +1,90 @@
+"""Families that cut dexpinv after the power r, which is their option ``cutoff``; without it nothing is cut.
+
+Without a cut, RKMK and VRKMK are the Runge-Kutta method and its symplectic partner in coordinates of the
+first kind, and have their order (HLW IV.8, Theorem 8.4; Bogfjellmo and Marthinsen, Section 3.4.1). The cut
+leaves an error of h^(r+3), and B_(r+1) = 0 for even r >= 2 makes the cut after r that after R = r + 1. Hence
+the order is min(p, R + 2) (HLW Theorem IV.8.4; Bogfjellmo and Marthinsen, Theorem 3.5.3). A cut changes only
+the values of trees in which a word is long enough to see it.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Mapping
+
+from orderconds.errors import InputError
+from orderconds.families.base import Family, Key
+from orderconds.families.reductions import UnseenCut
+from orderconds.series.dexpinv import bernoulli
+from orderconds.tableau.methods import RungeKutta
+from orderconds.tableau.products import Method
+from orderconds.tableau.record import OrderClaim, Tableau
+from orderconds.tableau.work import Work, munthe_kaas_work
+
+CLAIMED = (0, 1, 2)
+"""The cut-offs of which a complete file claims orders, as long as the order rises."""
+
+
+class DexpinvCut(Family):
+    """A family with the option ``cutoff``.
+
+    Raises :class:`~orderconds.errors.InputError` for a negative cutoff.
+    """
+
+    takes_cutoff = True
+
+    def __init__(self, cutoff: int | None = None) -> None:
+        if cutoff is not None and not (isinstance(cutoff, int) and cutoff >= 0):
+            raise InputError(f"cutoff {cutoff!r}", where=f"family {self.name}", expected="an integer >= 0")
+        self.cutoff = cutoff
+
+    @abstractmethod
+    def longest_word(self, key: Key) -> int:
+        """Return the length of the longest word whose value enters that of a tree or forest."""
+
+    def label(self) -> str:
+        """Return ``rkmk(r)``, or ``rkmk`` when dexpinv is not cut."""
+        return self.name if self.cutoff is None else f"{self.name}({self.cutoff})"
+
+    def claim(self, order: int) -> OrderClaim:
+        """Return the claim of this order for the cut-off."""
+        return OrderClaim(self.name, self.cutoff, order)
+
+    def claimed_variants(self) -> tuple[Family, ...]:
+        """Return the members with few brackets."""
+        return tuple(type(self)(cutoff) for cutoff in CLAIMED)
+
+    def work(self, tableau: Tableau) -> Work | None:
+        """Return evaluations, exponentials and the brackets of dexpinv applied stage by stage."""
+        return munthe_kaas_work(tableau, self.cutoff)
+
+    def implied_order(self, orders: Mapping[str, int]) -> int:
+        """Return min(p, R + 2), p the order of the method without brackets."""
+        without = orders.get(self.abelian, 0) if self.abelian is not None else 0
+        return max(super().implied_order(orders), self._truncated(without))
+
+    def _truncated(self, order: int) -> int:
+        if self.cutoff is None:
+            return order
+        kept = self.cutoff + 1 if self.cutoff >= 2 and self.cutoff % 2 == 0 else self.cutoff
+        return min(order, kept + 2)
+
+    def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
+        """Return the order without the cut, and how long the words are that do not see the cut."""
+        if not isinstance(method, RungeKutta) or self.abelian is None:
+            return None
+        return UnseenCut(orders.get(self.abelian, 0), longest_unseen(self.cutoff), self.longest_word)
+
+
+def longest_unseen(cutoff: int | None) -> int:
+    """Return how long a word may be to have its whole value: one letter and no power of ad that is cut.
+
+    >>> [longest_unseen(r) for r in (0, 1, 2, 3, 4)]
+    [1, 2, 4, 4, 6]
+    """
+    if cutoff is None:
+        return 1 << 30
+    first = cutoff + 1
+    while not bernoulli(first):
+        first += 1
+    return first

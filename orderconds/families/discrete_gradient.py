@@ -1,0 +1,62 @@
+"""Discrete gradient methods on groups: the tableau is a quadrature rule for the mean differential of H.
+
+They keep the energy exactly (H. Marthinsen, *On symplectic integration in Lie groups and manifolds*, thesis,
+NTNU Trondheim, 2014, Section 2.6). A step has order one where sum_i b_i = 1, order two where sum_i b_i c_i is
+1/2 as well, and no higher order, since the bivector is evaluated at the midpoint. No other condition has a
+meaning.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from orderconds.conditions import OrderCondition
+from orderconds.errors import InputError
+from orderconds.families.base import Family
+from orderconds.families.registry import register
+from orderconds.families.rk import RungeKuttaFamily, tree_conditions
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.products import Method
+from orderconds.tableau.record import Tableau
+from orderconds.tableau.work import Work
+from orderconds.trees.rooted import rooted_trees
+
+
+@register
+class DiscreteGradientFamily(Family):
+    """Discrete gradient methods, given by the nodes c_i and weights b_i of a tableau (A, b).
+
+    >>> [str(c) for n in (1, 2) for c in DiscreteGradientFamily().conditions(n)]
+    ['sum_i b_i = 1', 'sum_i b_i c_i = 1/2']
+    """
+
+    name = "discrete_gradient"
+    description = "Discrete gradient methods, which keep the energy: a quadrature rule, of order two at most."
+    formats = ("rk",)
+    order_bound = 2
+    trees = "rooted"
+    low_order = "rk"
+    keeps_energy = True
+
+    def conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return the condition on the quadrature rule.
+
+        Raises :class:`~orderconds.errors.InputError` beyond order two.
+        """
+        if order > self.order_bound:
+            raise InputError(
+                f"conditions of order {order}",
+                where=f"family {self.name}",
+                expected="order 1 or 2: no discrete gradient method has a higher one",
+            )
+        return tree_conditions(tuple(rooted_trees(order)), self.name)
+
+    def evaluate(
+        self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
+    ) -> tuple[Element, ...]:
+        """Return sum_i b_i and sum_i b_i c_i of a tableau (A, b)."""
+        return RungeKuttaFamily().evaluate(method, ring, conditions)
+
+    def work(self, tableau: Tableau) -> Work | None:
+        """Return None: a step evaluates the energy and its differential, not the field."""
+        return None

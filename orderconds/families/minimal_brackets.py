@@ -1,0 +1,41 @@
+"""Runge-Kutta-Munthe-Kaas methods with the fewest brackets, as compiled for ``rkmk`` without a cut-off.
+
+The conditions are those of ``rkmk``; the left-hand sides are values of the compiled program,
+from its own Lie-Butcher series. So the order of the program is computed, not taken from the uncut method.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from orderconds.families.reductions import UnseenCut
+from orderconds.families.rkmk import MuntheKaasFamily
+from orderconds.ring.protocol import Ring
+from orderconds.series.bracketed_steps import BracketedSeries
+from orderconds.series.brackets import BracketProgram
+from orderconds.series.lie_butcher import ForestSeries
+from orderconds.tableau.products import Method
+
+
+class MinimalBrackets(MuntheKaasFamily):
+    """The family that has one member: a program of arguments and brackets.
+
+    >>> from orderconds.ring import QQ
+    >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
+    >>> from orderconds.tableau import Tableau, find
+    >>> method, family = Tableau.load(find("euler")).method, MinimalBrackets(euler)
+    >>> [family.evaluate(method, QQ, family.conditions(n)) for n in (1, 2)]
+    [(1,), (0,)]
+    """
+
+    def __init__(self, program: BracketProgram) -> None:
+        super().__init__(None)
+        self.program = program
+
+    def series(self, method: Method, ring: Ring) -> ForestSeries:
+        """Return the series of the program; ``method``, the tableau it was made from, is not read again."""
+        return BracketedSeries(ring, self.program)
+
+    def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
+        """Return None: the program is not RKMK with the whole of dexpinv."""
+        return None

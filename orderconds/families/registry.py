@@ -1,0 +1,205 @@
+"""The registry of families: built in by module, registered by class, installed by entry point."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from importlib import import_module
+from typing import TypeVar
+
+from orderconds.errors import InputError, UnknownName
+from orderconds.families.base import Family
+
+BUILT_IN = {
+    "rk": "orderconds.families.rk",
+    "prk": "orderconds.families.prk",
+    "prk_same_weights": "orderconds.families.prk_same_weights",
+    "symplectic_rk": "orderconds.families.symplectic_rk",
+    "sprk": "orderconds.families.sprk",
+    "sprk_separable": "orderconds.families.sprk_separable",
+    "ambient": "orderconds.families.ambient",
+    "cf": "orderconds.families.cf",
+    "cg": "orderconds.families.cg",
+    "rkmk": "orderconds.families.rkmk",
+    "vcg": "orderconds.families.vcg",
+    "vcf": "orderconds.families.vcf",
+    "vrkmk": "orderconds.families.vrkmk",
+    "vrkmk_pade": "orderconds.families.vrkmk_pade",
+    "slgi": "orderconds.families.slgi",
+    "discrete_gradient": "orderconds.families.discrete_gradient",
+    "composition": "orderconds.families.composition",
+    "symmetric_composition": "orderconds.families.symmetric_composition",
+    "splitting": "orderconds.families.splitting",
+    "rkn": "orderconds.families.rkn",
+    "magnus": "orderconds.families.magnus",
+    "cf_magnus": "orderconds.families.cf_magnus",
+    "fer": "orderconds.families.fer",
+    "cayley": "orderconds.families.cayley",
+}
+"""Family name to the module that registers it, in the order of ``orderconds list families``."""
+
+ENTRY_POINT_GROUP = "orderconds.families"
+"""The entry-point group in which other packages offer families: name = "module:Class"."""
+
+_NAME = re.compile(r"[a-z][a-z0-9_]*")
+_LABEL = re.compile(r"\s*([a-z][a-z0-9_-]*)\s*(?:\(\s*(\d{1,3})\s*\))?\s*")
+_registered: dict[str, type[Family]] = {}
+
+FamilyClass = TypeVar("FamilyClass", bound=type[Family])
+
+
+def register(family: FamilyClass) -> FamilyClass:
+    """Make a family known to every command and to claims in tableau files; return the class.
+
+    It may be used as a decorator. A package that is installed names its class in the entry-point group
+    ``orderconds.families`` instead, and ``orderconds`` on the command line finds it. Raises
+    :class:`~orderconds.errors.InputError` for a class without name, description or formats, and for a name
+    that is taken.
+
+    >>> from orderconds import check, derive
+    >>> from orderconds.families.rk import RungeKuttaFamily
+    >>> @register
+    ... class Quadrature(RungeKuttaFamily):
+    ...     name, description = "quadrature", "Quadrature rules: bushy trees alone."
+    ...
+    ...     def conditions(self, order):
+    ...         return super().conditions(order)[-1:]
+    >>> print(*derive("quadrature", order=3).conditions, sep="; ")
+    sum_i b_i = 1; sum_i b_i c_i = 1/2; sum_i b_i c_i^2 = 1/3
+    >>> check("gauss2", family="quadrature").orders[0].order
+    4
+    >>> unregister("quadrature")
+    """
+    for attribute, value in (
+        ("name", family.name),
+        ("description", family.description),
+        ("formats", family.formats),
+    ):
+        if not value:
+            raise InputError(f"no {attribute}", where=f"family {family.__name__}", expected=f"a {attribute}")
+    if not _NAME.fullmatch(family.name):
+        raise InputError(
+            f"the name {family.name!r}",
+            where=f"family {family.__name__}",
+            expected="lower-case letters, digits and _",
+        )
+    known = _registered.get(family.name)
+    home = BUILT_IN.get(family.name, family.__module__)
+    same = known is None or (known.__module__, known.__qualname__) == (family.__module__, family.__qualname__)
+    if home != family.__module__ or not same:
+        raise InputError(
+            f"the name {family.name!r} is taken", where=f"family {family.__name__}", expected="another name"
+        )
+    _registered[family.name] = family
+    return family
+
+
+def unregister(name: str) -> None:
+    """Forget a family that :func:`register` added; built-in families stay.
+
+    >>> unregister("rk")
+    Traceback (most recent call last):
+    orderconds.errors.InputError: family rk is built in; expected a family that was registered
+    """
+    if name in BUILT_IN:
+        raise InputError(f"family {name} is built in", expected="a family that was registered")
+    _registered.pop(name, None)
+
+
+def names() -> tuple[str, ...]:
+    """Return the names of the built-in families, then of those that were registered.
+
+    >>> names()[:3]
+    ('rk', 'prk', 'prk_same_weights')
+    """
+    return (*BUILT_IN, *(name for name in _registered if name not in BUILT_IN))
+
+
+def installed_names() -> tuple[str, ...]:
+    """Return the same, then the names of families that installed packages offer.
+
+    >>> set(names()) <= set(installed_names())
+    True
+    """
+    from importlib import metadata
+
+    offered = {entry.name for entry in metadata.entry_points(group=ENTRY_POINT_GROUP)}
+    known = names()
+    return (*known, *sorted(offered.difference(known)))
+
+
+def position(name: str) -> int:
+    """Return the place of a family among :func:`names`.
+
+    >>> position("rk")
+    0
+    """
+    return names().index(name)
+
+
+def family_class(name: str) -> type[Family]:
+    """Return the class of a family by its name; entry points are scanned only for names that are not known.
+
+    Raises :class:`~orderconds.errors.UnknownName` for any other name.
+
+    >>> family_class("vcg").needs_nonzero_weights
+    True
+    """
+    if name not in _registered and name in BUILT_IN:
+        import_module(BUILT_IN[name])  # which registers it
+    found = _registered.get(name) or _installed(name)
+    if found is None:
+        import difflib
+
+        known = installed_names()
+        close = difflib.get_close_matches(name, known, n=1)
+        raise UnknownName(
+            f"unknown family {name!r}",
+            expected=f"one of {', '.join(known)}",
+            hint=f"did you mean {close[0]!r}?" if close else "",
+        )
+    return found
+
+
+def _installed(name: str) -> type[Family] | None:
+    """Return the family of an installed package, registered."""
+    from importlib import metadata
+
+    for entry in metadata.entry_points(group=ENTRY_POINT_GROUP, name=name):
+        where = f"{name} ({entry.value})"
+        try:
+            loaded = entry.load()
+        except (ImportError, AttributeError) as problem:
+            raise InputError(f"cannot load the family: {problem}", where=where) from problem
+        if not (isinstance(loaded, type) and issubclass(loaded, Family) and loaded.name == name):
+            raise InputError(
+                f"the entry point is {loaded!r}", where=where, expected=f"a Family with the name {name!r}"
+            )
+        return register(loaded)
+    return None
+
+
+def get(name: str, **options: int | None) -> Family:
+    """Return a family by name, ``get("rkmk", cutoff=1)`` or ``get("rkmk(1)")``; ``-`` reads as ``_``.
+
+    Raises :class:`~orderconds.errors.UnknownName` for a name that is not registered and
+    :class:`~orderconds.errors.InputError` for an option the family does not have.
+
+    >>> get("rkmk(1)").label(), get("vcg").needs_nonzero_weights
+    ('rkmk(1)', True)
+    """
+    label = _LABEL.fullmatch(name)
+    base, argument = label.groups() if label else (name, None)
+    family = family_class(base.replace("-", "_"))
+    accepted = tuple(inspect.signature(family).parameters)
+    if argument is not None and not accepted:
+        raise InputError(f"family {base} takes no argument, found {name!r}", expected=base)
+    if argument is not None:
+        options = {accepted[0]: int(argument), **options}
+    for option in options:
+        if option not in accepted:
+            raise InputError(
+                f"family {base} has no option {option!r}",
+                expected=f"one of {', '.join(accepted)}" if accepted else "no options",
+            )
+    return family(**options)

@@ -1,0 +1,52 @@
+"""Symplectic Lie group integrators of Marthinsen's thesis, Section 2.5; with one stage the theta-method.
+
+They are ``vrkmk(0)``, VRKMK with no bracket in dexpinv, differently written. Their order is two at most
+(H. Marthinsen, *On symplectic integration in Lie groups and manifolds*, thesis, NTNU Trondheim, 2014).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Self
+
+from orderconds.families.base import Family
+from orderconds.families.registry import register
+from orderconds.families.vrkmk import VariationalMuntheKaas
+from orderconds.tableau.record import OrderClaim, Tableau
+
+
+@register
+class SymplecticLieGroupFamily(VariationalMuntheKaas):
+    """The family of tableaux (A, b) with all b_i non-zero; the conditions are those of ``vrkmk(0)``.
+
+    >>> [len(SymplecticLieGroupFamily().conditions(n)) for n in (1, 2)]
+    [1, 1]
+    """
+
+    name = "slgi"
+    description = "Symplectic Lie group integrators: VRKMK without brackets; one stage is the theta-method."
+    takes_cutoff = False
+
+    def __init__(self) -> None:
+        super().__init__(0)
+
+    def label(self) -> str:
+        """Return ``slgi``."""
+        return self.name
+
+    def claim(self, order: int) -> OrderClaim:
+        """Return the claim of this order."""
+        return OrderClaim(self.name, None, order)
+
+    @classmethod
+    def claimable(cls, tableau: Tableau) -> Self | None:
+        """No tableau: the order is that of ``vrkmk(0)``."""
+        return None
+
+    def claimed_variants(self) -> tuple[Family, ...]:
+        """Return the family alone."""
+        return (self,)
+
+    def implied_order(self, orders: Mapping[str, int]) -> int:
+        """Return the order under ``vrkmk(0)``, or what the order without brackets implies."""
+        return max(super().implied_order(orders), orders.get("vrkmk(0)", 0))

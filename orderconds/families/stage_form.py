@@ -1,0 +1,58 @@
+"""The coefficients of a method with a fixed number of stages: their names, and the method they make."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from msgspec import Struct
+
+from orderconds.errors import InputError
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.methods import RungeKutta
+from orderconds.tableau.products import Method
+
+Name = tuple[str, tuple[str, ...]]
+"""A coefficient's letter and indices, as ``("a", ("2", "1"))``."""
+
+
+class StageForm(Struct, frozen=True):
+    """Names of coefficients, and the function that makes a method of their values in a ring.
+
+    ``divides`` says that the family divides by the coefficients called b.
+    """
+
+    names: tuple[Name, ...]
+    method: Callable[[Sequence[Element], Ring], Method]
+    divides: bool = False
+
+
+def tableau_form(stages: int, explicit: bool = False, divides: bool = False) -> StageForm:
+    """Return the form of Butcher tableaux: full, or strictly lower triangular with ``explicit``.
+
+    >>> tableau_form(2, explicit=True).names
+    (('b', ('1',)), ('b', ('2',)), ('a', ('2', '1')))
+    """
+    rows = range(1, stages + 1)
+    entries = [(i, j) for i in rows for j in (range(1, i) if explicit else rows)]
+    names: list[Name] = [("b", (str(i),)) for i in rows] + [("a", (str(i), str(j))) for i, j in entries]
+
+    def method(values: Sequence[Element], ring: Ring) -> RungeKutta:
+        a = dict(zip(entries, values[stages:], strict=True))
+        A = tuple(tuple(a.get((i, j), ring.zero) for j in rows) for i in rows)
+        return RungeKutta(A, tuple(values[:stages]))
+
+    return StageForm(tuple(names), method, divides)
+
+
+def refuse_explicit(label: str, explicit: bool) -> None:
+    """Raise :class:`~orderconds.errors.InputError` where ``explicit`` is asked of a family without tableaux.
+
+    >>> refuse_explicit("splitting", False)
+    """
+    if explicit:
+        raise InputError(
+            f"family {label} has no tableau that could be explicit",
+            where="--explicit",
+            expected="a family whose coefficients are a_ij and b_i",
+            hint="leave --explicit out",
+        )

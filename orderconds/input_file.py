@@ -1,0 +1,100 @@
+"""Reading files that a user names: regular files only, and at most a stated number of bytes.
+
+A pipe or a device has no size and may have no end, so a read of one could wait for ever or fill the memory.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import stat
+from pathlib import Path
+
+from orderconds.errors import InputError
+
+MAX_BYTES = 1_000_000
+"""Bound on a file that a person writes: a tableau, a scene, a list of modules."""
+
+MAX_WRITTEN_BYTES = 100_000_000
+"""Bound on a file that this program writes: an emitted module, a manifest, a checkpoint."""
+
+
+def read_bytes(
+    path: str | Path,
+    expected: str = "a file that can be read",
+    *,
+    limit: int = MAX_BYTES,
+    error: type[InputError] = InputError,
+) -> bytes:
+    """Return the content of a regular file of at most ``limit`` bytes.
+
+    Raises ``error``, an InputError, that names the path and what was ``expected``.
+
+    >>> read_bytes(os.devnull)
+    Traceback (most recent call last):
+    orderconds.errors.InputError: /dev/null: not a regular file; expected a file that can be read
+    """
+    try:
+        return content_of(path, limit=limit)
+    except OSError as problem:
+        raise error(reason(problem), where=str(path), expected=expected) from None
+    except ValueError:  # a null character, or half of a surrogate pair
+        raise error("no name of a file", where=ascii(str(path)), expected=expected) from None
+
+
+def read_text(
+    path: str | Path,
+    expected: str = "a text file",
+    *,
+    limit: int = MAX_BYTES,
+    error: type[InputError] = InputError,
+) -> str:
+    """Return the text of a regular file in UTF-8; errors as :func:`read_bytes`.
+
+    >>> read_text(__file__).partition(":")[0]
+    '\"\"\"Reading files that a user names'
+    """
+    try:
+        return read_bytes(path, expected, limit=limit, error=error).decode("utf-8")
+    except UnicodeDecodeError:
+        raise error("bytes that are no UTF-8", where=str(path), expected=expected) from None
+
+
+def content_of(path: str | Path, *, limit: int = MAX_BYTES, own: bool = False) -> bytes:
+    """Return the content of a regular file of at most ``limit`` bytes; an OSError says why not.
+
+    With ``own`` the file must belong to the user and must not be a symbolic link: nobody else could have
+    put it in its place.
+
+    >>> len(content_of(__file__)) > 1000
+    True
+    """
+    _require_regular(os.stat(path, follow_symlinks=not own), own)  # opening some devices has effects
+    # Without O_NONBLOCK, a pipe that takes the file's place meanwhile would block the call.
+    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+    descriptor = os.open(path, flags | (getattr(os, "O_NOFOLLOW", 0) if own else 0))
+    with open(descriptor, "rb") as stream:
+        _require_regular(os.fstat(descriptor), own)
+        content = stream.read(limit + 1)
+    if len(content) > limit:
+        raise OSError(errno.EFBIG, f"a file of more than {limit} bytes")
+    return content
+
+
+def _require_regular(status: os.stat_result, own: bool) -> None:
+    if stat.S_ISDIR(status.st_mode):
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+    if not stat.S_ISREG(status.st_mode):
+        raise OSError(errno.EINVAL, "not a regular file")
+    if own and hasattr(os, "geteuid") and status.st_uid != os.geteuid():
+        raise PermissionError(errno.EPERM, "a file of another user")
+
+
+def reason(problem: OSError) -> str:
+    """Return the operating system's words for an error, as a message continues with them.
+
+    >>> reason(FileNotFoundError(errno.ENOENT, "No such file or directory"))
+    'no such file or directory'
+    """
+    text = problem.strerror or str(problem) or "unreadable"
+    return text[:1].lower() + text[1:]

@@ -1,0 +1,66 @@
+"""Writing files whole or not at all: under a temporary name, to the disk, and then under the final name.
+
+A process that is killed may leave temporary files; :func:`is_temporary` knows them by their names.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+
+SUFFIX = ".orderconds-part"
+"""How the names of temporary files end."""
+
+_TEMPORARY = re.compile(rf"\..*\.\w{{8}}{re.escape(SUFFIX)}", re.DOTALL)
+
+
+def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> None:
+    """Write files under temporary names; when all are on the disk, rename them in the order given.
+
+    A file that is replaced keeps its permissions; a new one gets those of the process, or with ``private``
+    is readable by the user alone. A symbolic link is replaced, never written through. An OSError leaves no
+    temporary file.
+
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_files({Path(folder) / "x": b"text"})
+    ...     os.listdir(folder)
+    ['x']
+    """
+    written: dict[Path, str] = {}
+    try:
+        for path, content in contents.items():
+            # The name alone may be as long as the file system allows.
+            start = f".{path.name[:40]}."
+            handle, written[path] = tempfile.mkstemp(dir=path.parent, prefix=start, suffix=SUFFIX)
+            with os.fdopen(handle, "wb") as stream:
+                stream.write(content)
+                stream.flush()
+                os.fsync(stream.fileno())  # else a machine that stops may keep the new name and no content
+            if not private:
+                os.chmod(written[path], _mode(path))
+        for path, temporary in written.items():
+            os.replace(temporary, path)
+    except BaseException:
+        for temporary in written.values():
+            Path(temporary).unlink(missing_ok=True)
+        raise
+
+
+def is_temporary(name: str) -> bool:
+    """Return whether a file's name is that of a temporary file of :func:`write_files`.
+
+    >>> is_temporary(".rigid.c.k3_x91ab" + SUFFIX), is_temporary(".rigid.c")
+    (True, False)
+    """
+    return _TEMPORARY.fullmatch(name) is not None
+
+
+def _mode(path: Path) -> int:
+    if path.is_file() and not path.is_symlink():
+        return path.stat().st_mode & 0o777
+    mask = os.umask(0)
+    os.umask(mask)
+    return 0o666 & ~mask

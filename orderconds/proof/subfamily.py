@@ -1,0 +1,64 @@
+"""Independent conditions of the sub-family that a file's formulas define: the reduction ``spelling``.
+
+Coefficients given by formulas in others, as ``b3 = "1 - b1 - b2"``, restrict a family to a sub-family, in
+which fewer of its conditions are independent. A condition is left out if its value, at every member of the
+sub-family and at the exact flow, is one combination of kept conditions of its order and of products of kept
+conditions of lower order. It then holds where the kept conditions hold.
+
+Combinations are found modulo primes (:mod:`orderconds.proof.dependence`), which proves nothing. Each one is
+then verified exactly at a member drawn from a digest of the file (:mod:`orderconds.proof.exact_member`). A
+condition without a verified combination is kept. So is one whose left-hand side is constant, unless exact
+arithmetic finds it equal to its right-hand side. Where a file has several radicals they are random numbers
+too, which makes the sub-family larger and the statement stronger.
+"""
+
+from __future__ import annotations
+
+from orderconds.conditions import OrderCondition
+from orderconds.families import Family
+from orderconds.proof.dependence import dependences
+from orderconds.proof.exact_member import Reading, exact_member, lone_square_root
+from orderconds.ring.draws import Draws
+from orderconds.tableau.random_member import description
+from orderconds.tableau.unknowns import Spelled
+
+
+def independent_conditions(
+    family: Family, spelled: Spelled, order: int, read: Reading | None = None
+) -> tuple[OrderCondition, ...]:
+    """Return the family's conditions up to ``order`` that do not follow from others for this spelling.
+
+    ``read`` turns the file's method and its ring into the method that the family evaluates.
+
+    >>> from orderconds import families
+    >>> from orderconds.tableau import Tableau
+    >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["b1/2"], ["b1", "b2/2"]]\\nb = ["b1", "b2"]\\n'
+    >>> text += '[numbers]\\nb1 = "0.4~"\\nb2 = "1 - b1"\\n[proof]\\nconditions = "vcg"\\norder = 3'
+    >>> spelled = Tableau.loads(text).proof.spelled
+    >>> [c.tree for c in independent_conditions(families.get("vcg"), spelled, 3)]
+    ['o(o o)']
+    """
+    candidates = decisive_conditions(family, order)
+    everything = tuple(c for of_order in candidates for c in of_order)
+    draws = Draws(family.label(), str(order), description(spelled))
+    surd = lone_square_root(spelled)
+    member = exact_member(family, spelled, everything, draws, surd, read)
+    if member is None:
+        return everything
+    kept = set(everything)
+    for found in dependences(family, spelled, candidates, draws, surd, read):
+        unverified = {c for c, combination in found.combinations() if not member.verifies(c, combination)}
+        kept = unverified.union(found.pivots)
+        if not unverified:
+            break
+    return tuple(c for c in everything if c in kept and not member.holds(c))
+
+
+def decisive_conditions(family: Family, order: int) -> list[tuple[OrderCondition, ...]]:
+    """Return conditions that imply all up to ``order``, for every method of the family, by order.
+
+    >>> from orderconds import families
+    >>> [len(of_order) for of_order in decisive_conditions(families.get("vcg"), 3)]
+    [1, 2, 10]
+    """
+    return [family.decisive_conditions(n) for n in range(1, order + 1)]

@@ -1,0 +1,206 @@
+"""Vectors over the stages as polynomials in the nodes, for methods where these polynomials are rational.
+
+Let the nodes c_i of a method be the simple roots of one polynomial M over Q, as those of Gauss, Radau and
+Lobatto methods are. A vector x over the stages is then p(c) for one polynomial p modulo M, componentwise
+products are those of polynomials modulo M, and a matrix A is a linear map of polynomials. Where A c^k is a
+*rational* polynomial in c, and b.c^k a rational number, for k < s, the engine never leaves Q: for five Radau
+nodes, which generate a field of degree 24, a product costs one flint operation and not 5 of degree 24.
+
+The rational polynomials are guessed from balls and then verified in the field, so that nothing hangs on the
+guess. ``A p = int_0^z p`` up to multiples of M and corrections at few powers, none where A is a collocation
+method's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+
+from flint import arb, arb_mat, fmpq, fmpq_poly
+
+from orderconds.ring.decimals import endpoints
+from orderconds.ring.field import Algebraic, NumberField
+from orderconds.ring.precision import precision
+from orderconds.ring.protocol import Element, Ring
+
+BITS = 512
+"""Precision of the balls that rational numbers are guessed from."""
+
+Matrix = Sequence[Sequence[Element]]
+
+
+class NodalAlgebra:
+    """Q[z]/M for the nodes of a method, with its matrices and weights as maps.
+
+    ``corrections[kind]`` are pairs (k, polynomial): A z^k minus its integral; ``moments`` are pairs (k,
+    number): b.c^k minus 1/(k + 1). Vectors are ``fmpq_poly`` of degree below the number of stages.
+
+    >>> from orderconds.tableau import Tableau, find
+    >>> gauss3 = Tableau.load(find("gauss3"))
+    >>> algebra = nodal_algebra(gauss3.ring, (gauss3.method.A,), gauss3.method.b)
+    >>> algebra.modulus, algebra.corrections, algebra.moments
+    (x^3 + (-3/2)*x^2 + 3/5*x + (-1/20), ([],), [])
+    >>> algebra.weigh(algebra.apply(0, algebra.apply(0, algebra.one)))
+    1/6
+    """
+
+    def __init__(
+        self,
+        modulus: fmpq_poly,
+        maps: Sequence[Sequence[fmpq_poly]],
+        functional: Sequence[fmpq],
+    ) -> None:
+        self.modulus = modulus
+        self.one = fmpq_poly([1])
+        powers = [fmpq_poly([0] * k + [1]) for k in range(len(functional))]
+        self.corrections = tuple(
+            [(k, q) for k, p in enumerate(images) if (q := p - powers[k].integral() % modulus)]
+            for images in maps
+        )
+        self.moments = [(k, q) for k, m in enumerate(functional) if (q := m - fmpq(1, k + 1))]
+
+    def multiply(self, x: fmpq_poly, y: fmpq_poly) -> fmpq_poly:
+        """Return the componentwise product."""
+        return x * y % self.modulus
+
+    def apply(self, kind: int, x: fmpq_poly) -> fmpq_poly:
+        """Return A x, A the matrix of that number."""
+        image = x.integral() % self.modulus
+        for k, correction in self.corrections[kind]:
+            image = image + correction * x[k]
+        return image
+
+    def weigh(self, x: fmpq_poly) -> fmpq:
+        """Return b.x."""
+        total = x.integral()(1)
+        for k, correction in self.moments:
+            total = total + correction * x[k]
+        return total
+
+    def rational_maps(self) -> tuple[list[list[fmpq]], list[list[fmpq]]]:
+        """Return the rational matrices of A - 1 b^T and of A, the first one, on polynomials in the nodes.
+
+        >>> from orderconds.tableau import Tableau, find
+        >>> gauss2 = Tableau.load(find("gauss2"))
+        >>> nodal_algebra(gauss2.ring, (gauss2.method.A,), gauss2.method.b).rational_maps()[1]
+        [[0, -1/12], [1, 1/2]]
+        """
+        stages = range(int(self.modulus.degree()))
+        basis = [fmpq_poly([0] * k + [1]) for k in stages]
+        images, moments = [self.apply(0, p) for p in basis], [self.weigh(p) for p in basis]
+        A = [[image[i] for image in images] for i in stages]
+        return [[x - m for x, m in zip(A[0], moments, strict=True)], *A[1:]], A
+
+
+def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) -> NodalAlgebra | None:
+    """Return the algebra of the nodes c_i = sum_j a_ij of the first matrix, None where it is not rational.
+
+    >>> from orderconds.tableau import Tableau, find
+    >>> crouzeix3 = Tableau.load(find("crouzeix3"))
+    >>> nodal_algebra(crouzeix3.ring, (crouzeix3.method.A,), crouzeix3.method.b) is None
+    True
+    """
+    if not isinstance(ring, NumberField) or ring.degree == 1:
+        return None
+    return _built(_Key(ring, tuple(matrices), b))
+
+
+class _Key:
+    """Coefficients by identity, so that the orders of one check share an algebra."""
+
+    def __init__(self, ring: NumberField, matrices: tuple[Matrix, ...], b: Sequence[Element]) -> None:
+        self.ring, self.matrices, self.b = ring, matrices, b
+        self.entries = tuple(id(x) for row in (*(row for A in matrices for row in A), b) for x in row)
+
+    def __hash__(self) -> int:
+        return hash(self.entries)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Key) and self.entries == other.entries
+
+
+@lru_cache(maxsize=8)
+def _built(key: _Key) -> NodalAlgebra | None:
+    ring, b = key.ring, [key.ring.lift(x) for x in key.b]
+    matrices = [[[ring.lift(x) for x in row] for row in A] for A in key.matrices]
+    nodes = [sum(row, ring.zero) for row in matrices[0]]
+    stages = range(len(nodes))
+    if any(nodes[i] == nodes[j] for i in stages for j in range(i)):
+        return None
+    coefficients = [ring.one]
+    for node in nodes:
+        coefficients = [
+            x - node * y for x, y in zip([ring.zero, *coefficients], [*coefficients, ring.zero], strict=True)
+        ]
+    if not all(x.is_rational for x in coefficients):
+        return None
+    powers = [[ring.one] * len(nodes)]
+    for _ in stages[1:]:
+        powers.append([x * node for x, node in zip(powers[-1], nodes, strict=True)])
+    functional = [_dot(b, power, ring) for power in powers]
+    if not all(x.is_rational for x in functional):
+        return None
+    guess = _Guess(ring, nodes)
+    maps = []
+    for A in matrices:
+        images = [
+            _rational_polynomial([_dot(row, p, ring) for row in A], powers, guess, ring) for p in powers
+        ]
+        if any(image is None for image in images):
+            return None
+        maps.append([image for image in images if image is not None])
+    modulus = fmpq_poly([x.rational_value for x in coefficients])
+    return NodalAlgebra(modulus, maps, [x.rational_value for x in functional])
+
+
+class _Guess:
+    """Interpolation at the nodes in balls."""
+
+    def __init__(self, ring: NumberField, nodes: Sequence[Algebraic]) -> None:
+        self.ring, self.size = ring, len(nodes)
+        with precision(BITS):
+            at = [ring.ball(x, BITS) for x in nodes]
+            self.inverse = arb_mat([[x**k for k in range(self.size)] for x in at]).inv()
+
+    def __call__(self, values: Sequence[Algebraic]) -> list[fmpq]:
+        with precision(BITS):
+            coefficients = self.inverse * arb_mat(self.size, 1, [self.ring.ball(x, BITS) for x in values])
+        return [simplest(coefficients[k, 0]) for k in range(self.size)]
+
+
+def simplest(x: arb) -> fmpq:
+    """Return the rational number of least denominator in a ball, by the continued fractions of its ends.
+
+    >>> with precision(64):
+    ...     simplest(arb(22) / 7)
+    22/7
+    """
+    low, high = endpoints(x)
+    terms: list[fmpq] = []
+    while True:
+        whole = low.floor()
+        if whole == low or whole + 1 <= high:
+            terms.append(whole if whole == low else whole + 1)
+            break
+        terms.append(whole)
+        low, high = 1 / (high - whole), 1 / (low - whole)
+    value = fmpq(terms[-1])
+    for term in reversed(terms[:-1]):
+        value = term + 1 / value
+    return value
+
+
+def _rational_polynomial(
+    values: Sequence[Algebraic], powers: Sequence[Sequence[Algebraic]], guess: _Guess, ring: NumberField
+) -> fmpq_poly | None:
+    """Return the rational polynomial with these values at the nodes, None where there is none."""
+    coefficients = guess(values)
+    for i, value in enumerate(values):
+        at_node = sum((power[i] * c for power, c in zip(powers, coefficients, strict=True)), ring.zero)
+        if at_node != value:
+            return None
+    return fmpq_poly(coefficients)
+
+
+def _dot(x: Sequence[Element], y: Sequence[Element], ring: Ring) -> Element:
+    return sum((p * q for p, q in zip(x, y, strict=True)), ring.zero)

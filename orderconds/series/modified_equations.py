@@ -1,0 +1,129 @@
+"""Backward error analysis: the differential equation that a method solves exactly, and its Hamiltonian.
+
+A step with values a is the flow over h of a field f~ = f + h f_2 + ... with values b, where a = exp(b) in the
+sense of composition: a = sum_j (1/j!) L^(j-1) b, L acting by cuts with one component (HLW IX.9.1; on ordered
+forests Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import factorial
+
+from orderconds.errors import InputError
+from orderconds.ring.protocol import Element, Ring
+from orderconds.series.characters import ROOTED, Character, TreeAlgebra
+from orderconds.trees.free import essential_free_trees, moves
+from orderconds.trees.levels import Tree, symmetry, text
+from orderconds.trees.rooted import rooted_trees
+
+
+class VectorField:
+    """A field f~, by its value on each tree (B-series) or forest (Lie-Butcher: zero on proper shuffles).
+
+    B-series: f~ = sum h^(|t|-1) b(t)/sigma(t) F(t). Lie-Butcher: f~ = sum h^(|w|-1) b(w) F(t_k) ... F(t_1)
+    for matrices, which the law of shuffles makes an element of the Lie algebra.
+
+    >>> from orderconds.ring import QQ
+    >>> f = VectorField(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
+    >>> str(f.flow()(bytes((0, 1, 1, 1))))
+    '1/4'
+    """
+
+    def __init__(self, ring: Ring, algebra: TreeAlgebra, value: Callable[[bytes], Element]) -> None:
+        self.ring, self.algebra, self._value = ring, algebra, value
+        self._known: dict[bytes, Element] = {b"": ring.zero}
+        self._powers: dict[tuple[int, bytes], Element] = {}
+
+    def define(self, value: Callable[[bytes], Element]) -> None:
+        """Set the function that gives the values, which may ask for values on smaller trees."""
+        self._value = value
+
+    def __call__(self, forest: bytes) -> Element:
+        """Return the value on a tree or forest."""
+        if forest not in self._known:
+            self._known[forest] = self._value(forest)
+        return self._known[forest]
+
+    def flow(self) -> Character:
+        """Return the exact flow of the field over h.
+
+        >>> from orderconds.ring import QQ
+        >>> f = VectorField(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
+        >>> [str(f.flow()(tree)) for tree in (b"\\0\\1", b"\\0\\1\\1", b"\\0\\1\\2")]
+        ['1/2', '1/3', '1/6']
+        """
+        return Character(self.ring, self.algebra, lambda forest: self(forest) + self.beyond_first(forest))
+
+    def beyond_first(self, forest: bytes) -> Element:
+        """Return the flow's value less the field's: what fields on smaller trees contribute."""
+        result = self.ring.zero
+        for n in range(2, len(forest) + 1):
+            result = result + self._power(n, forest) * self.ring.rational(1, factorial(n))
+        return result
+
+    def _power(self, n: int, forest: bytes) -> Element:
+        """Return L^(n-1) b."""
+        if n == 1:
+            return self(forest)
+        if n > len(forest):
+            return self.ring.zero
+        if (n, forest) not in self._powers:
+            result = self.ring.zero
+            for components, rest in self.algebra.cuts(forest):
+                if len(components) == 1 and rest:
+                    result = result + self(components[0]) * self._power(n - 1, rest)
+            self._powers[n, forest] = result
+        return self._powers[n, forest]
+
+
+def modified_field(step: Character) -> VectorField:
+    """Return the field whose flow over h the step is (HLW IX.9.1).
+
+    >>> from orderconds.ring import QQ
+    >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
+    >>> b = modified_field(euler)
+    >>> [str(b(tree)) for tree in (b"\\0", b"\\0\\1", b"\\0\\1\\1", b"\\0\\1\\2")]
+    ['1', '-1/2', '1/6', '1/3']
+    """
+    field = VectorField(step.ring, step.algebra, lambda forest: step.ring.zero)
+    field.define(lambda forest: step(forest) - field.beyond_first(forest))
+    return field
+
+
+def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, Element], ...]:
+    """Return the trees t with their coefficients b(t)/sigma(t) in H~ = sum h^(|t|-1) b(t)/sigma(t) H(t).
+
+    H(t) for t = [t_1 ... t_m] is the elementary Hamiltonian H^(m)(F(t_1), ..., F(t_m)); the sum is over free
+    trees with at most ``order`` vertices that are not superfluous (HLW IX.9.2). Raises
+    :class:`~orderconds.errors.InputError` where b(u o v) + b(v o u) = 0 is not known to hold, so that the
+    field may not be Hamiltonian, and for a Lie-Butcher series.
+
+    >>> from orderconds.ring import QQ
+    >>> from orderconds.trees.levels import text
+    >>> midpoint = Character(QQ, ROOTED, lambda tree: QQ.rational(1, 2 ** (len(tree) - 1)))
+    >>> [(text(tree), str(x)) for tree, x in modified_hamiltonian(modified_field(midpoint), 4)]
+    [('.', '1'), ('[..]', '-1/24')]
+    """
+    if field.algebra is not ROOTED:
+        raise InputError("a Lie-Butcher series", where="modified Hamiltonian", expected="a B-series")
+    terms = []
+    for vertices in range(1, order + 1):
+        _require_hamiltonian(field, vertices)
+        for tree in essential_free_trees(vertices):
+            if field.ring.is_zero(field(tree)) is not True:
+                terms.append((tree, field(tree) * field.ring.rational(1, symmetry(tree))))
+    return tuple(terms)
+
+
+def _require_hamiltonian(field: VectorField, vertices: int) -> None:
+    for tree in rooted_trees(vertices):
+        for _, _, moved in moves(tree):
+            vanishes = field.ring.is_zero(field(tree) + field(moved))
+            if vanishes is not True:
+                verb = "may not be" if vanishes is None else "is not"
+                raise InputError(
+                    f"b({text(tree)}) + b({text(moved)}) {verb} 0",
+                    where="modified Hamiltonian",
+                    expected="the modified field of a symplectic method",
+                )

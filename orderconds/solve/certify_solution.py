@@ -1,0 +1,365 @@
+"""From a solution in doubles to a file with a certificate.
+
+First the coefficients that the equations leave free are rounded to short decimals. The others are solved
+again and sharpened by Newton's method in balls. If they are algebraic numbers of one field, recognised by
+lattice reduction, the file has closed forms and its order is checked exactly. Otherwise its decimals are
+unknowns of the conditions that are independent for the ansatz (reduction ``spelling``), and interval
+arithmetic proves them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+import numpy as np
+from flint import arb, arb_mat
+
+from orderconds.checking import check, claimable_families
+from orderconds.proof.certificate import certify
+from orderconds.proof.krawczyk import NotProved, jets
+from orderconds.proof.refine import decimal_places
+from orderconds.ring import Ring
+from orderconds.ring.jets import Jets
+from orderconds.ring.precision import precision
+from orderconds.ring.traces import evaluate
+from orderconds.solve.ansatz import Ansatz, renamed
+from orderconds.solve.closed_form import Spelling, spellings
+from orderconds.solve.least_squares import least_squares
+from orderconds.solve.problem import Problem
+from orderconds.solve.search import CHEAP, POLISHED
+from orderconds.solve.tape import Floats
+from orderconds.tableau import CommutatorFree, Method, Stage, Tableau, dumps
+from orderconds.tableau.grammar import Constant
+from orderconds.tableau.random_member import radicals
+from orderconds.tableau.properties import properties
+from orderconds.tableau.record import Claims, OrderClaim
+from orderconds.tableau.toml_text import toml_text
+from orderconds.tableau.write import written_out
+
+STEPS = (
+    Fraction(1, 2),
+    Fraction(1, 4),
+    Fraction(1, 10),
+    Fraction(1, 20),
+    Fraction(1, 100),
+    Fraction(1, 1000),
+)
+"""Free coefficients are rounded to multiples of these, the coarsest first that leaves a good solution."""
+
+FINE = (Fraction(1, 10**5), Fraction(1, 10**7))
+"""The same where the principal error has been minimised, which is flat to second order there."""
+
+DIGITS = 50
+"""Places of a decimal in the file."""
+
+BITS = 1400
+"""Working precision of Newton's method, of which lattice reduction makes use."""
+
+WORSE = 1.5
+"""A rounded solution may have larger coefficients, and a larger principal error, by this factor."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """A method with its file: ``certificate`` is ``exact`` or ``ball``."""
+
+    tableau: Tableau
+    text: str
+    certificate: str
+    error: float | None
+
+
+def certify_solution(
+    problem: Problem, point: Sequence[float], name: str, source: str, *, minimised: bool = False
+) -> Found:
+    """Return the file of a solution near ``point``; raises NotProved where nothing can be proved.
+
+    >>> from orderconds.solve.spec import Spec
+    >>> from orderconds.solve.problem import find_problem
+    >>> problem = find_problem("rk", 2, Spec(stages=2, explicit=True), "full")
+    >>> found = certify_solution(problem, [0.27, 0.73, 0.68], "two", "an example")
+    >>> found.certificate, found.text.splitlines()[2:4]
+    ('exact', ['A = [[], ["1"]]', 'b = ["1/2", "1/2"]'])
+    """
+    rounded, pinned, solved = _rounded_free(problem, np.array(point), FINE if minimised else STEPS)
+    sharp = _newton(problem, rounded, pinned, solved)
+    ansatz = renamed(problem.ansatz, name)
+    spelled: dict[str, Spelling] | None = None
+    if not (minimised and pinned and solved):
+        spelled = spellings({problem.ansatz.free[j]: sharp[j] for j in solved}, BITS, _square_roots(problem))
+    exact = {problem.ansatz.free[j]: str(x) for j, x in pinned.items()}
+    if spelled is not None:
+        found = _exact(problem, ansatz.text({**exact, **_texts(spelled)}, foot=_roots(spelled)), source)
+        if found is not None:
+            return found
+    return _proved(problem, ansatz, exact, {problem.ansatz.free[j]: sharp[j] for j in solved}, source)
+
+
+def _rounded_free(
+    problem: Problem, point: Floats, steps: Sequence[Fraction]
+) -> tuple[Floats, dict[int, Fraction], list[int]]:
+    """Return a nearby solution, its free coefficients with short values, and those that are solved for."""
+    _, slopes = problem.tape.jacobians(point[None])
+    solved = determined(slopes[0])
+    loose = [j for j in range(len(point)) if j not in solved]
+    if not loose:
+        return point, {}, solved
+    before = _quality(problem, point)
+    for step in steps:
+        values = {j: round(Fraction(float(point[j])) / step) * step for j in loose}
+        start = point.copy()
+        start[loose] = [float(values[j]) for j in loose]
+        tried, norm = _solved_for(problem, start, solved)
+        good = norm < POLISHED and all(
+            x < WORSE * y for x, y in zip(_quality(problem, tried), before, strict=True)
+        )
+        if good and _regular(problem, tried, solved):
+            return tried, values, solved
+    raise NotProved("no solution nearby with short free coefficients")
+
+
+def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple[Floats, float]:
+    """Return the solution near ``start`` with the other coefficients as they are, and its residual norm."""
+
+    def restricted(points: Floats) -> tuple[Floats, Floats]:
+        whole = np.repeat(start[None], len(points), axis=0)
+        whole[:, solved] = points
+        found, slopes = problem.system(whole)
+        return found, slopes[:, :, solved]
+
+    moved, norms = least_squares(restricted, start[None, solved])
+    found = start.copy()
+    found[solved] = moved[0]
+    return found, float(norms[0])
+
+
+def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
+    """Return the largest coefficient and, where it is cheap, the principal error."""
+    size = float(np.abs(problem.coefficients.values(point[None])).max())
+    if problem.order > CHEAP:
+        return (size,)
+    return size, float(np.linalg.norm(problem.error.values(point[None])[0]))
+
+
+def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
+    """Say whether the unknowns are well determined: no singular value is tiny."""
+    if not solved:
+        return True
+    _, slopes = problem.tape.jacobians(point[None])
+    sizes = np.linalg.svd(slopes[0][:, solved], compute_uv=False)
+    return bool(sizes[min(len(solved), len(sizes)) - 1] > 1e-5)
+
+
+def determined(slopes: Floats) -> list[int]:
+    """Return the unknowns that elimination with complete pivoting solves for, in rising order.
+
+    >>> determined(np.array([[0.0, 2.0, 1.0], [0.0, 4.0, 2.0]]))
+    [1]
+    """
+    rows, chosen = slopes.copy(), list[int]()
+    rows /= np.maximum(np.linalg.norm(rows, axis=1), 1e-300)[:, None]
+    for _ in range(min(rows.shape)):
+        free = [j for j in range(rows.shape[1]) if j not in chosen]
+        place = np.abs(rows[:, free])
+        i, k = np.unravel_index(int(place.argmax()), place.shape)
+        if place[i, k] < 1e-7:
+            break
+        j = free[int(k)]
+        chosen.append(j)
+        rows = rows - np.outer(rows[:, j] / rows[i, j], rows[i])
+        rows[i] = 0.0
+    return sorted(chosen)
+
+
+def _newton(
+    problem: Problem, point: Floats, pinned: dict[int, Fraction], solved: Sequence[int]
+) -> dict[int, arb]:
+    """Return the unknowns to nearly :data:`BITS` bits, by Newton's method on as many equations.
+
+    Raises NotProved where it does not converge.
+    """
+    trace = problem.trace()
+    operations = trace[0].ring.operations if trace else []
+    places = [x.placed() for x in trace]
+    _, slopes = problem.tape.jacobians(point[None])
+    rows = determined(slopes[0][:, list(solved)].T) if solved else []
+    with precision(BITS):
+        values = {j: arb(float(point[j])) for j in solved}
+        previous: float | None = None
+        for _ in range(60 if solved else 0):
+
+            def system(unknowns: Sequence[object], ring: Jets) -> list[object]:
+                inputs: list[object] = [None] * len(point)
+                for j, q in pinned.items():
+                    inputs[j] = ring.rational(q.numerator, q.denominator)
+                for j, x in zip(solved, unknowns, strict=True):
+                    inputs[j] = x
+                found = evaluate(operations, inputs, ring)
+                return [found[places[k]] for k in rows]
+
+            at = jets(system, [values[j] for j in solved])  # type: ignore[arg-type]
+            jacobian = arb_mat(len(rows), len(solved), [g for f in at for g in f.gradient]).mid()
+            try:
+                step = jacobian.solve(arb_mat(len(rows), 1, [f.value.mid() for f in at]))
+            except ZeroDivisionError:
+                raise NotProved("Newton's method met a singular Jacobian") from None
+            for k, j in enumerate(solved):
+                values[j] = (values[j] - step[k, 0]).mid()
+            size = max(float(abs(step[k, 0]).mid()) for k in range(len(rows)))
+            if size < 1e-280 or (previous == 0.0 and size == 0.0):
+                return values
+            previous = size
+        if solved:
+            raise NotProved("Newton's method does not converge")
+    return values
+
+
+def _square_roots(problem: Problem) -> dict[str, arb]:
+    """Return the square roots of rationals that the ansatz is spelled with."""
+    roots = {}
+    with precision(BITS):
+        for radical in radicals(problem.ansatz.spelled()):
+            inside = radical.base
+            if isinstance(inside, Constant) and abs(radical.exponent) == Fraction(1, 2):
+                p, q = inside.value.as_integer_ratio()
+                roots[f"sqrt({inside.value})"] = (arb(p) / q).sqrt()
+    return roots
+
+
+def _texts(spelled: dict[str, Spelling]) -> dict[str, str]:
+    return {name: x.text for name, x in spelled.items()}
+
+
+def _roots(spelled: dict[str, Spelling]) -> list[str]:
+    return next((["", *x.root] for x in spelled.values() if x.root), [])
+
+
+def _exact(problem: Problem, text: str, source: str) -> Found | None:
+    """Return the file with exact coefficients, or None where it has not the order."""
+    tableau = Tableau.loads(text)
+    label = problem.ansatz.family
+    report = check(tableau, label, problem.order)
+    if report.verdict != "holds" or report.orders[0].certificate != "exact":
+        return None
+    method = _without_zeros(tableau.method, tableau.ring)
+    return _claimed(problem, replace(tableau, method=method, source=source, claims=Claims()), exact=True)
+
+
+def _without_zeros(method: Method, ring: Ring) -> Method:
+    """Return a commutator-free method without the exponentials that turned out to be of zero."""
+    if not isinstance(method, CommutatorFree):
+        return method
+
+    def kept(stage: Stage) -> Stage:
+        rows = stage.exponentials
+        return Stage(stage.start, tuple(r for r in rows if not all(ring.is_zero(x) is True for x in r)))
+
+    found = CommutatorFree(tuple(map(kept, method.stages)), kept(method.update))
+    return method if found == method else found
+
+
+def _proved(
+    problem: Problem, ansatz: Ansatz, exact: dict[str, str], sharp: dict[str, arb], source: str
+) -> Found:
+    digits: dict[str, str] = {}
+    with precision(BITS):
+        for name, x in sharp.items():
+            # Equal spellings would be one unknown.
+            places = DIGITS
+            while (spelled := _signed(x, places)).lstrip("-") in {y.lstrip("-") for y in digits.values()}:
+                places += 1
+            digits[name] = spelled
+    proof = [
+        "",
+        "[proof]",
+        f'conditions = "{problem.ansatz.family}"',
+        f"order = {problem.order}",
+        'reduction = "spelling"',
+    ]
+    text = ansatz.text({**exact, **digits}, head=[f'source = "{source}"'], foot=proof)
+    return _claimed(problem, Tableau.loads(text), exact=False)
+
+
+def _signed(x: arb, places: int) -> str:
+    """Return a number as a decimal with ``places`` places that is an unknown of the file's equations."""
+    return ("-" if x < 0 else "") + decimal_places(abs(x), places) + "~"
+
+
+def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Found:
+    """Return the file with a claim for each family and property that is certain."""
+    if not exact:
+        certify(tableau)
+    claims: list[OrderClaim] = []
+    certificate, holds = "", False
+    for family in claimable_families(tableau):
+        reached = 0
+        for variant in family.claimed_variants():
+            label = variant.label()
+            order = check(tableau, label).orders[0]
+            if order.certificate == "decimal" or order.order <= reached:
+                break
+            reached = order.order
+            claims.append(variant.claim(order.order))
+            if problem.ansatz.family in (family.label(), label):
+                certificate, holds = order.certificate, order.order >= problem.order
+    if not certificate:
+        order = check(tableau, problem.ansatz.family).orders[0]
+        certificate, holds = order.certificate, order.order >= problem.order
+    if not holds or certificate == "decimal":
+        raise NotProved(f"order {problem.order} is not proved")
+    wanted = ("explicit", "diagonally_implicit", "symmetric", "fsal", "symplectic")
+    held = {key: True for key, value in properties(tableau).items() if value is True and key in wanted}
+    claimed = replace(tableau, claims=Claims(tuple(claims), held))
+    written = dumps(claimed)
+    if exact:
+        # With names where that is shorter, as it is for numbers with long spellings.
+        written = min(toml_text(written_out(claimed)), written, key=len)
+    error = principal_error(claimed, problem.ansatz.family, problem.order + 1)
+    return Found(Tableau.loads(written), written, certificate, error)
+
+
+def principal_error(tableau: Tableau, family: str, order: int) -> float | None:
+    """Return the 2-norm of the residuals of this order.
+
+    Which they are is a question of the family (:meth:`orderconds.families.Family.principal_residuals`).
+
+    >>> from orderconds.checking import read
+    >>> round(principal_error(read("suzuki4"), "vcg", 5), 6)
+    0.054372
+    """
+    from orderconds import families
+    from orderconds.ring.traces import Traces
+    from orderconds.solve.tape import Tape
+
+    found = families.get(family)
+    if found.principal_error_limit is not None and order > found.principal_error_limit:
+        return None
+    proved = certify(tableau).tableau if tableau.proof is not None else tableau
+    numbers: list[float] = []
+    width = 0
+
+    def count(x: object) -> object:
+        nonlocal width
+        width += 1
+        return x
+
+    proved.method.map(count)
+    ring = Traces(width)
+    inputs = iter(ring.inputs)
+
+    def traced(x: object) -> object:
+        if proved.ring.is_zero(x) is True:
+            next(inputs)
+            numbers.append(0.0)
+            return ring.zero
+        numbers.append(float(proved.ring.approximate(x, 20)))
+        return next(inputs)
+
+    method = proved.method.map(traced)
+    read = replace(proved, ring=ring, method=method).read_as(found.formats)
+    if read is None:
+        return None
+    tape = Tape(found.principal_residuals(read, ring, order), width)
+    return float(np.linalg.norm(tape.values(np.array([numbers]))[0]))

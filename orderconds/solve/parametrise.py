@@ -1,0 +1,391 @@
+"""The parametrisation of methods in a search: coefficients named, constrained and laid out in a file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from orderconds.errors import InputError
+from orderconds.families import Family
+from orderconds.solve.abscissae import (
+    WHERE,
+    commutator_free_times,
+    crouch_grossman_times,
+    symmetric_transport,
+    transport,
+)
+from orderconds.solve.ansatz import Ansatz
+from orderconds.solve.linear import Constraint, Elimination, equal, equality, named, spell, sum_to_one, zero
+from orderconds.solve.spec import Spec, refuse
+
+
+def _eliminated(names: Sequence[str], spec: Spec, constraints: Sequence[Constraint]) -> Elimination:
+    """Return the coefficients after a layout's own constraints and those of ``--fix``."""
+    found = Elimination(tuple(names))
+    fixed = [equality(text) for text in spec.fix]
+    for constraint in fixed:
+        for name in constraint.form:
+            if name and name not in names:
+                raise InputError(
+                    f"unknown coefficient {name!r} in {constraint.text!r}",
+                    where="--fix",
+                    expected=f"one of {', '.join(names)}",
+                )
+    found.impose([*constraints, *fixed])
+    return found
+
+
+@dataclass(frozen=True)
+class _Cells:
+    """Coefficients after elimination: how each is written in the file, and the numbers behind them."""
+
+    elimination: Elimination
+    extra: Mapping[str, str] | None = None
+
+    def written(self, name: str) -> str:
+        """Return a constant, or the name of the number that holds the coefficient."""
+        form = self.elimination.cell(name)
+        if self.extra and name in self.extra:
+            return name
+        return spell(form) if set(form) <= {""} else name
+
+    def numbers(self, names: Sequence[str]) -> dict[str, str]:
+        """Return the spellings of dependent coefficients that are no constants."""
+        found = {}
+        for name in names:
+            form = self.elimination.cell(name)
+            if name in self.elimination.solved and not set(form) <= {""}:
+                found[name] = spell(form)
+        return {**found, **(self.extra or {})}
+
+    def unknown(self, names: Sequence[str]) -> tuple[str, ...]:
+        """Return the coefficients that are no constants."""
+        return tuple(name for name in names if self.written(name) == name)
+
+
+def _row(cells: _Cells, names: Sequence[str], full: bool = False) -> str:
+    """Spell a row of coefficients; zeros at its end are left out unless it is ``full``."""
+    spelled = [cells.written(name) for name in names]
+    while not full and spelled and spelled[-1] == "0":
+        spelled.pop()
+    return "[" + ", ".join(f'"{x}"' for x in spelled) + "]"
+
+
+def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
+    """Return the ansatz of tableaux (A, b).
+
+    >>> from orderconds.families import get
+    >>> runge_kutta(get("rk"), Spec(stages=1), "full", "m").free
+    ('b1', 'a11')
+    """
+    refuse(family.label(), spec, ("rkn", "exponentials", "inner"))
+    s = spec.stages
+    A = [[named("a", i + 1, j + 1) for j in range(s)] for i in range(s)]
+    b = [named("b", i + 1) for i in range(s)]
+    names = [*b, *(x for line in A for x in line)]
+    constraints = []
+    if spec.explicit or spec.dirk:
+        why = "--explicit" if spec.explicit else "--dirk"
+        last = 0 if spec.explicit else 1
+        constraints += [zero(A[i][j], why) for i in range(s) for j in range(i + last, s)]
+    if spec.symmetric:
+        constraints += [equal("--symmetric", (1, b[s - 1 - i]), (-1, b[i])) for i in range(s // 2)]
+        constraints += [
+            equal("--symmetric", (1, A[s - 1 - i][s - 1 - j]), (1, A[i][j]), (-1, b[j]))
+            for i in range(s)
+            for j in range(s)
+        ]
+    if spec.fsal:
+        constraints += [equal("--fsal", (1, A[s - 1][j]), (-1, b[j])) for j in range(s)]
+        constraints += [zero(A[0][j], "--fsal") for j in range(s)]
+    if structure == "abscissae":
+        constraints.append(sum_to_one(b))
+    found = _eliminated(names, spec, constraints)
+    extra = {}
+    if structure == "abscissae":
+        weights = [_Cells(found).written(x) for x in b]
+        extra = {**crouch_grossman_times(weights), **transport(A, weights, _fixed(A, found))}
+    cells = _Cells(found, extra)
+    free = tuple(x for x in found.free if x not in extra)
+    rows = [_row(cells, line) for line in A]
+    body = (
+        f'name = "{name}"',
+        'family = "rk"',
+        *_matrix(rows),
+        f"b = {_row(cells, b, full=True)}",
+    )
+    label = family.solved_as(spec.rkn)
+    return Ansatz(label, name, structure, body, free, cells.numbers(names), cells.unknown(names))
+
+
+def _fixed(A: Sequence[Sequence[str]], found: Elimination) -> dict[str, str]:
+    """Return the entries of A that are constants; InputError where one depends on others."""
+    values = {}
+    for name in (x for line in A for x in line):
+        form = found.cell(name)
+        if set(form) <= {""}:
+            values[name] = spell(form)
+        elif name in found.solved:
+            raise InputError(
+                f"{name} = {spell(form)}", where=WHERE, expected="entries of A that are numbers or free"
+            )
+    return values
+
+
+def _matrix(rows: Sequence[str]) -> list[str]:
+    line = f"A = [{', '.join(rows)}]"
+    return [line] if len(line) <= 110 else ["A = [", *(f"  {x}," for x in rows), "]"]
+
+
+def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
+    """Return the ansatz of stages and an update that are products of exponentials.
+
+    >>> from orderconds.families import get
+    >>> commutator_free(get("cf"), Spec(stages=1, exponentials=1, inner=1), "full", "m").free
+    ('b1_1', 'a1_1_1')
+    """
+    from orderconds.solve.paths import full_paths, symmetric_paths
+
+    refuse(family.label(), spec, ("rkn", "fsal"))
+    make = symmetric_paths if structure.startswith("symmetric") else full_paths
+    stages, update, names, constraints = make(spec)
+    extra: dict[str, str] = {}
+    if structure.endswith("abscissae"):
+        constraints.append(sum_to_one([x for line in update for x in line]))
+    totals = _gauss(spec.stages) if structure.endswith("gauss") else {}
+    if totals:
+        constraints += _totals(stages, update, totals)
+        names = [*totals, *names]
+    found = _eliminated(names, spec, constraints)
+    extra |= {name: text for name, text in totals.items() if name in found.free}
+    if structure == "abscissae":
+        extra = _abscissae(stages, update, found)
+    elif structure.endswith("abscissae"):
+        extra = _symmetric_abscissae(stages, update, found)
+    cells = _Cells(found, extra)
+    free = tuple(x for x in found.free if x not in extra)
+    free = (*free, *(x for x in extra if extra[x] == x))
+    numbers = {x: text for x, text in cells.numbers(names).items() if text != x}
+    tail = [""]
+    for stage in stages:
+        tail += ["[[stage]]", *_exponentials(stage, cells)]
+    tail += ["[update]", *_exponentials(update, cells)]
+    body = (f'name = "{name}"', 'family = "cf"')
+    label = family.solved_as(spec.rkn)
+    return Ansatz(label, name, structure, body, free, numbers, cells.unknown(names), tuple(tail))
+
+
+def _abscissae(
+    stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], found: Elimination
+) -> dict[str, str]:
+    """Return totals a_ij with the right abscissae, and the last exponentials of the stages they determine."""
+    every = range(1, len(stages) + 1)
+    for name in (x for path in stages for line in path for x in line):
+        if name in found.solved:
+            raise InputError(
+                f"{name} = {spell(found.cell(name))}", where=WHERE, expected="no fixed coefficients of stages"
+            )
+    A = [[named("a", i, j) for j in every] for i in every]
+    b = [named("b", i) for i in every]
+    written = [[_Cells(found).written(x) for x in line] for line in update]
+    determined = transport(A, b, {})
+    extra = {**commutator_free_times(written, b)}
+    extra |= {x: determined.get(x, x) for line in A for x in line}
+    for i, path in enumerate(stages):
+        for j, last in enumerate(path[-1]):
+            extra[last] = " - ".join([A[i][j], *(line[j] for line in path[:-1])])
+    return extra
+
+
+def _gauss(s: int) -> dict[str, str]:
+    """Return the Gauss tableau, spelled: the sums of the exponents of each stage, and the weights."""
+    from orderconds.tableau.collocation import construct
+
+    tableau = construct("gauss", s)
+    method, every, text = tableau.abelian(), range(s), tableau.ring.text
+    weights = {f"w{j + 1}": text(method.b[j]) for j in every}
+    return weights | {f"g{i + 1}{j + 1}": text(method.A[i][j]) for i in every for j in every}
+
+
+def _totals(
+    stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], totals: Mapping[str, str]
+) -> list[Constraint]:
+    """Return the constraints that exponents sum to the Gauss tableau."""
+    why, every = "Gauss's tableau", range(len(stages))
+    found = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]
+    found += [
+        equal(why, (-1, f"g{i + 1}{j + 1}"), *((1, line[j]) for line in path))
+        for i, path in enumerate(stages)
+        for j in every
+    ]
+    return found
+
+
+def _symmetric_abscissae(
+    stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], found: Elimination
+) -> dict[str, str]:
+    """Return sums x_ij of the stages' own exponents with the right abscissae, and the last exponents."""
+    s, half = len(stages), len(stages) // 2
+    if half == 0:
+        raise InputError("one stage", where=WHERE, expected="at least two")
+    cells = _Cells(found)
+    b = [named("b", i) for i in range(1, s + 1)]
+    written = [[cells.written(x) for x in line] for line in update]
+    x = [[named("x", i, j) for j in range(1, s + 1)] for i in range(1, half + 1)]
+    leave = [sum(line in update for line in path) for path in stages[:half]]
+    own = [path[k:] for path, k in zip(stages[:half], leave, strict=True)]
+    for name in (name for path in own for line in path for name in line):
+        if name in found.solved:
+            raise InputError(
+                f"{name} = {spell(found.cell(name))}", where=WHERE, expected="no fixed coefficients of stages"
+            )
+    middle: list[str] = []
+    extra = commutator_free_times(written, b)
+    if s % 2:
+        path = stages[half]
+        rows = path[len(update) // 2 + len(update) % 2 :]
+        middle = [f"z{j}" for j in range(1, s + 1)]
+        extra |= {
+            f"z{j + 1}": " + ".join(cells.written(line[j]) for line in rows).replace("+ -", "- ")
+            for j in range(half)
+        }
+    extra |= {name: name for line in x for name in line}
+    extra |= symmetric_transport(x, leave, written, middle)
+    for i, path in enumerate(own):
+        for j, last in enumerate(path[-1]):
+            extra[last] = " - ".join([x[i][j], *(line[j] for line in path[:-1])])
+    return extra
+
+
+def _exponentials(rows: Sequence[Sequence[str]], cells: _Cells) -> list[str]:
+    spelled = [line for names in rows if (line := _row(cells, names)) != "[]"]
+    if not spelled:
+        return []
+    text = f"exp = [{', '.join(spelled)}]"
+    return [text] if len(text) <= 110 else ["exp = [", *(f"  {x}," for x in spelled), "]"]
+
+
+def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
+    """Return the ansatz of compositions whose steps read the same backwards and sum to one.
+
+    >>> from orderconds.families import get
+    >>> composition(get("composition"), Spec(stages=3), "full", "m").free
+    ('g1',)
+    """
+    refuse(family.label(), spec, ("rkn", "fsal", "explicit", "dirk", "exponentials", "inner"))
+    s = spec.stages
+    gamma = [named("g", i + 1) for i in range(s)]
+    total = Constraint("the steps sum to 1", {**dict.fromkeys(gamma, Fraction(1)), "": Fraction(-1)})
+    mirrored = [
+        equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
+    ]
+    # The middle step is the one that the sum determines: the outer ones are named before it.
+    order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
+    found = Elimination(tuple(order))
+    found.impose(mirrored)
+    names = [x for x in order if x not in found.solved]
+    found = _eliminated(order, spec, [*mirrored, total])
+    cells = _Cells(found)
+    body = (
+        f'name = "{name}"',
+        'family = "composition"',
+        'base = "symmetric-2"',
+        f"gamma = {_row(cells, gamma, full=True)}",
+    )
+    label = family.solved_as(spec.rkn)
+    return Ansatz(label, name, structure, body, found.free, cells.numbers(order), cells.unknown(names))
+
+
+def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
+    """Return the ansatz of splittings T + V that begin and end with T.
+
+    >>> from orderconds.families import get
+    >>> splitting(get("splitting"), Spec(stages=1), "full", "m").free
+    ('a1',)
+    """
+    refuse(family.label(), spec, ("fsal", "explicit", "dirk", "exponentials", "inner"))
+    s = spec.stages
+    a, b = ([named(x, i + 1) for i in range(n)] for x, n in (("a", s + 1), ("b", s)))
+    constraints = []
+    if spec.symmetric:
+        constraints += [
+            equal("--symmetric", (1, x[len(x) - 1 - i]), (-1, x[i]))
+            for x in (a, b)
+            for i in range(len(x) // 2)
+        ]
+    order = [name for x in (a, b) for name in sorted(x, key=lambda y: -abs(2 * int(y[1:]) - len(x) - 1))]
+    constraints += [
+        Constraint("the steps of a part sum to 1", {**dict.fromkeys(x, Fraction(1)), "": Fraction(-1)})
+        for x in (a, b)
+    ]
+    found = _eliminated(order, spec, constraints)
+    cells = _Cells(found)
+    steps = [f'["T", "{cells.written(a[0])}"]']
+    for i in range(s):
+        steps += [f'["V", "{cells.written(b[i])}"]', f'["T", "{cells.written(a[i + 1])}"]']
+    body = (
+        f'name = "{name}"',
+        'family = "splitting"',
+        'parts = ["T", "V"]',
+        *(['rkn = "V"'] if spec.rkn else []),
+        "step = [",
+        *(f"  {x}," for x in steps),
+        "]",
+    )
+    label = family.solved_as(spec.rkn)
+    return Ansatz(label, name, structure, body, found.free, cells.numbers(order), cells.unknown(order))
+
+
+def tableau_structures(family: Family, spec: Spec) -> tuple[str, ...]:
+    """Return the structures of tableaux (A, b) in which a search begins, the most promising first.
+
+    >>> from orderconds.families import get
+    >>> [tableau_structures(get(name), Spec(stages=3)) for name in ("vcg", "cg")]
+    [('abscissae', 'full'), ('full',)]
+    """
+    return ("abscissae", "full") if family.equal_abscissae and not spec.explicit else ("full",)
+
+
+def path_structures(family: Family, spec: Spec) -> tuple[str, ...]:
+    """Return the structures of commutator-free methods.
+
+    >>> from orderconds.families import get
+    >>> path_structures(get("vcf"), Spec(stages=3, symmetric=True))
+    ('symmetric gauss', 'symmetric abscissae', 'symmetric')
+    """
+    if not spec.symmetric:
+        return tableau_structures(family, spec)
+    first = ("symmetric gauss", "symmetric abscissae") if family.equal_abscissae else ()
+    return (*first, "symmetric")
+
+
+def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:
+    """Return the one structure of compositions and splittings.
+
+    >>> from orderconds.families import get
+    >>> one_structure(get("splitting"), Spec(stages=3))
+    ('full',)
+    """
+    return ("full",)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How the coefficients of one tableau format are parametrised.
+
+    ``ansatz`` takes a family, what is asked of the method, a structure and a name; ``structures`` returns the
+    structures in which a search begins.
+    """
+
+    ansatz: Callable[[Family, Spec, str, str], Ansatz]
+    structures: Callable[[Family, Spec], tuple[str, ...]]
+
+
+LAYOUTS = {
+    "rk": Layout(runge_kutta, tableau_structures),
+    "cf": Layout(commutator_free, path_structures),
+    "composition": Layout(composition, one_structure),
+    "splitting": Layout(splitting, one_structure),
+}
+"""Tableau format to its layout: :attr:`orderconds.families.Family.unknowns` names one of them."""

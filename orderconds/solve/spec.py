@@ -1,0 +1,43 @@
+"""The specification of a method to be found."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from orderconds.errors import InputError
+
+
+@dataclass(frozen=True)
+class Spec:
+    """The specification of a method: the options of ``orderconds solve``.
+
+    ``exponentials`` are those of the update of a commutator-free method, ``inner`` those of each of its
+    stages. ``positive`` are names of coefficients, or of weights as ``b``; ``size`` bounds all coefficients.
+    """
+
+    stages: int
+    explicit: bool = False
+    dirk: bool = False
+    symmetric: bool = False
+    fsal: bool = False
+    fix: tuple[str, ...] = ()
+    positive: tuple[str, ...] = ()
+    size: Fraction | None = None
+    exponentials: int = 2
+    inner: int = 2
+    rkn: bool = False
+
+
+def refuse(family: str, spec: Spec, options: Sequence[str]) -> None:
+    """Raise :class:`~orderconds.errors.InputError` for an option that has no meaning in a family.
+
+    >>> refuse("rk", Spec(stages=2), ("rkn",))
+    """
+    plain = Spec(spec.stages)
+    for option in options:
+        if getattr(spec, option) != getattr(plain, option):
+            raise InputError(
+                f"family {family} has no methods with --{option}", where="solve", expected="other options"
+            )

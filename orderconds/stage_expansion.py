@@ -1,0 +1,84 @@
+"""Order conditions expanded for a fixed number of stages: polynomials in a_ij, b_i, no index sums."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from orderconds import families
+from orderconds.derivation import Derivation
+from orderconds.families.stage_form import Name
+from orderconds.formula import Coefficient, Formula, Power, Product, Total
+from orderconds.ring.protocol import Element
+
+if TYPE_CHECKING:
+    from flint import fmpq
+
+    from orderconds.ring.laurent import LaurentPolynomials
+    from orderconds.ring.polynomials import Polynomials
+
+
+def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False) -> Derivation:
+    """Return the same conditions as polynomials in the entries of a tableau with ``stages`` stages.
+
+    The tableau is full, or with ``explicit`` strictly lower triangular. Raises
+    :class:`~orderconds.errors.InputError` for a family whose coefficients are not numbered by stages alone.
+
+    >>> from orderconds.derivation import derive
+    >>> derivation = derive("rk", order=2)
+    >>> print(*expand_stages(derivation, 2).conditions, sep="; ")
+    b_1 + b_2 = 1; b_1 a_11 + b_1 a_12 + b_2 a_21 + b_2 a_22 = 1/2
+    >>> print(expand_stages(derivation, 2, explicit=True).conditions[-1])
+    b_2 a_21 = 1/2
+    """
+    ring, names, values = polynomials(derivation, stages, explicit=explicit)
+    symbols = [Coefficient(*name) for name in names]
+    expanded = iter(values)
+    return replace(
+        derivation,
+        by_order=tuple(
+            tuple(replace(c, source=_formula(symbols, ring.terms(next(expanded)))) for c in conditions)
+            for conditions in derivation.by_order
+        ),
+    )
+
+
+def polynomials(
+    derivation: Derivation, stages: int, *, explicit: bool = False
+) -> tuple[Polynomials | LaurentPolynomials, tuple[Name, ...], tuple[Element, ...]]:
+    """Return a ring of polynomials, its variables, and the left-hand sides as elements of the ring.
+
+    The engine itself is run over that ring: polynomials, or Laurent polynomials for a family that divides by
+    weights. Raises :class:`~orderconds.errors.InputError` as :func:`expand_stages` does.
+
+    >>> from orderconds.derivation import derive
+    >>> ring, names, values = polynomials(derive("rk", order=2), 2, explicit=True)
+    >>> names, ring.text(values[1])
+    ((('b', ('1',)), ('b', ('2',)), ('a', ('2', '1'))), 'b_2*a_2_1')
+    """
+    family = families.get(derivation.family)
+    form = family.in_stages(stages, explicit=explicit)
+    from orderconds.ring.laurent import LaurentPolynomials
+    from orderconds.ring.polynomials import Polynomials
+
+    spelled = ["_".join((letter, *indices)) for letter, indices in form.names]
+    ring = LaurentPolynomials(spelled) if form.divides else Polynomials(spelled)
+    method = form.method(ring.generators, ring)
+    return ring, form.names, family.evaluate(method, ring, derivation.conditions)
+
+
+def _formula(symbols: list[Coefficient], terms: Iterable[tuple[tuple[int, ...], fmpq]]) -> Formula:
+    """Turn a polynomial's terms into a formula; exponent k belongs to ``symbols[k]``."""
+    return Total(
+        tuple(
+            (
+                Fraction(int(scale.p), int(scale.q)),
+                Product(
+                    tuple(s if e == 1 else Power(s, e) for s, e in zip(symbols, exponents, strict=True) if e)
+                ),
+            )
+            for exponents, scale in terms
+        )
+    )

@@ -1,0 +1,121 @@
+"""What the formats of a tableau file share: keys, claims, proofs, and rows of coefficients.
+
+A format is read in two steps, since the ring of a tableau is known only once all its coefficients have been
+seen: ``coefficients`` yields every spelled coefficient with its place, ``build`` takes their values. Places
+are named as in the file, entries counted from 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, Literal
+
+from msgspec import Meta, Struct
+
+from orderconds.errors import TableauError
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.methods import LowerOrder, Row
+from orderconds.tableau.products import Method
+
+Coefficient = str | int
+Places = Iterator[tuple[str, Coefficient]]
+MAX_STAGES = 200
+MAX_PARTS = 6
+
+
+class RootEntry(Struct, forbid_unknown_fields=True):
+    """A real root: ``minpoly`` with ascending coefficients, ``near`` a decimal that isolates it."""
+
+    minpoly: list[Coefficient]
+    near: str
+
+
+class CutoffClaim(Struct, forbid_unknown_fields=True):
+    """The claimed order of a family that takes a cutoff."""
+
+    cutoff: Annotated[int, Meta(ge=0)]
+    order: Annotated[int, Meta(ge=1)]
+
+
+class ProofEntry(Struct, forbid_unknown_fields=True):
+    """Which equations the rounded decimals of the file solve (:mod:`orderconds.tableau.unknowns`)."""
+
+    conditions: str
+    order: Annotated[int, Meta(ge=1, le=20)]
+    pins: list[str] = []
+    reduction: Literal["symmetric", "low-storage", "simplifying", "spelling"] | None = None
+    assumptions: dict[Literal["B", "C", "D"], Annotated[int, Meta(ge=0, le=40)]] = {}
+    printed: dict[str, Coefficient] = {}
+
+
+Number = Coefficient | RootEntry
+"""What may stand under ``numbers``."""
+Claim = bool | Annotated[int, Meta(ge=1)] | list[CutoffClaim]
+"""What may stand under ``claims``: a property, the order of a family, orders by cutoff."""
+
+
+class Format(Struct, forbid_unknown_fields=True, kw_only=True):
+    """The keys that every format has; ``numbers`` holds :data:`Number`, ``claims`` :data:`Claim`."""
+
+    name: str
+    family: str
+    source: str = ""
+    bibtex: str = ""
+    numbers: dict[str, Any] = {}
+    claims: dict[str, Any] = {}
+    proof: ProofEntry | None = None
+
+    def coefficients(self) -> Places:
+        """Yield (place, spelling) of every coefficient."""
+        yield from ()
+
+    def verify(self, where: str) -> None:
+        """Raise :class:`TableauError` unless the shapes fit."""
+
+    def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
+        """Return the method, given the value at every place."""
+        raise TypeError(f"{type(self).__name__} is the part that formats share")
+
+
+def row_places(row: list[Coefficient], place: str) -> Places:
+    """Yield the place and the spelling of each entry of a row.
+
+    >>> list(row_places(["1/2", 1], "b"))
+    [('b[1]', '1/2'), ('b[2]', 1)]
+    """
+    for j, spelled in enumerate(row):
+        yield f"{place}[{j + 1}]", spelled
+
+
+def filled_row(values: Mapping[str, Element], place: str, s: int, ring: Ring) -> Row:
+    """Return the row at ``place``, zeros following the entries that the file gives.
+
+    >>> from orderconds.ring import QQ
+    >>> filled_row({"b[1]": QQ.one}, "b", 2, QQ)
+    (1, 0)
+    """
+    return tuple(values.get(f"{place}[{j + 1}]", ring.zero) for j in range(s))
+
+
+def counted(s: int, where: str, noun: str = "stages") -> int:
+    """Return a number of stages; :class:`TableauError` unless it is from 1 to :data:`MAX_STAGES`.
+
+    >>> counted(3, "b")
+    3
+    """
+    if not 1 <= s <= MAX_STAGES:
+        raise TableauError(f"{s} {noun}", where=where, expected=f"1 to {MAX_STAGES}")
+    return s
+
+
+def verify_length(row: list[Coefficient], s: int, where: str) -> None:
+    """Raise :class:`TableauError` for a row longer than the number of stages.
+
+    >>> verify_length(["1/2"], 2, "A[2]")
+    """
+    if len(row) > s:
+        raise TableauError(
+            f"{len(row)} entries",
+            where=where,
+            expected=f"at most {s}, one for each stage (zeros may be left out)",
+        )

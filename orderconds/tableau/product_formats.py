@@ -1,0 +1,209 @@
+"""The formats of products of flows and exponentials: compositions, splittings, Magnus methods."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Literal
+
+from msgspec import field
+
+from orderconds.errors import TableauError
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.brackets import Term, has_product, leaves
+from orderconds.tableau.brackets import parse as parse_term
+from orderconds.tableau.brackets import spell as spell_term
+from orderconds.tableau.file_format import (
+    MAX_PARTS,
+    Coefficient,
+    Format,
+    Places,
+    counted,
+    filled_row,
+    row_places,
+)
+from orderconds.tableau.methods import (
+    Composition,
+    LowerOrder,
+)
+from orderconds.tableau.products import AdjointComposition, Magnus, Method, Splitting
+
+
+class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
+    """``family = "composition"``: steps gamma of a symmetric method of order 2, or pairs alpha, beta."""
+
+    base: Literal["symmetric-2", "adjoint-pair"]
+    gamma: list[Coefficient] | None = None
+    alpha: list[Coefficient] | None = None
+    beta: list[Coefficient] | None = None
+
+    def verify(self, where: str) -> None:
+        """Check that the steps are those of the base, and that each alpha has its beta."""
+        pair = self.base == "adjoint-pair"
+        for key, row in (("gamma", self.gamma), ("alpha", self.alpha), ("beta", self.beta)):
+            if (row is None) is (pair is (key != "gamma")):
+                raise TableauError(
+                    f"{'no ' if row is None else ''}{key} with base {self.base}",
+                    where=where,
+                    expected="alpha and beta with base adjoint-pair, gamma with base symmetric-2",
+                )
+        for key, row in self._rows():
+            counted(len(row), f"{where}: {key}")
+        if self.alpha and self.beta and len(self.alpha) != len(self.beta):
+            raise TableauError(
+                f"{len(self.beta)} entries for {len(self.alpha)} in alpha",
+                where=f"{where}: beta",
+                expected="alpha and beta of one length",
+            )
+
+    def _rows(self) -> Iterator[tuple[str, list[Coefficient]]]:
+        for key, row in (("gamma", self.gamma), ("alpha", self.alpha), ("beta", self.beta)):
+            if row is not None:
+                yield key, row
+
+    def coefficients(self) -> Places:
+        """Yield the steps."""
+        for key, row in self._rows():
+            yield from row_places(row, key)
+
+    def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
+        """Return the composition."""
+        rows = {key: filled_row(values, key, len(row), ring) for key, row in self._rows()}
+        if self.base == "adjoint-pair":
+            return AdjointComposition(rows["alpha"], rows["beta"]), None
+        return Composition(self.base, rows["gamma"]), None
+
+
+class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
+    """``family = "splitting"``: the flows of named parts in turn; ``rkn`` is V with [V,[V,[V,T]]] = 0."""
+
+    parts: list[str]
+    step: list[tuple[str, Coefficient]]
+    rkn: str | None = None
+
+    def verify(self, where: str) -> None:
+        """Check that parts are named once each and that steps and ``rkn`` name parts."""
+        if not 2 <= len(self.parts) <= MAX_PARTS:
+            raise TableauError(
+                f"{len(self.parts)} parts", where=f"{where}: parts", expected=f"2 to {MAX_PARTS} parts"
+            )
+        for name in self.parts:
+            if not name or self.parts.count(name) > 1:
+                found = f"the part {name!r} twice" if name else "a part without name"
+                raise TableauError(found, where=f"{where}: parts", expected="a name for each part")
+        counted(len(self.step), f"{where}: step")
+        known = ", ".join(self.parts)
+        for k, (name, _) in enumerate(self.step):
+            if name not in self.parts:
+                raise TableauError(
+                    f"the part {name!r}", where=f"{where}: step[{k + 1}]", expected=f"one of {known}"
+                )
+        if self.rkn is not None and (self.rkn not in self.parts or len(self.parts) != 2):
+            raise TableauError(
+                f"rkn = {self.rkn!r} with parts {known}",
+                where=f"{where}: rkn",
+                expected="two parts and the name of the one that is linear in no velocity, V",
+            )
+
+    def coefficients(self) -> Places:
+        """Yield the steps."""
+        for k, (_, spelled) in enumerate(self.step):
+            yield f"step[{k + 1}]", spelled
+
+    def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
+        """Return the splitting."""
+        steps = tuple(
+            (self.parts.index(name), values[f"step[{k + 1}]"]) for k, (name, _) in enumerate(self.step)
+        )
+        rkn = None if self.rkn is None else self.parts.index(self.rkn)
+        return Splitting(tuple(self.parts), steps, rkn), None
+
+
+class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
+    """``family = "magnus"``: nodes c and exponents, tables of brackets over nodes counted from 1.
+
+    ``elements`` names Lie elements for those after it and for the exponents; ``map`` is ``exp`` or ``cay``.
+    """
+
+    c: list[Coefficient]
+    exponents: list[dict[str, Coefficient]]
+    elements: dict[str, dict[str, Coefficient]] = field(default_factory=dict)
+    map: Literal["exp", "cay"] = "exp"
+
+    def _tables(self) -> Iterator[tuple[str, dict[str, Coefficient]]]:
+        for name, table in self.elements.items():
+            yield f"elements.{name}", table
+        for k, table in enumerate(self.exponents):
+            yield f"exponents[{k + 1}]", table
+
+    def verify(self, where: str) -> None:
+        """Check that terms are brackets of nodes and of elements named before, products with cay alone."""
+        s = counted(len(self.c), f"{where}: c")
+        counted(len(self.exponents), f"{where}: exponents", "exponents")
+        known: list[str] = []
+        for place, table in self._tables():
+            terms = []
+            for key in table:
+                term = parse_term(key, f"{where}: {place}")
+                self._verify_term(term, key, s, known, f"{where}: {place}")
+                if term in terms:
+                    raise TableauError(
+                        f"the term {spell_term(term)!r} twice", where=f"{where}: {place}", expected="it once"
+                    )
+                terms.append(term)
+            if place.startswith("elements."):
+                name = place.removeprefix("elements.")
+                if not name.isidentifier() or not name.isascii():
+                    raise TableauError(
+                        f"the name {name!r}",
+                        where=f"{where}: elements",
+                        expected="a letter, then letters and digits",
+                    )
+                known.append(name)
+
+    def _verify_term(self, term: Term, key: str, s: int, known: list[str], where: str) -> None:
+        for leaf in leaves(term):
+            if isinstance(leaf, int) and not 0 <= leaf < s:
+                raise TableauError(f"the node {leaf + 1} in {key!r}", where=where, expected=f"1 to {s}")
+            if isinstance(leaf, str) and leaf not in known:
+                names = ", ".join(known) or "none"
+                raise TableauError(
+                    f"the name {leaf!r} in {key!r}", where=where, expected=f"an element before it ({names})"
+                )
+        if self.map == "exp" and has_product(term):
+            raise TableauError(
+                f"the product {key!r}",
+                where=where,
+                expected='brackets; products stand with map = "cay" alone',
+            )
+
+    def coefficients(self) -> Places:
+        """Yield the nodes, then the coefficients of the elements and the exponents."""
+        yield from row_places(self.c, "c")
+        for place, table in self._tables():
+            for key, spelled in table.items():
+                yield f"{place}.{key}", spelled
+
+    def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
+        """Return the method; TableauError where products do not pair up to elements of quadratic groups."""
+        tables = {
+            place: tuple((parse_term(key, place), values[f"{place}.{key}"]) for key in table)
+            for place, table in self._tables()
+        }
+        method = Magnus(
+            filled_row(values, "c", len(self.c), ring),
+            tuple(tables[f"exponents[{k + 1}]"] for k in range(len(self.exponents))),
+            tuple((name, tables[f"elements.{name}"]) for name in self.elements),
+            self.map,
+        )
+        # brackets alone lie in every Lie algebra
+        products = any(has_product(term) for table in tables.values() for term, _ in table)
+        for k, series in enumerate(method.words(ring) if products else ()):
+            for word, value in series.items():
+                mirrored = series.get(word[::-1], ring.zero)
+                if ring.is_zero(value - mirrored if len(word) % 2 else value + mirrored) is False:
+                    raise TableauError(
+                        f"a product that leaves quadratic groups in exponent {k + 1}",
+                        where=f"{self.name}: exponents[{k + 1}]",
+                        expected="x*y*z beside z*y*x with one coefficient, x*y beside y*x with opposite ones",
+                    )
+        return method, None

@@ -1,0 +1,238 @@
+"""Observed orders of executed methods: published errors to three digits, and frauds that must be seen."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+from sympy import Matrix, Rational, cos, sin, symbols
+
+from codegen.certify import CertifiedOrder
+from codegen.emitter import compile_method
+from codegen.groups import SO3, Rotation
+from codegen.ir.number import Number
+from codegen.ir.operations import Advance
+from codegen.ir.program import Assign
+from codegen.ir.values import Coefficient
+from codegen.lab.orders.convergence import Convergence, converge
+from codegen.lab.reference import Reference, reference
+from codegen.lab.runner import Interpreted, runner
+from codegen.lower import families_for
+from codegen.method import Method, parse
+from codegen.scene import FieldScene
+from codegen.scene.problem import Problem
+from codegen.scenes import load
+from orderconds.ring import QQ
+from orderconds.tableau import CommutatorFree, RungeKutta, Stage
+
+Exact = Callable[[str], Reference]
+TARGETS = ("c", "python", "interpreter")
+
+# scene, method, numbers of steps, errors recomputed independently of the thesis
+PUBLISHED = {
+    "free_rigid_body rkmk(0):euler": ((20, 40, 80, 160), (4.135e-2, 2.100e-2, 1.058e-2, 5.313e-3)),
+    "free_rigid_body rkmk:rk4": ((20, 40, 80, 160), (7.029e-8, 4.493e-9, 2.847e-10, 1.793e-11)),
+    "dipole vcg:gauss1": ((5, 10, 20, 40), (3.614e-3, 9.226e-4, 2.319e-4, 5.804e-5)),
+    "dipole vrkmk(0):gauss1": ((5, 10, 20, 40), (3.614e-3, 9.226e-4, 2.319e-4, 5.804e-5)),
+    "dipole vrkmk(1):kutta3": ((5, 10, 20, 40), (4.282e-4, 1.032e-5, 1.191e-6, 2.948e-7)),
+    "dipole vrkmk(2):gauss2": ((5, 10, 20, 40), (1.255e-5, 7.785e-7, 4.854e-8, 3.032e-9)),
+    "dipole vcg:triple_jump": ((5, 10, 20, 40), (6.128e-4, 4.173e-5, 2.668e-6, 1.677e-7)),
+}
+
+
+def parse_for(problem: Problem, spelling: str) -> Method:
+    return parse(spelling, families_for(problem))
+
+
+def measure(
+    exact: Exact,
+    scene: str,
+    method: str | Method,
+    stated: int,
+    target: str = "c",
+    digits: int = 16,
+    steps: tuple[int, ...] = (),
+) -> Convergence:
+    problem = load(scene)
+    chosen = method if isinstance(method, Method) else parse_for(problem, method)
+    order = CertifiedOrder(stated, "exact")
+    return converge(runner(problem, chosen, target, digits, order), order, exact(scene), steps=steps)
+
+
+@pytest.mark.parametrize(
+    ("case", "target"),
+    [
+        pytest.param(c, t, marks=pytest.mark.slow if t == "interpreter" and "dipole" in c else ())
+        for c in sorted(PUBLISHED)
+        for t in TARGETS
+    ],
+)
+def test_published_errors_are_reproduced_to_three_digits(case: str, target: str, exact: Exact) -> None:
+    scene, method = case.split()
+    steps, errors = PUBLISHED[case]
+    found = measure(exact, scene, method, 0, target, steps=steps)
+    for run, printed in zip(found.refinement.runs, errors, strict=True):
+        # Three digits as printed: within half a unit of the fourth significant digit.
+        assert f"{run.error:.3e}" == f"{printed:.3e}"
+
+
+ORDERS = {
+    "free_rigid_body": {
+        "cg:cg3": 3,
+        "cg:cg4": 4,
+        "cf:cf4": 4,
+        "rkmk(2):rk4": 4,
+        "rkmk(1):kutta3": 3,
+        "cg:rk4": 2,
+        "rkmk:kutta3": 3,
+    },
+    "dipole": {"vcg:gauss1": 2, "vcg:triple_jump": 4, "vcg:triple_jump6": 6, "vcg:gauss2": 2, "cf:cf4": 4}
+    | {"vrkmk(2):gauss2": 4, "vrkmk(0):gauss2": 2, "vrkmk_pade(2):gauss2": 4},
+}
+
+
+@pytest.mark.parametrize(("scene", "method"), [(s, m) for s, found in ORDERS.items() for m in found])
+def test_emitted_c_shows_its_order_and_no_other(scene: str, method: str, exact: Exact) -> None:
+    order = ORDERS[scene][method]
+    found = measure(exact, scene, method, order)
+    assert found.verdict == "holds", found.sentence()
+    for other in (order - 1, order + 1):
+        assert replace(found, stated=CertifiedOrder(other, "exact")).verdict == "fails"
+
+
+def test_vrkmk6_shows_its_order_on_the_dipole(exact: Exact) -> None:
+    found = measure(exact, "dipole", "vrkmk(4):gauss3", 6, steps=(5, 10, 20))
+    assert all(5.9 < slope < 6.1 for slope in found.refinement.slopes)
+
+
+def test_thirty_digits_decide_what_rounding_hides_from_doubles(exact: Exact) -> None:
+    steps = (24, 36, 54, 81)
+    found = measure(exact, "free_rigid_body", "rkmk(4):gauss3", 6, "interpreter", 30, steps)
+    assert found.verdict == "holds", found.sentence()
+    assert found.refinement.observed == pytest.approx(6, abs=0.15)
+
+
+def test_an_order_that_rounding_hides_is_undecided_and_says_how_to_see_it(exact: Exact) -> None:
+    found = measure(exact, "free_rigid_body", "rkmk(4):gauss3", 6)
+    assert found.verdict == "undecided"
+    assert "--digits 40" in found.sentence()
+
+
+def swapped(method: Method) -> Method:
+    """CF4 with the two factors of its update in the wrong order."""
+    tableau = method.tableau
+    assert isinstance(tableau.method, CommutatorFree)
+    rows = tableau.method.update.exponentials[::-1]
+    wrong = replace(tableau.method, update=Stage(None, rows))
+    return replace(method, tableau=replace(tableau, method=wrong))
+
+
+def reversed_rows(method: Method) -> Method:
+    """A Crouch-Grossman method whose coefficients are attached to the stages in reverse."""
+    tableau = method.tableau
+    assert isinstance(tableau.method, RungeKutta)
+    rows = tuple(
+        tuple(row[i - 1 - j] if j < i else row[j] for j in range(len(row)))
+        for i, row in enumerate(tableau.method.A)
+    )
+    return replace(method, tableau=replace(tableau, method=RungeKutta(rows, tableau.method.b)))
+
+
+def late_stage(method: Method) -> Method:
+    """RK4 with k1/2 in the place of k2/2 in its third stage."""
+    tableau = method.tableau
+    assert isinstance(tableau.method, RungeKutta)
+    A = [list(row) for row in tableau.method.A]
+    A[2][0], A[2][1] = A[2][1], A[2][0]
+    rows = tuple(tuple(row) for row in A)
+    return replace(method, tableau=replace(tableau, method=RungeKutta(rows, tableau.method.b)))
+
+
+FRAUDS = {
+    "CF4 with its factors swapped": ("cf:cf4", swapped, 4, 2),
+    "CG3 on reversed stages": ("cg:cg3", reversed_rows, 3, 2),
+    "RKMK4 with k1/2 in stage 3": ("rkmk(2):rk4", late_stage, 4, 2),
+    "RKMK without dexp^-1": ("rkmk(2):rk4", lambda m: replace(m, cutoff=0), 4, 2),
+    "dexp^-1 cut too short": ("rkmk(2):rk4", lambda m: replace(m, cutoff=1), 4, 3),
+}
+
+
+@pytest.mark.parametrize("name", sorted(FRAUDS))
+def test_a_fraud_is_reported_as_failing_with_the_order_it_has(name: str, exact: Exact) -> None:
+    spelling, alter, claimed, real = FRAUDS[name]
+    good = parse_for(load("free_rigid_body"), spelling)
+    assert measure(exact, "free_rigid_body", good, claimed).verdict == "holds"
+    found = measure(exact, "free_rigid_body", alter(good), claimed)
+    assert found.verdict == "fails", found.sentence()
+    assert replace(found, stated=CertifiedOrder(real, "exact")).verdict == "holds", found.sentence()
+
+
+def test_a_weight_off_by_5e_11_is_beyond_any_slope_and_left_to_check(exact: Exact) -> None:
+    # The slope cannot see it in doubles; the order conditions do: orderconds check reports order 0.
+    good = parse_for(load("free_rigid_body"), "rkmk(2):rk4")
+    b = list(good.tableau.method.b)  # type: ignore[union-attr]
+    b[0] = b[0] + QQ.rational(5, 10**11)
+    off = replace(good.tableau, method=RungeKutta(good.tableau.method.A, tuple(b)))  # type: ignore[union-attr]
+    found = measure(exact, "free_rigid_body", replace(good, tableau=off), 4)
+    assert found.verdict == "holds"
+    # In forty digits and fine steps the same fraud is seen here as well: the error stops falling.
+    deep = measure(
+        exact, "free_rigid_body", replace(good, tableau=off), 4, "interpreter", 40, (160, 320, 640, 1280)
+    )
+    assert deep.observed is not None
+    assert deep.observed < 3.5
+
+
+def test_the_json_has_the_documented_fields(exact: Exact) -> None:
+    found = measure(exact, "dipole", "vcg:gauss1", 2).as_json()
+    documented = {"scene", "method", "target", "stated_order", "h", "error", "observed_order", "verdict"}
+    assert documented <= found.keys()
+    assert len(found["h"]) == len(found["error"])
+    assert found["verdict"] == "holds"
+
+
+@pytest.fixture(scope="module")
+def spin() -> tuple[Problem, Reference]:
+    """A field that depends on time and state, does not commute and has a component along the state."""
+    t, m, span = symbols("t", real=True), SO3().dual("m"), (Rational(1, 3), 1)
+    field = Matrix([cos(t), sin(2 * t) - m[0], m[2]]) + m / 2
+    start = Matrix([1, 0, 0])
+    scene = FieldScene(group=SO3(), action=Rotation(), y=m, f=field, y0=start, span=span, name="spin")
+    return scene, reference(scene)
+
+
+@pytest.mark.parametrize("target", TARGETS)
+@pytest.mark.parametrize(("method", "order"), [("rkmk(2):rk4", 4), ("cg:cg3", 3), ("cf:cf4", 4)])
+def test_orders_hold_where_the_field_depends_on_time(
+    method: str, order: int, target: str, spin: tuple[Problem, Reference]
+) -> None:
+    scene, end = spin
+    known = CertifiedOrder(order, "exact")
+    found = converge(runner(scene, parse_for(scene, method), target, order=known), known, end)
+    assert found.verdict == "holds", found.sentence()
+
+
+def test_stage_times_frozen_at_the_beginning_of_the_step_give_order_one(
+    spin: tuple[Problem, Reference],
+) -> None:
+    scene, end = spin
+    compiled = compile_method(scene, "rkmk(2):rk4")
+    frozen = tuple(
+        replace(s, operation=replace(s.operation, coefficient=Coefficient(Number.rational(0))))
+        if isinstance(s, Assign) and isinstance(s.operation, Advance)
+        else s
+        for s in compiled.program.body
+    )
+    fraud = Interpreted(replace(compiled, program=replace(compiled.program, body=frozen)))
+    found = converge(fraud, CertifiedOrder(4, "exact"), end)
+    assert found.verdict == "fails"
+    assert replace(found, stated=CertifiedOrder(1, "exact")).verdict == "holds", found.sentence()
+
+
+def test_a_run_that_fails_is_left_out_with_its_reason(exact: Exact) -> None:
+    # A step of 1/2 is too long for the fixed-point iteration.
+    found = measure(exact, "dipole", "vcg:triple_jump", 4, steps=(1, 20, 40, 80, 160))
+    assert re.search("did not converge|not finite", found.refinement.runs[0].excluded)
+    assert found.verdict == "holds", found.sentence()

@@ -1,0 +1,253 @@
+"""The page: whole, self-contained, and the same each time but for its times."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from html.parser import HTMLParser
+
+import pytest
+
+from codegen.errors import MethodError
+from codegen.lab import subject as subjects
+from codegen.lab.efficiency import emitted_candidate, peer_candidate
+from codegen.lab.efficiency.requirements import NEEDS
+from codegen.lab.measurements.orders import Orders, agreement
+from codegen.lab.measurements.stability import StabilityTests
+from codegen.lab.orders import order_study
+from codegen.lab.page.documents import page_name, render, render_overview
+from codegen.lab.registry import selected
+from codegen.lab.scene_results import Measured, SceneResults, measure_scene
+from codegen.lab.stability.endurance import Endurance
+from codegen.lab.stability.extreme_steps import SILENT, WRONG
+from codegen.lab.stability.order_reduction import OrderReduction
+from codegen.lab.subject import QUICK, Effort, MethodResults, subject
+from codegen.lab.timing import Timing
+from codegen.scenes import load
+
+
+def part(results: SceneResults, kind):
+    """Return the result of a measurement."""
+    return next(m.result for m in results.measured if isinstance(m.measurement, kind))
+
+
+def with_part(results: SceneResults, kind, *found) -> SceneResults:
+    """Return results with other findings of a measurement."""
+
+    def changed(m: Measured) -> Measured:
+        return replace(m, result=MethodResults(found)) if isinstance(m.measurement, kind) else m
+
+    return replace(results, measured=tuple(map(changed, results.measured)))
+
+
+VOID = {"meta", "br", "hr", "img", "link"}
+
+
+class Balanced(HTMLParser):
+    """Fails on a tag that is closed wrongly; collects tags and attributes."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.seen: list[tuple[str, dict[str, str | None]]] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.seen.append((tag, dict(attrs)))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.seen.append((tag, dict(attrs)))
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+
+SHORT = Effort(1.0, ("c-rk4-projected",), 1000, back=True, rounding=True, stiff=False, endurance=False)
+
+
+@pytest.fixture(scope="module")
+def found() -> SceneResults:
+    told: list[str] = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(order_study, "timings", lambda run, steps: tuple(Timing(n, n * 1e-7) for n in steps))
+        for module in (emitted_candidate, peer_candidate):
+            patch.setattr(module, "samples", lambda call: (1e-4, 2e-4))
+        methods = ("cg:cg3", "cf:cf4")
+        planned = subject("free_rigid_body", load("free_rigid_body"), methods, effort=SHORT)
+        result = measure_scene(replace(planned, progress=told.append), selected(()))
+    assert "free_rigid_body, cf:cf4: convergence" in told
+    return result
+
+
+@pytest.fixture(scope="module")
+def overview(found: SceneResults) -> str:
+    return render_overview([found], "orderconds report free_rigid_body -o DIR")
+
+
+@pytest.fixture(scope="module", params=["scene", "overview"])
+def document(request: pytest.FixtureRequest, page: str, overview: str) -> str:
+    return page if request.param == "scene" else overview
+
+
+@pytest.fixture(scope="module")
+def page(found: SceneResults) -> str:
+    return render(found, "orderconds report free_rigid_body -o DIR")
+
+
+def test_every_tag_is_closed(document: str) -> None:
+    parser = Balanced()
+    parser.feed(document)
+    assert parser.open == []
+
+
+def test_nothing_is_fetched(document: str) -> None:
+    parser = Balanced()
+    parser.feed(document)
+    for tag, attributes in parser.seen:
+        assert tag not in {"script", "link", "img", "iframe"}
+        for name in ("src", "xlink:href"):
+            assert (attributes.get(name) or "#").startswith("#")
+        assert re.fullmatch(r"#\w+|free_rigid_body\.html|index\.html", attributes.get("href") or "#top")
+    assert "@import" not in document
+    assert "url(http" not in document
+
+
+def test_every_link_within_the_page_has_its_target(document: str) -> None:
+    targets = set(re.findall(r' id="([^"]+)"', document))
+    assert set(re.findall(r'href="#([^"]+)"', document)) <= targets
+    assert set(re.findall(r"url\(#([^)]+)\)", document)) <= targets
+
+
+def test_the_page_shows_orders_conditions_residuals_and_what_was_left_out(page: str) -> None:
+    for text in (
+        "cg:cg3",
+        "computed order",
+        "exact",
+        "holds",
+        "<i>a</i><sub>ij</sub> <i>c</i><sub>j</sub> = 1/6",
+        "−1/24",
+        "equation solving: every stage is explicit here",
+        "orderconds emit free_rigid_body --method cg:cg3 --target c",
+        "orderconds report free_rigid_body -m cg:cg3 -m cf:cf4 --only orders -o DIR",
+        "orderconds report free_rigid_body -m cg:cg3 -m cf:cf4 --only long -o DIR",
+        "orderconds bench free_rigid_body -m cg:cg3 -m cf:cf4 -a c-rk4-projected --budget 1 -o DIR",
+        "largest deviation of energy",
+        "compensated",
+        "momentum times 1e+75",
+        "prefers-color-scheme: dark",
+        'name="viewport"',
+    ):
+        assert text in page
+
+
+@pytest.mark.parametrize(("spread", "said"), [(None, "no run"), (0.0, "bit for bit"), (2e-16, "2 · 10⁻¹⁶")])
+def test_agreement_is_said_in_words(spread: float | None, said: str) -> None:
+    assert agreement(spread).replace(".0", "") == said
+
+
+def test_the_executors_agree_to_rounding(found: SceneResults) -> None:
+    assert all(m.spread is not None and m.spread < 1e-14 for m in part(found, Orders).measured)
+
+
+def test_the_page_is_the_same_when_the_times_are(page: str, found: SceneResults) -> None:
+    assert render(found, "orderconds report free_rigid_body -o DIR") == page
+
+
+def test_text_of_a_scene_cannot_become_markup(found: SceneResults) -> None:
+    wild = replace(found.scene, title="<script>alert(1)</script> & (x)")
+    spoilt = replace(found, subject=replace(found.subject, scene=wild))
+    assert "<script" not in render(spoilt, "x") + render_overview([spoilt], "x")
+
+
+def test_the_overview_links_to_the_page_and_names_each_requirement(
+    overview: str, found: SceneResults
+) -> None:
+    assert f'<a href="{page_name(found)}">' in overview
+    for need in NEEDS:
+        assert need.name in overview
+    assert re.findall(r"No method on this[^<]*", overview) == [
+        "No method on this page meets: symplectic, adaptive."
+    ]
+
+
+def test_a_part_that_was_not_asked_for_has_no_section(found: SceneResults) -> None:
+    only = replace(found, measured=tuple(m for m in found.measured if m.name == "orders"))
+    short = render(only, "x")
+    assert '<section id="orders">' in short
+    for part in ("advice", "cost", "stability", "long"):
+        assert f'id="{part}"' not in short
+        assert f'href="#{part}"' not in short
+
+
+def test_stiff_variants_endurance_and_wrong_results_are_shown(found: SceneResults) -> None:
+    (one, *others) = part(found, StabilityTests).measured
+    spin = OrderReduction("stiff spin", 2e3, 4, ((0.1, 1e-2, ""),), 2.0, "order reduction 4 to 2.0")
+    ended = Endurance("forward", 10_000_000, 1e-12, None)
+    answers = one.findings.answers
+    bad = replace(answers[0], verdict=f"{WRONG}: a result that is not finite")
+    findings = replace(
+        one.findings, stiff=(spin,), endurance=(ended,), notes=("no reference",), answers=(bad, *answers[1:])
+    )
+    page = render(with_part(found, StabilityTests, replace(one, findings=findings), *others), "x")
+    for text in ("<dt>stiff spin</dt>", "order reduction 4 to 2.0", "10000000 steps", "no reference"):
+        assert text in page
+    assert '<td class="num fails">1</td>' in page
+    assert '<td class="num fails">1</td>' not in render(found, "x")
+
+
+def test_an_undetermined_result_is_shown_and_fails_only_the_stability_command(found: SceneResults) -> None:
+    (one, *others) = part(found, StabilityTests).measured
+    answers = one.findings.answers
+    findings = replace(one.findings, answers=(replace(answers[0], verdict=SILENT), *answers[1:]))
+    lost = replace(one, findings=findings)
+    assert lost.honest
+    assert not lost.held
+    results = with_part(found, StabilityTests, lost, *others)
+    assert results.held == found.held
+    assert " + 1 undetermined" in render(results, "x")
+
+
+def test_a_method_that_fails_is_a_row_with_the_reason_and_the_others_are_measured(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    compile_method = subjects.compile_method
+
+    def refuse(scene, method):
+        if method.label == "cf:cf4":
+            raise MethodError("no lowering <here>")
+        return compile_method(scene, method)
+
+    monkeypatch.setattr(subjects, "compile_method", refuse)
+    planned = subject("free_rigid_body", load("free_rigid_body"), ("cf:cf4", "cg:cg3"), effort=QUICK)
+    results = measure_scene(planned, selected(()))
+    assert not results.held
+    page = render(results, "x")
+    for name in ("orders", "cost", "stability", "long"):
+        section = page.partition(f'<section id="{name}">')[2].partition("</section>")[0]
+        assert "cf:cf4" in section
+        assert "no lowering &lt;here&gt;" in section
+        assert "cg:cg3" in section
+    found = results.as_json()
+    for key in ("methods", "stability", "longruns"):
+        assert [(m["method"], m.get("failure") or "") for m in found[key]] == [
+            ("cg:cg3", ""),
+            ("cf:cf4", "no lowering <here>"),
+        ]
+    assert ("cf:cf4", "no lowering <here>") in [(r["method"], r["failure"]) for r in found["cost"]]
+
+
+def test_a_measurement_that_fails_does_not_hide_the_others(
+    found: SceneResults, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(self, subject):
+        raise MethodError("no orders today")
+
+    monkeypatch.setattr(Orders, "run", fail)
+    planned = subject("free_rigid_body", load("free_rigid_body"), ("cg:cg3",), effort=QUICK)
+    results = measure_scene(planned, selected(("orders", "long")))
+    page = render(results, "x")
+    assert "no orders today" in page
+    assert '<section id="long">' in page
+    assert results.as_json()["methods"] == {"failure": "no orders today"}
+    assert not results.held

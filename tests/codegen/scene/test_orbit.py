@@ -1,0 +1,62 @@
+"""Sample points of a problem: on the manifold, where the field is finite, and what vanishes there."""
+
+from __future__ import annotations
+
+import pytest
+from sympy import Matrix, log, symbols
+
+from codegen.errors import SceneError
+from codegen.groups import LeftMultiplication, Rn
+from codegen.ir.number import Number
+from codegen.scene import FieldScene
+from codegen.scene.orbit import POINTS, orbit_of
+from tests.strategies import field_scene, hamiltonian_scene
+
+y = Matrix(symbols("y0:2", real=True))
+
+
+def plane(f, y0=(1, 0)):
+    return FieldScene(group=Rn(2), action=LeftMultiplication(), y=y, f=f, y0=y0, span=(0, 1))
+
+
+@pytest.mark.parametrize("problem", [hamiltonian_scene("SO(3)"), field_scene("SL(2)"), field_scene("S^3")])
+def test_the_points_are_on_the_manifold(problem):
+    orbit = orbit_of(problem)
+    assert len(orbit.points) == POINTS
+    if isinstance(orbit.action, LeftMultiplication):
+        for point in orbit.points:
+            state = tuple(point[s] for s in orbit.symbols)
+            for _, defect in orbit.group.laws(orbit.domain, state):
+                assert orbit.sized(defect, (1,))
+    distinct = {tuple(str(point[s]) for s in orbit.symbols) for point in orbit.points}
+    assert len(distinct) == POINTS
+
+
+def test_formulas_that_vanish_on_the_group_alone_vanish():
+    problem = hamiltonian_scene("SO(3)")
+    orbit, space = orbit_of(problem), problem.hamiltonian.space
+    column = [space.sym(f"q{i}0") for i in range(3)]
+    gram = column[0] * column[0] + column[1] * column[1] + column[2] * column[2] - 1
+    assert orbit.vanish([gram])
+    assert not orbit.vanish([gram, column[0]])
+    assert not orbit.vanish([gram + space.const(Number.rational(1, 10**19))])
+
+
+def test_points_where_the_field_is_not_finite_are_left_out():
+    problem = plane([log(y[0] - y[0] ** 2 * 99 / 100), 0])
+    orbit = orbit_of(problem)
+    assert 1 <= len(orbit.points) < POINTS
+
+
+def test_a_formula_without_a_value_does_not_vanish():
+    problem = plane([y[1], 0])
+    space, orbit = problem.roots[0].space, orbit_of(problem)
+    a, b = space.sym("y0"), space.sym("y1")
+    zero = (a + b) * (a + b) - a * a - 2 * (a * b) - b * b
+    assert orbit.vanish([zero])
+    assert not orbit.vanish([zero / (a - 1)])  # the initial state has a = 1
+
+
+def test_a_start_where_the_field_is_not_finite_is_refused():
+    with pytest.raises(SceneError, match="f at the initial state is no finite real number"):
+        plane([log(y[1]), 0])
