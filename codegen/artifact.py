@@ -1,21 +1,25 @@
 """An emitted module: its files and its manifest entry, and the folder they are written to and read from.
 
-A folder's ``manifest.json`` lists its modules, one a (module, target). Files take their final names only
-when they are whole, the manifest last, so that an interrupted write leaves the folder as it was or complete.
+A folder's ``manifest.json`` lists its modules, one a (module, target), with the digest of each file. Files
+take their final names only when they are whole, the manifest last: a write that is killed between two files
+leaves a folder in which the digests show it, and the same write repairs it. One process at a time writes to
+a folder.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
-import os
-import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from codegen.folder_lock import locked
 from orderconds.errors import InputError
+from orderconds.input_file import MAX_WRITTEN_BYTES, content_of, reason
+from orderconds.output_file import is_temporary, write_files
 
 MANIFEST = "manifest.json"
 
@@ -35,20 +39,50 @@ class Artifact:
     def write(self, directory: str | Path) -> list[Path]:
         """Write files and manifest into a folder, made where missing; return their paths.
 
-        Other modules of the folder stay. An InputError where the folder cannot be written to.
+        Other modules of the folder stay. An InputError where the folder cannot be written to, or another
+        method has the names of these files.
         """
         folder = Path(directory)
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            entries = [e for e in entries_of(folder) if (e["module"], e["target"]) != self.key]
-            texts = dict(self.files) | {MANIFEST: manifest_text([*entries, dict(self.manifest)])}
-            return write_texts({folder / name: text for name, text in texts.items()})
+            with writing(folder):
+                entries = entries_of(folder)
+                for entry in entries:
+                    self._refuse_clash(entry, folder)
+                others = [e for e in entries if (e["module"], e["target"]) != self.key]
+                texts = dict(self.files) | {MANIFEST: manifest_text([*others, dict(self.manifest)])}
+                return write_texts({folder / name: text for name, text in texts.items()})
         except OSError as error:
             raise InputError(
-                f"cannot write there: {error.strerror}",
+                f"cannot write there: {reason(error)}",
                 where=str(folder),
                 expected="a folder that can be written to",
             ) from None
+
+    def _refuse_clash(self, entry: Mapping[str, Any], folder: Path) -> None:
+        """Raise an InputError where an entry's files would be overwritten by those of another method.
+
+        The default names of ``a.b`` and ``a-b`` are the same. A prefix that the user chose may be used again.
+        """
+        mine, theirs = (tuple(x.get(key) for key in ("scene", "method")) for x in (self.manifest, entry))
+        chosen = any("--prefix" in str(x.get("command", "")).split() for x in (self.manifest, entry))
+        if (entry["module"], entry["target"]) == self.key and mine != theirs and not chosen:
+            raise InputError(
+                f"{theirs[1]} on {theirs[0]} and {mine[1]} on {mine[0]} have one module name, {self.key[0]}",
+                where=str(folder),
+                hint="choose another name with --prefix NAME, or another folder with -o DIR",
+            )
+
+
+@contextmanager
+def writing(folder: Path) -> Iterator[None]:
+    """Be the only writer in a folder, and remove what writers that were killed have left there."""
+    with locked(folder) as held:
+        if held:  # else a temporary file may be another writer's
+            for path in folder.iterdir():
+                if is_temporary(path.name):
+                    path.unlink(missing_ok=True)
+        yield
 
 
 def digest(text: str) -> str:
@@ -66,19 +100,25 @@ def entries_of(folder: Path) -> list[dict[str, Any]]:
     """Return the entries of a folder's manifest, none where there is no manifest."""
     path = folder / MANIFEST
     try:
-        entries = json.loads(path.read_text(encoding="utf-8"))["modules"]
-        if not all({"module", "target", "files"} <= entry.keys() for entry in entries):
+        entries = json.loads(content_of(path, limit=MAX_WRITTEN_BYTES))["modules"]
+        if not all(map(_is_entry, entries)):
             raise KeyError("module")
     except FileNotFoundError:
         return []
     except OSError as problem:
-        reason = (problem.strerror or "unreadable").lower()
-        raise InputError(reason, where=str(path), expected="the file that emit wrote") from None
-    except (ValueError, KeyError, TypeError, AttributeError):
+        raise InputError(reason(problem), where=str(path), expected="the file that emit wrote") from None
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise InputError(
             "this is not a manifest", where=str(path), expected="the file that emit wrote", hint="remove it"
         ) from None
     return list(entries)
+
+
+def _is_entry(entry: Mapping[str, Any]) -> bool:
+    """Return whether an entry has what every reader of a manifest needs, of the right types."""
+    files = entry["files"]
+    plain = [entry["module"], entry["target"], *files, *files.values()]
+    return all(isinstance(x, str) for x in plain) and not any("/" in name or "\\" in name for name in files)
 
 
 def read(directory: str | Path, module: str = "", target: str = "") -> Artifact:
@@ -87,51 +127,44 @@ def read(directory: str | Path, module: str = "", target: str = "") -> Artifact:
     InputError: no such module, more than one, a file that is missing or not as it was emitted.
     """
     folder = Path(directory)
-    entries = entries_of(folder)
-    found = [e for e in entries if module in ("", e["module"]) and target in ("", e["target"])]
-    if len(found) != 1:
+    try:
+        with locked(folder, shared=True):
+            return _read(folder, entries_of(folder), module, target)
+    except OSError:  # no folder, or none that can be opened; its manifest tells why
+        return _read(folder, entries_of(folder), module, target)
+
+
+def _read(folder: Path, entries: list[dict[str, Any]], module: str, target: str) -> Artifact:
+    chosen = [e for e in entries if module in ("", e["module"]) and target in ("", e["target"])]
+    if len(chosen) != 1:
         known = ", ".join(f"{e['module']} ({e['target']})" for e in entries)
         raise InputError(
-            f"{len(found)} modules answer to {module or 'any name'} ({target or 'any target'})",
+            f"{len(chosen)} modules answer to {module or 'any name'} ({target or 'any target'})",
             where=str(folder),
             expected=f"one of {known}" if known else "a folder that emit wrote",
         )
     files: dict[str, str] = {}
-    for name, sha256 in found[0]["files"].items():
-        path = folder / name
-        files[name] = path.read_text(encoding="utf-8") if path.is_file() else ""
-        if digest(files[name]) != sha256:
-            what = "was changed" if path.is_file() else "is missing"
-            raise InputError(
-                f"{name} {what} since it was emitted", where=str(folder), hint=f"type: {found[0]['command']}"
-            )
-    return Artifact(files, found[0])
+    for name, sha256 in chosen[0]["files"].items():
+        try:
+            content = content_of(folder / name, limit=MAX_WRITTEN_BYTES)
+        except OSError as problem:
+            missing = isinstance(problem, FileNotFoundError)
+            what = "is missing" if missing else f"cannot be read ({reason(problem)})"
+        else:
+            files[name] = content.decode(errors="replace")
+            what = "" if hashlib.sha256(content).hexdigest() == sha256 else "was changed"
+        if what:
+            hint = f"type: {chosen[0].get('command', 'orderconds emit')}"
+            raise InputError(f"{name} {what} since it was emitted", where=str(folder), hint=hint)
+    return Artifact(files, chosen[0])
 
 
 def write_text(path: Path, text: str) -> Path:
-    """Write a file under a temporary name, then give it its own; return its path."""
+    """Write a file whole or not at all; return its path."""
     return write_texts({path: text})[0]
 
 
 def write_texts(texts: Mapping[Path, str]) -> list[Path]:
-    """Write files under temporary names, and when all are written give them their own; return their paths."""
-    written: dict[Path, str] = {}
-    try:
-        for path, text in texts.items():
-            handle, written[path] = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-            with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
-                stream.write(text)
-            os.chmod(written[path], 0o666 & ~_umask())
-        for path, temporary in written.items():
-            os.replace(temporary, path)
-    except BaseException:
-        for temporary in written.values():
-            Path(temporary).unlink(missing_ok=True)
-        raise
+    """Write files whole or not at all, in the order given; return their paths."""
+    write_files({path: text.encode() for path, text in texts.items()})
     return list(texts)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

@@ -1,25 +1,30 @@
 """Compile emitted C to a shared object, once: results are kept by content and compiler identity.
 
-Nothing half built ever carries its final name: the compiler writes into a directory of its own inside the
-cache, and ``os.replace`` puts the finished file in place, so that two processes may build the same thing.
+Nothing half built ever carries its final name: the compiler writes into a folder of its own inside the
+cache, and the finished file is renamed (:mod:`codegen.cache_entry`); two processes may build the same thing.
 """
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import os
 import shlex
 import shutil
 import subprocess
 import sys
-import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from codegen.cache_entry import cache_directory, keep, recall, temporary_directory, working_directory
 from codegen.printers.c.module import FLAGS
 from orderconds.errors import InputError
+from orderconds.input_file import reason
+
+UNWRITABLE = (errno.EACCES, errno.EPERM, errno.EROFS)
+"""Errors of a cache that this process cannot write to; a temporary folder serves instead."""
 
 
 class CompilerMissing(InputError):
@@ -58,9 +63,9 @@ def _find(named: str, path: str) -> Compiler:
         if shutil.which(words[0], path=path):
             return _identify(tuple(words))
     where = "$CC" if named.strip() else "PATH"
-    found = f"{candidates[0][0]} is not there" if named.strip() else "no C compiler"
+    message = f"{candidates[0][0]} is not there" if named.strip() else "no C compiler"
     raise CompilerMissing(
-        found, where=where, expected="cc, gcc or clang", hint="install one, or set CC to its command"
+        message, where=where, expected="cc, gcc or clang", hint="install one, or set CC to its command"
     )
 
 
@@ -76,37 +81,39 @@ def _identify(command: tuple[str, ...]) -> Compiler:
     return Compiler(command, answer.stdout.partition("\n")[0].strip())
 
 
-def cache_directory() -> Path:
-    """Return where shared objects are kept: $XDG_CACHE_HOME/orderconds, else ~/.cache/orderconds."""
-    base = os.environ.get("XDG_CACHE_HOME", "")
-    return (Path(base) if os.path.isabs(base) else Path.home() / ".cache") / "orderconds"
+def build(
+    files: Mapping[str, str],
+    flags: tuple[str, ...] = FLAGS,
+    compiler: Compiler | None = None,
+    *,
+    again: bool = False,
+) -> Path:
+    """Return the path of a shared object made of C files (name -> text).
 
-
-def build(files: Mapping[str, str], flags: tuple[str, ...] = FLAGS, compiler: Compiler | None = None) -> Path:
-    """Return the path of a shared object made of C files (name -> text); built only when it is not cached.
-
-    Errors: CompilerMissing, CompileError.
+    One in the cache is taken if its content has the digest that was recorded for it; ``again`` builds it in
+    any case. Errors: CompilerMissing, CompileError, InputError where the result cannot be written.
     """
     compiler = compiler or find_compiler()
     suffix = ".dylib" if sys.platform == "darwin" else ".so"
     name = next(n for n in sorted(files) if n.endswith(".c")).removesuffix(".c")
     key = hashlib.sha256(repr((compiler, flags, sys.platform, sorted(files.items()))).encode()).hexdigest()
-    directory = cache_directory()
-    target = directory / f"{name}-{key[:24]}{suffix}"
-    if target.exists():
-        return target
-    try:
-        directory.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=directory, prefix="building-") as made:
-            compile_files(files, Path(made), Path(made) / "out", (*flags, "-fPIC", "-shared"), compiler)
-            os.replace(Path(made) / "out", target)
-    except OSError as error:
-        raise InputError(
-            f"cannot write there: {error.strerror}",
-            where=str(directory),
-            hint="set XDG_CACHE_HOME to a directory that can be written",
-        ) from None
-    return target
+    file = f"{name[:200]}-{key[:24]}{suffix}"
+    directory, lasting = cache_directory(), True
+    while again or recall(directory / file) is None:
+        try:
+            with working_directory(directory) as folder:
+                compile_files(files, folder, folder / "out", (*flags, "-fPIC", "-shared"), compiler)
+                keep(directory / file, (folder / "out").read_bytes())
+            break
+        except OSError as error:
+            if error.errno not in UNWRITABLE or not lasting:
+                raise InputError(
+                    f"cannot write there: {reason(error)}",
+                    where=str(directory),
+                    hint="free some space, or set XDG_CACHE_HOME to another folder",
+                ) from None
+            directory, lasting = temporary_directory(f"{directory}: {reason(error)}"), False
+    return directory / file
 
 
 def compile_files(
@@ -118,9 +125,24 @@ def compile_files(
     sources = [name for name in sorted(files) if name.endswith(".c")]
     libraries = () if "-c" in flags else ("-lm",)
     command = [*compiler.command, *flags, "-o", str(output), *sources, *libraries]
-    answer = subprocess.run(
-        command, cwd=directory, capture_output=True, text=True, errors="replace", check=False
-    )
+    environment = {
+        **os.environ,
+        "TMPDIR": str(directory),
+    }  # files of a compiler that is killed go with the rest
+    try:
+        answer = subprocess.run(
+            command,
+            cwd=directory,
+            env=environment,
+            capture_output=True,
+            text=True,
+            errors="replace",
+            check=False,
+        )
+    except FileNotFoundError:
+        raise CompilerMissing(
+            f"{compiler.command[0]} is no longer there", where="$CC", hint="set CC to a C compiler"
+        ) from None
     if answer.returncode or not output.exists():
         words = (answer.stderr or answer.stdout).strip()
         did = f"refused it (status {answer.returncode})" if answer.returncode else "wrote nothing"

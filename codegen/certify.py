@@ -9,11 +9,15 @@ from codegen.errors import MethodError
 from codegen.lower import lowering, names
 from codegen.method import Method
 from codegen.scene.problem import Problem
+from orderconds.tableau.uncertainty import uncertainty
 
 if TYPE_CHECKING:
     from orderconds.checking import FamilyOrder
     from orderconds.checking.residuals import Failure
     from orderconds.families import Family
+
+DOUBLE_BITS = 53
+"""A double has this many bits: rounding moves a number by at most its 2^-53th part."""
 
 
 @dataclass(frozen=True)
@@ -21,7 +25,8 @@ class CertifiedOrder:
     """An order with how it is known, and the conditions of the next order that fail.
 
     ``bound`` says that the search ended before a condition failed; ``classical`` names the family that the
-    method is on an abelian group, where the order was found for that one.
+    method is on an abelian group, where the order was found for that one. ``radius`` says how far the
+    coefficients are known, where that is less than a double holds: then there is no certificate.
     """
 
     order: int
@@ -29,6 +34,7 @@ class CertifiedOrder:
     bound: bool = False
     failing: tuple[Failure, ...] = ()
     classical: str = ""
+    radius: str = ""
 
     def text(self) -> str:
         """Say it in words."""
@@ -36,6 +42,7 @@ class CertifiedOrder:
             "exact": "every order condition up to it is zero in exact arithmetic",
             "ball": "interval arithmetic proves a method of this order within the last digit of the decimals",
             "decimal": "what the printed digits of the coefficients support",
+            "none": f"the coefficients are known to {self.radius} only, less than double precision",
         }
         least = "at least " if self.bound else ""
         explained = f" ({how[self.certificate]})" if self.certificate in how else ""
@@ -63,15 +70,17 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
     if classical is not None:
         (order,) = check(method.tableau, family=classical).orders
         if order.decided:
-            return _certified(order, classical)
+            return _certified(method, order, classical)
     order = lowering(method.family).order(method, scene)
     if not order.decided:
         raise MethodError(
             f"the order of {method.label} is undecided beyond {order.order}",
             expected="coefficients with more digits",
         )
-    return _certified(order)
+    return _certified(method, order)
 
 
-def _certified(order: FamilyOrder, classical: str = "") -> CertifiedOrder:
-    return CertifiedOrder(order.order, order.certificate, order.limit is not None, order.failing, classical)
+def _certified(method: Method, order: FamilyOrder, classical: str = "") -> CertifiedOrder:
+    radius = uncertainty(method.tableau, DOUBLE_BITS)
+    certificate = "none" if radius else order.certificate
+    return CertifiedOrder(order.order, certificate, order.limit is not None, order.failing, classical, radius)

@@ -40,7 +40,10 @@ from codegen.scene.run_time import with_inputs, with_runtime
 from orderconds import __version__
 from orderconds.errors import InputError
 
-SINGLE_IS = "single: constants are rounded once, implicit stages settle at its rounding"
+SINGLE_IS = "single: constants are rounded once, implicit stages converge to its rounding"
+
+COUNTED = "; sweeps above are those in double precision"
+"""What a header says where trials were made in another precision."""
 
 SWEEPS = 5
 WEIGHTS = {"div": 4, "sqrt": 5}
@@ -225,7 +228,7 @@ def emit_compiled(
             *((("flows", flows_of(compiled.view)),) if compiled.view.flows else ()),
             *((("substeps", substeps_of(compiled.kernel)),) if compiled.kernel.substeps else ()),
             *(("solved by", choice.text()) for choice in compiled.solvers),
-            *((("precision", SINGLE_IS),) if single else ()),
+            *((("precision", SINGLE_IS + COUNTED * bool(compiled.solvers)),) if single else ()),
             *((("steps", steps_of(compiled.kernel)),) if method.adaptive else ()),
         ),
         initial=start_of(scene),

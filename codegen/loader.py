@@ -17,6 +17,7 @@ from codegen.artifact import Artifact, read
 from codegen.build import build
 from codegen.printers.c.module import prototypes
 from codegen.printers.interface import Interface
+from orderconds.errors import InputError
 
 State = Any
 """A sequence of floats; a numpy array is answered by a numpy array, anything else by a list."""
@@ -259,7 +260,11 @@ class CompiledIntegrator(Integrator):
         self._ffi = FFI()
         self._ffi.cdef(prototypes(interface))
         self._library = self._ffi.dlopen(str(path))
-        self._run = getattr(self._library, f"{interface.prefix}run")
+        try:
+            self._run = getattr(self._library, f"{interface.prefix}run")
+        except AttributeError:
+            self._ffi.dlclose(self._library)  # a library that stays open hides its successor of the same name
+            raise
 
     def _call(
         self, begun: _Begun, t: float, h: float, steps: int, stride: int
@@ -423,13 +428,17 @@ def load(source: Artifact | str | Path, module: str = "", target: str = "") -> I
     from the cache. Errors: CompilerMissing, CompileError, InputError for a folder without such a module.
     """
     emission = source if isinstance(source, Artifact) else read(Path(source), module, target)
-    interface = Interface.from_json(emission.manifest["interface"])
-    defaults = emission.manifest["defaults"]
+    try:
+        interface = Interface.from_json(emission.manifest["interface"])
+        defaults = dict(emission.manifest["defaults"])
+    except (KeyError, TypeError, ValueError, AttributeError):
+        raise InputError(
+            f"the manifest's entry for {emission.key[0]} is not as emit wrote it", hint="emit it again"
+        ) from None
     if emission.manifest["target"] == "c":
-        path = build(emission.files)
         try:
-            return CompiledIntegrator(interface, defaults, path)
-        except OSError:  # a damaged file in the cache; what is built anew and fails again is told
-            path.unlink(missing_ok=True)
             return CompiledIntegrator(interface, defaults, build(emission.files))
+        except (OSError, AttributeError):  # no library, or one without the symbols, with the digest of one
+            pass
+        return CompiledIntegrator(interface, defaults, build(emission.files, again=True))
     return InterpretedIntegrator(interface, defaults, emission.files[f"{interface.module}.py"])

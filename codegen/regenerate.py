@@ -6,10 +6,11 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from codegen.artifact import MANIFEST, Artifact, entries_of, manifest_text, write_text
+from codegen.artifact import MANIFEST, Artifact, entries_of, manifest_text, write_text, writing
 from codegen.emitter import compile_method, emit_compiled
 from orderconds.errors import InputError
-from orderconds.input_file import read_text
+from orderconds.input_file import content_of, read_text, reason
+from orderconds.output_file import is_temporary
 
 LIST = Path(__file__).with_name("regenerate.toml")
 KEYS = ("scene", "method", "targets")
@@ -68,10 +69,10 @@ def contents(listed: list[Entry]) -> dict[str, str]:
     files: dict[str, str] = {}
     manifests: dict[str, list[dict[str, object]]] = {}
     for entry in listed:
-        for emission in entry.emissions():
+        for artifact in entry.emissions():
             folder = Path(entry.scene).stem
-            manifests.setdefault(folder, []).append(dict(emission.manifest))
-            for name, text in emission.files.items():
+            manifests.setdefault(folder, []).append(dict(artifact.manifest))
+            for name, text in artifact.files.items():
                 if files.setdefault(f"{folder}/{name}", text) != text:
                     raise InputError(f"two modules emit the file {name}", where=str(LIST))
     for folder, manifest in manifests.items():
@@ -96,28 +97,35 @@ def compare(directory: Path, files: dict[str, str]) -> list[Difference]:
     there = {p.relative_to(directory).as_posix() for p in directory.rglob("*") if p.is_file()}
     ours = emitted(directory)
     extra = [path for path in sorted(there - files.keys()) if not ignored(path)]
-    found = [Difference(path, "stale" if path in ours else "unknown") for path in extra]
+    differences = [Difference(path, "stale" if path in ours else "unknown") for path in extra]
     for path, text in files.items():
         if path not in there:
-            found.append(Difference(path, "missing"))
-        elif (directory / path).read_bytes() != text.encode():
-            found.append(Difference(path, "different"))
-    return sorted(found, key=lambda d: d.path)
+            differences.append(Difference(path, "missing"))
+        elif not _holds(directory / path, text.encode()):
+            differences.append(Difference(path, "different"))
+    return sorted(differences, key=lambda d: d.path)
+
+
+def _holds(path: Path, content: bytes) -> bool:
+    try:
+        return content_of(path, limit=len(content)) == content
+    except OSError:  # larger, for example
+        return False
 
 
 def emitted(directory: Path) -> set[str]:
     """Return the paths of emitted files according to the manifests, including the manifests."""
-    found: set[str] = set()
+    paths: set[str] = set()
     for manifest in directory.glob(f"*/{MANIFEST}"):
         folder = manifest.parent.name
         names = [name for entry in entries_of(manifest.parent) for name in entry["files"]]
-        found.update(f"{folder}/{name}" for name in (*names, MANIFEST))
-    return found
+        paths.update(f"{folder}/{name}" for name in (*names, MANIFEST))
+    return paths
 
 
 def ignored(path: str) -> bool:
-    """Whether a file is a by-product of running an emitted module."""
-    return "__pycache__" in path.split("/")
+    """Return whether a file is a by-product: of running an emitted module, or of a write that was killed."""
+    return "__pycache__" in path.split("/") or is_temporary(path.rpartition("/")[2])
 
 
 def write(directory: Path, files: dict[str, str]) -> list[Difference]:
@@ -129,10 +137,11 @@ def write(directory: Path, files: dict[str, str]) -> list[Difference]:
         for difference in last:
             path = directory / difference.path
             if difference.kind == "stale":
-                path.unlink()
+                path.unlink(missing_ok=True)
             elif difference.kind != "unknown":
                 path.parent.mkdir(parents=True, exist_ok=True)
-                write_text(path, files[difference.path])
+                with writing(path.parent):
+                    write_text(path, files[difference.path])
     except OSError as error:
-        raise InputError(f"cannot write there: {error.strerror}", where=str(directory)) from None
+        raise InputError(f"cannot write there: {reason(error)}", where=str(directory)) from None
     return changed

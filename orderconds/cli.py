@@ -21,7 +21,6 @@ import click
 from orderconds import __version__
 from orderconds.errors import InputError, UnknownName
 from orderconds.exit_status import Run, catch_signals, current_run, past_click
-from orderconds.processes import terminate_children
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
@@ -106,10 +105,10 @@ class Program(click.Group):
                 expected=f"one of {', '.join(names)}",
                 hint=f"type: orderconds {close[0] if close else '--help'}",
             )
-        found = super().resolve_command(ctx, args)
-        if found[1] is not None:
-            _refuse_repetition(found[1], click.Context(found[1], parent=ctx, info_name=name), args[1:])
-        return found
+        resolved = super().resolve_command(ctx, args)
+        if resolved[1] is not None:
+            _refuse_repetition(resolved[1], click.Context(resolved[1], parent=ctx, info_name=name), args[1:])
+        return resolved
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """List all commands with one line each; one that cannot be loaded says so."""
@@ -158,7 +157,6 @@ class Program(click.Group):
             raise
         except BaseException as error:
             status = run.end(error)
-            terminate_children()
         sys.exit(status)
 
 

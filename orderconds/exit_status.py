@@ -89,7 +89,7 @@ class Run:
         if isinstance(error, BrokenPipeError):
             _silence_stdout()
             return BROKEN_PIPE
-        status, message = _told(error)
+        status, message = _reported(error)
         if status == INTERNAL and self.traceback:
             import traceback
 
@@ -110,7 +110,7 @@ class Run:
                 sys.stdout.flush()
 
 
-def _told(error: BaseException) -> tuple[int, str]:
+def _reported(error: BaseException) -> tuple[int, str]:
     """Return the exit status and the message of an error."""
     match error:
         case InputError():
@@ -129,8 +129,8 @@ def _told(error: BaseException) -> tuple[int, str]:
     text = " ".join(str(error).split())
     shown = text if len(text) <= MAX_TEXT else text[:MAX_TEXT] + " ..."
     return INTERNAL, (
-        f"internal error: {type(error).__name__}{': ' * bool(shown)}{shown}; report it with this command, "
-        "its input and the traceback that ORDERCONDS_TRACEBACK=1 or orderconds --traceback COMMAND shows"
+        f"internal error: {type(error).__name__}{': ' * bool(shown)}{shown}; please report it with this "
+        "command, its input, and the traceback that ORDERCONDS_TRACEBACK=1 shows"
     )
 
 
@@ -148,7 +148,13 @@ def _usage_message(error: click.UsageError) -> str:
 
 @contextlib.contextmanager
 def past_click() -> Iterator[None]:
-    """Take an interrupt and a closed pipe past click to :meth:`Run.end`."""
+    """Take an interrupt and a closed pipe past click to :meth:`Run.end`.
+
+    >>> with past_click():
+    ...     raise KeyboardInterrupt
+    Traceback (most recent call last):
+    orderconds.exit_status.Stopped
+    """
     try:
         yield
     except (KeyboardInterrupt, BrokenPipeError) as cause:
@@ -176,6 +182,10 @@ def catch_signals() -> None:
 
 
 def current_run() -> Run:
-    """Return the run that the present command belongs to; a new one outside a command."""
+    """Return the run that the present command belongs to; a new one outside a command.
+
+    >>> current_run().documents
+    0
+    """
     context = click.get_current_context(silent=True)
     return (context.find_object(Run) if context is not None else None) or Run()

@@ -8,11 +8,15 @@ from __future__ import annotations
 
 import os
 import signal
-import sys
 from collections.abc import Callable, Iterator, Sequence
-from typing import TypeVar
+from contextlib import suppress
+from typing import TYPE_CHECKING, TypeVar
 
 from orderconds.errors import InputError
+
+if TYPE_CHECKING:
+    from multiprocessing.connection import Connection
+    from multiprocessing.process import BaseProcess
 
 Job = TypeVar("Job")
 Result = TypeVar("Result")
@@ -24,50 +28,78 @@ def in_processes(
     """Yield ``work(job)`` for each job, in order.
 
     ``processes`` is the number of worker processes, by default that of the processors. A single job runs in
-    this process. When the iteration ends early, for whatever reason, the workers are terminated. InputError
-    if a worker was killed.
+    this process. When the iteration ends early, for whatever reason, the workers are terminated. Raises what
+    a job raises, and InputError if a worker was killed.
 
     >>> list(in_processes(len, ["one"]))
     [3]
     """
-    workers = min(len(jobs), processes or os.cpu_count() or 1)
-    if workers < 2:
+    count = min(len(jobs), processes or os.cpu_count() or 1)
+    if count < 2:
         yield from map(work, jobs)
         return
-    import multiprocessing
-    from concurrent.futures import ProcessPoolExecutor
-    from concurrent.futures.process import BrokenProcessPool
-
-    others = multiprocessing.active_children()
-    pool = ProcessPoolExecutor(workers, initializer=_start_worker)
+    workers: dict[Connection, BaseProcess] = {}
     try:
-        yield from pool.map(work, jobs)
-    except BrokenProcessPool:
-        raise InputError(
-            "a worker process was killed",
-            expected=f"enough memory for {workers} processes",
-            hint="free some, or ask for less at a time",
-        ) from None
+        for _ in range(count):
+            connection, worker = _start(work)
+            workers[connection] = worker
+        yield from _distribute(list(workers), jobs)
+        for connection in workers:
+            with suppress(ConnectionError):  # a worker that has died since its last answer
+                connection.send(())  # forked processes hold each other's connections, so closing says nothing
     except BaseException:
-        pool.shutdown(wait=False, cancel_futures=True)
-        for child in multiprocessing.active_children():
-            if child not in others:
-                child.terminate()
+        for worker in workers.values():
+            worker.terminate()
         raise
     finally:
-        pool.shutdown(cancel_futures=True)
+        for worker in workers.values():
+            worker.join()
 
 
-def terminate_children() -> None:
-    """Terminate the worker processes of an iteration that nobody has closed; else the exit waits for them."""
-    multiprocessing = sys.modules.get("multiprocessing")
-    if multiprocessing is not None:
-        for child in multiprocessing.active_children():
-            child.terminate()
+def _start(work: Callable[[Job], Result]) -> tuple[Connection, BaseProcess]:
+    import multiprocessing
+
+    ours, theirs = multiprocessing.Pipe()
+    # A daemon is terminated when the interpreter exits, even where nobody closes the iteration.
+    worker = multiprocessing.Process(target=_serve, args=(theirs, work), daemon=True)
+    worker.start()
+    theirs.close()
+    return ours, worker
 
 
-def _start_worker() -> None:
-    """Leave Ctrl-C to the parent, and end when the parent ends, however it does."""
+def _distribute(idle: list[Connection], jobs: Sequence[Job]) -> Iterator[Result]:
+    """Give each idle worker the next job, and yield the results in the order of the jobs."""
+    from multiprocessing import connection
+
+    count, given = len(idle), 0
+    working: dict[Connection, int] = {}
+    results: dict[int, Result] = {}
+    try:
+        for number in range(len(jobs)):
+            while number not in results:
+                while idle and given < len(jobs):
+                    worker = idle.pop()
+                    worker.send((jobs[given],))
+                    working[worker] = given
+                    given += 1
+                for ready in connection.wait(list(working)):
+                    worker = next(w for w in working if w is ready)
+                    result, error = worker.recv()
+                    if error is not None:
+                        raise error
+                    results[working.pop(worker)] = result
+                    idle.append(worker)
+            yield results.pop(number)
+    except (EOFError, ConnectionError):
+        raise InputError(
+            "a worker process was killed",
+            expected=f"enough memory for {count} processes",
+            hint="free some, or ask for less at a time",
+        ) from None
+
+
+def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
+    """Do the jobs that come, each in a tuple, until an empty one comes; leave Ctrl-C to the parent."""
     import threading
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -75,9 +107,31 @@ def _start_worker() -> None:
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), signal.SIG_DFL)
     threading.Thread(target=_follow_parent, daemon=True).start()
+    while job := connection.recv():
+        answer: tuple[Result | None, Exception | None]
+        try:
+            answer = work(*job), None
+        except Exception as error:
+            answer = None, _portable(error)
+        connection.send(answer)
+
+
+def _portable(error: Exception) -> Exception:
+    """Return an error that pickles, with the traceback of this process as a note."""
+    import pickle
+    import traceback
+
+    note = "in a worker process:\n" + traceback.format_exc()
+    try:
+        pickle.loads(pickle.dumps(error))
+    except Exception:
+        error = RuntimeError(f"{type(error).__name__}: {error}")
+    error.add_note(note)
+    return error
 
 
 def _follow_parent() -> None:
+    """End this process when its parent has ended, whatever it is doing."""
     from multiprocessing import connection, parent_process
 
     parent = parent_process()

@@ -94,8 +94,8 @@ class Loop:
 
     ``tolerance``, ``close`` and ``limit`` are numbers of the stopping rule (:mod:`codegen.run.stopping`): the
     largest change, in units of the largest unknown, at which an iteration may stand still; the largest after
-    which a contraction is trusted to finish; the most sweeps. ``read_anew`` says that nothing but the unknowns
-    is read after the loop, so that the last change may be larger.
+    which a contraction is trusted to finish; the most sweeps. ``read_anew`` says that only the unknowns are
+    read after the loop, so that the last change may be larger.
     """
 
     label: str

@@ -18,7 +18,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TypeVar
 
-from codegen.build import cache_directory
+from codegen.cache_entry import cache_directory
 
 T = TypeVar("T")
 
@@ -49,11 +49,11 @@ class MeasurementCache:
         values whose ``repr`` is the same in every process. A folder that cannot be used costs time and
         raises nothing; exceptions of ``measure`` are passed on, and nothing is stored.
         """
-        found = self.find(key, kind)
-        if found is None:
-            found = measure()
-            self.store(key, found)
-        return found
+        result = self.find(key, kind)
+        if result is None:
+            result = measure()
+            self.store(key, result)
+        return result
 
     def find(self, key: Sequence[object], kind: type[T]) -> T | None:
         """Return the stored result of ``key``; None if it is missing, damaged or not of type ``kind``."""
@@ -97,7 +97,7 @@ class MeasurementCache:
 
 
 def user_cache() -> MeasurementCache:
-    """Return the cache of this user, in :func:`codegen.build.cache_directory`."""
+    """Return the cache of this user, in :func:`codegen.cache_entry.cache_directory`."""
     return MeasurementCache(cache_directory() / "measurements")
 
 

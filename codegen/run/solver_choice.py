@@ -1,18 +1,19 @@
 """How each block of equations is solved: by a fixed point, Newton's method or chords, whichever is cheapest.
 
-Newton's method keeps an exact matrix as long as it serves; chords make one, to first order in h, each step. A
-fixed point needs none. Its sweeps gain one power of h each, those of the thesis' (3.19) too, because momenta
-are computed within a sweep; were they unknowns beside the velocities, two sweeps would gain one.
+Newton's method keeps an exact matrix as long as it contracts; chords compute one, to first order in h, in
+each step. A fixed point needs none. Its sweeps gain one power of h each, those of equation (3.19) of H.
+Marthinsen's thesis too, because momenta are computed within a sweep; were they unknowns beside the
+velocities, two sweeps would gain one.
 
-All are tried: the step is printed as Python and makes a few steps from the initial state, of the length that
-the usage example takes. Sweeps and matrices are counted and weighed by their operations. What settles with
-steps :data:`LONGER` times as long too, soon, is preferred: near its limit a method fails at a user's next
-step size.
+All are tried: the executor (:mod:`codegen.run.execute`) makes a few steps from the initial state, of the
+length that the usage example takes. It makes the sweeps and matrices that emitted code makes; these are
+weighed by their operations. A solver that also converges in steps :data:`LONGER` times as long, in few
+sweeps, is preferred: near its limit a method fails at a user's next step size.
 
-Where there are more than :data:`MANY` unknowns, in one block or several, and fixed points find them in
-:data:`FEW` sweeps, these are taken: products with the inverse take most of what the fewer sweeps of Newton's
-method save, or more, and its matrices are longer than the step. Of long steps chords are not tried where
-momenta are compared, which Newton's method serves.
+Where there are more than :data:`MANY` unknowns, in one block or several, a fixed point that needs at most
+:data:`FEW` sweeps is accepted: products with the inverse cost most of what the fewer sweeps of Newton's
+method save, or more, and its matrices are longer than the step. For long steps chords are not tried where
+Newton's method works on residuals and converges.
 """
 
 from __future__ import annotations
@@ -56,6 +57,10 @@ CALL = 15
 
 RELIABLE = {NEWTON: 0.8}
 """How much less a solver must cost: how long a matrix serves depends on where the motion is."""
+
+
+MEASURED = f"counted over the first {STEPS} steps of the example"
+"""What the numbers of a reason are: the executor makes the sweeps of emitted code in these steps."""
 
 
 @dataclass(frozen=True)
@@ -191,7 +196,8 @@ class _Tried:
         """Return the reason for each block where nothing else was tried."""
         part = "substep" if self.kernels[FIXED_POINT].substeps else "step"
         return {
-            loop.label: f"{self._sweeps(FIXED_POINT, k)} a {part}; no matrix of so many unknowns was tried"
+            loop.label: f"{self._sweeps(FIXED_POINT, k)} a {part}; no matrix of so many unknowns was tried; "
+            f"{MEASURED}"
             for k, loop in enumerate(self.kernels[FIXED_POINT].loops)
         }
 
@@ -242,7 +248,7 @@ class _Tried:
             others = [f"{METHODS[s]}: {text}" for s, text in spelled.items() if s != best]
             chosen[loop.label] = best
             part = "substep" if kernels[FIXED_POINT].substeps else "step"
-            reasons[loop.label] = "; ".join([f"{spelled[best]} a {part}", *others])
+            reasons[loop.label] = "; ".join([f"{spelled[best]} a {part}", *others, MEASURED])
         return chosen, reasons
 
     def _sweeps(self, solver: str, k: int) -> str:

@@ -64,6 +64,9 @@ class Term:
     def __sub__(self, other: Operand) -> Term:
         return _arithmetic("-", self, other)
 
+    def __rsub__(self, other: Operand) -> Term:
+        return _arithmetic("-", _term(other, self), self)
+
     def __mul__(self, other: Operand) -> Term:
         return _arithmetic("*", self, other)
 
@@ -72,6 +75,9 @@ class Term:
 
     def __truediv__(self, other: Operand) -> Term:
         return _arithmetic("/", self, other)
+
+    def __rtruediv__(self, other: Operand) -> Term:
+        return _arithmetic("/", _term(other, self), self)
 
     def __floordiv__(self, other: Operand) -> Term:
         return _arithmetic("//", self, other)

@@ -8,7 +8,8 @@
  * solved by:  the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: Newton's method, 12 unknowns
  *             (1.7 sweeps of 1193 operations and 0.20 matrices of 3742 a step; fixed point: 3.0
  *             sweeps of 950 operations; Newton's method with the matrix to first order in h: 2.2
- *             sweeps of 1226 operations and 1.00 matrices of 4064)
+ *             sweeps of 1226 operations and 1.00 matrices of 4064; counted over the first 20 steps
+ *             of the example)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
  * left out:   24 adjoint maps, 5 products, 1 sum: coefficients are zero, or terms cancel

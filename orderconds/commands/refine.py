@@ -44,5 +44,5 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     if as_json:
         screen.print_json({"decimals": found.decimals, "proof": proof.as_json()})
     elif output is None:
-        click.echo(found.text, nl=False)
+        click.echo(found.text.encode(), nl=False)  # a file is UTF-8, whatever the terminal is
     return 0

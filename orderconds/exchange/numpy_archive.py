@@ -119,6 +119,11 @@ def read(content: bytes, where: str) -> Data:
         raise TableauError(str(problem) or "no archive", where=where, expected="an .npz archive") from None
     entries: Arrays = {}
     for name, value in members.items():
+        if not isinstance(value, np.ndarray):
+            raise TableauError(f"{name}: no array", where=where, expected="arrays")
+        if name.endswith(EXACT) and value.dtype.kind != "U":
+            raise TableauError(f"{name}: {value.dtype}", where=where, expected="texts")
+    for name, value in members.items():
         if name.endswith(EXACT):
             continue
         if name in TEXTS:

@@ -8,15 +8,18 @@ nothing. Processes get strings and numbers, and make their own programs.
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager
 from dataclasses import asdict, dataclass, field
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from orderconds.errors import InputError
+from orderconds.input_file import MAX_WRITTEN_BYTES, content_of, reason
+from orderconds.output_file import write_files
+from orderconds.processes import in_processes
+from orderconds.solve.cluster import on_cluster
 from orderconds.solve.least_squares import least_squares, rank
 from orderconds.solve.minimise import minimise
 from orderconds.solve.problem import Problem, find_problem
@@ -134,10 +137,17 @@ class Checkpoint:
         if self.path is None or not self.path.exists():
             return
         try:
-            record = json.loads(self.path.read_text(encoding="utf-8"))
+            record = json.loads(content_of(self.path, limit=MAX_WRITTEN_BYTES, own=True))
             same = record["search"] == self.search.described()
             batches = [Batch.read(x) for x in record["batches"]] if same else []
-        except (OSError, ValueError, KeyError, TypeError):
+        except OSError as problem:
+            raise InputError(
+                f"a checkpoint that cannot be used: {reason(problem)}",
+                where=str(self.path),
+                expected="a file of yours that an interrupted search left",
+                hint="delete it, or name another file",
+            ) from None
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
             raise InputError(
                 "no checkpoint of a search", where=str(self.path), expected="what an interrupted search left"
             ) from None
@@ -175,16 +185,12 @@ def write_whole(path: Path, text: str) -> None:
     ...     (Path(folder) / "x").read_text()
     'text'
     """
-    if path.exists() and not path.is_file():
+    if path.is_symlink() or (path.exists() and not path.is_file()):
         raise InputError("no regular file", where=str(path), expected="a file that can be written")
-    partial = path.with_name(f".{path.name}.partial")
     try:
-        partial.write_text(text, encoding="utf-8")
-        os.replace(partial, path)
+        write_files({path: text.encode()})
     except OSError as problem:
-        partial.unlink(missing_ok=True)
-        reason = (problem.strerror or "unwritable").lower()
-        raise InputError(reason, where=str(path), expected="a file that can be written") from None
+        raise InputError(reason(problem), where=str(path), expected="a file that can be written") from None
 
 
 def batches(
@@ -217,36 +223,8 @@ def _computed(
     rest = numbers[alone:]
     if not rest:
         return
-    import joblib
-
-    jobs = [joblib.delayed(run_batch)(search, number) for number in rest]
-    if cluster is None:
-        yield from joblib.Parallel(n_jobs=processes, return_as="generator", pre_dispatch=processes)(jobs)
-        return
-    with _client(cluster), joblib.parallel_config(backend="dask"):
-        yield from joblib.Parallel(return_as="generator")(jobs)
-
-
-def _client(address: str) -> AbstractContextManager[object]:
-    """Return a client of a dask cluster."""
-    try:
-        from distributed import Client
-    except ImportError:
-        raise InputError(
-            "dask's distributed is not installed",
-            where="--dask",
-            expected="pip install 'orderconds[cluster]'",
-        ) from None
-    try:
-        client: AbstractContextManager[object] = Client(address, timeout=3)
-    except (OSError, ValueError, TimeoutError) as problem:
-        reason = str(problem).splitlines()[0] if str(problem) else type(problem).__name__
-        raise InputError(
-            f"no cluster answers ({reason})",
-            where=f"--dask {address}",
-            expected="tcp://host:port of a scheduler",
-        ) from None
-    return client
+    work = partial(run_batch, search)
+    yield from in_processes(work, rest, processes) if cluster is None else on_cluster(work, rest, cluster)
 
 
 Reported = Callable[[str], object]

@@ -28,11 +28,14 @@ from orderconds.tableau.formats import (
 from orderconds.tableau.grammar import Chain, Constant, Expression, parse
 from orderconds.tableau.properties import PROPERTIES
 from orderconds.tableau.record import Claims, File, OrderClaim, Tableau
+from orderconds.tableau.toml_reader import parse_toml
 from orderconds.tableau.unknowns import Proof, Spelled
 
 MAX_NAME = 64
 KEYS = frozenset(("family", "A", "b", "stage", "update", "low_storage", "gamma", "alpha", "exponents"))
 """A file with one of these keys is meant as a tableau."""
+_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufeff]")
+"""Characters that end lines unseen or change the direction of writing; tab and newline are none."""
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.+-]*")
 _NUMBER = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
@@ -91,7 +94,7 @@ def meant_as_tableau(path: str | Path) -> bool:
     (False, True)
     """
     try:
-        return not KEYS.isdisjoint(tomllib.loads(text_of(path)))
+        return not KEYS.isdisjoint(parse_toml(text_of(path)))
     except (InputError, ValueError, RecursionError):
         return True
 
@@ -103,7 +106,7 @@ def loads(text: str, where: str = "<text>", path: str | None = None) -> Tableau:
     RungeKutta(A=((0,),), b=(1,))
     """
     try:
-        data = tomllib.loads(text)
+        data = parse_toml(text)
     except tomllib.TOMLDecodeError as problem:
         raise TableauError(
             str(problem), where=where, expected="a TOML file in which each key stands once"
@@ -209,6 +212,13 @@ def _verify_names(entry: Format, where: str) -> None:
                 f"a name of {len(name)} characters, {name[:20]!r} ...",
                 where=where,
                 expected=f"at most {MAX_NAME}",
+            )
+    for key in ("source", "bibtex"):
+        if found := _CONTROL.search(getattr(entry, key)):
+            raise TableauError(
+                f"the control character U+{ord(found[0]):04X}",
+                where=f"{where}: {key}",
+                expected="text that reads as it is written",
             )
     if not _NAME.fullmatch(entry.name):
         raise TableauError(

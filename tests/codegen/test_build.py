@@ -2,9 +2,20 @@
 
 from __future__ import annotations
 
+import errno
+import os
+import signal
+import subprocess
+import sys
+
 import pytest
 
-from codegen.build import CompileError, CompilerMissing, build, cache_directory, find_compiler
+from codegen import build as build_module
+from codegen import cache_entry as cache
+from codegen.build import CompileError, CompilerMissing, build, find_compiler
+from codegen.cache_entry import cache_directory
+from codegen.folder_lock import locked
+from codegen.loader import load
 from codegen.printers.c.module import FLAGS
 from orderconds.errors import InputError
 
@@ -52,11 +63,170 @@ def test_a_warning_is_an_error():
         build({"careless.c": "int f(void);\nint f(void)\n{\n    int unused = 1;\n    return 0;\n}\n"})
 
 
-def test_a_cache_that_cannot_be_written_is_bad_input(monkeypatch, tmp_path):
-    (tmp_path / "file").write_text("")
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
-    with pytest.raises(InputError, match=r"cannot write there.*set XDG_CACHE_HOME"):
+@pytest.mark.parametrize("error", [errno.EACCES, errno.EROFS])
+def test_a_cache_that_cannot_be_written_to_is_replaced_by_a_temporary_folder(
+    monkeypatch, tmp_path, caplog, error
+):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    made = cache.tempfile.mkdtemp
+
+    def refuse(*words, dir=None, **options):
+        if dir is not None:
+            raise OSError(error, os.strerror(error))
+        return made(*words, **options)
+
+    monkeypatch.setattr(cache.tempfile, "mkdtemp", refuse)
+    monkeypatch.setattr(build_module, "working_directory", lambda folder: refuse(dir=folder))
+    with pytest.raises(InputError, match="set XDG_CACHE_HOME to another folder"):
+        build(SOURCE)  # the temporary folder as well
+    monkeypatch.undo()
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    inside = cache.working_directory
+
+    def read_only(folder):
+        if folder.is_relative_to(tmp_path):
+            raise OSError(error, os.strerror(error))
+        return inside(folder)
+
+    monkeypatch.setattr(build_module, "working_directory", read_only)
+    first, second = build(SOURCE), build(SOURCE)
+    assert first == second
+    assert first.exists()
+    assert not first.is_relative_to(tmp_path)
+    assert caplog.text.count("the cache cannot be used") == 1
+    assert "set XDG_CACHE_HOME to a folder of yours" in caplog.text
+
+
+def test_a_full_disk_is_bad_input_and_leaves_nothing(monkeypatch, tmp_path):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+
+    def full(*_):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("orderconds.output_file.os.fsync", full)
+    with pytest.raises(InputError, match=r"cannot write there: no space left on device; free some space"):
         build(SOURCE)
+    assert list(cache_directory().iterdir()) == []
+    monkeypatch.undo()
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    assert build(SOURCE).exists()
+
+
+def truncate(path):
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+
+
+def change_a_bit(path):
+    content = bytearray(path.read_bytes())
+    content[len(content) // 2] ^= 1
+    path.write_bytes(bytes(content))
+
+
+def replace_by_text(path):
+    path.write_text("no library")
+
+
+def lose_the_digest(path):
+    path.with_name(path.name + ".sha256").unlink()
+
+
+def link_elsewhere(path):
+    path.rename(path.with_name("elsewhere"))
+    path.symlink_to("elsewhere")
+
+
+@pytest.mark.parametrize("ruin", [truncate, change_a_bit, replace_by_text, lose_the_digest, link_elsewhere])
+def test_a_bad_entry_is_built_again(monkeypatch, tmp_path, ruin):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    path = build(SOURCE)
+    good = path.read_bytes()
+    ruin(path)
+    assert cache.recall(path) is None
+    assert build(SOURCE) == path
+    assert cache.recall(path) == good
+    assert not path.is_symlink()
+
+
+def test_a_library_without_the_symbols_is_built_again_even_with_its_digest(monkeypatch, tmp_path, kernels):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    emission = kernels.emission(kernels.pendulum(), "c")
+    path, other = build(emission.files), build(SOURCE)
+    cache.keep(path, other.read_bytes())
+    python = load(kernels.emission(kernels.pendulum(), "python"))
+    assert load(emission).run([0.5, 0.25], 0.1, 5) == python.run([0.5, 0.25], 0.1, 5)
+    cache.keep(path, b"no library")
+    assert load(emission).run([0.5, 0.25], 0.1, 5) == python.run([0.5, 0.25], 0.1, 5)
+
+
+def test_the_folder_is_the_users_alone(monkeypatch, tmp_path):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    assert build(SOURCE).parent.stat().st_mode & 0o777 == 0o700
+    cache_directory().chmod(0o777)
+    assert cache_directory().stat().st_mode & 0o777 == 0o700
+
+
+def test_the_folder_of_another_user_is_not_used_and_one_warning_says_so(monkeypatch, tmp_path, caplog):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    foreign = build(SOURCE)
+    user = os.geteuid()
+    monkeypatch.setattr(os, "geteuid", lambda: user + 1)
+    found = cache_directory(), cache_directory()
+    assert found[0] == found[1] != foreign.parent
+    assert caplog.text.count("a folder of another user") == 1
+    assert cache.recall(foreign) is None
+
+
+def test_without_a_home_folder_a_temporary_one_serves(monkeypatch, caplog):
+    def nowhere():
+        raise RuntimeError("Could not determine home directory.")
+
+    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
+    monkeypatch.setattr(cache.Path, "home", nowhere)
+    assert build(SOURCE).exists()
+    assert "there is no home folder" in caplog.text
+
+
+def test_what_a_killed_build_leaves_is_removed_by_a_later_one(monkeypatch, tmp_path):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    program = (
+        "import os, signal, sys\nfrom codegen import build\n"
+        "build.keep = lambda *_: os.kill(os.getpid(), signal.SIGKILL)\n"
+        f"build.build({SOURCE!r})\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], check=False)
+    assert done.returncode == -signal.SIGKILL
+    (left,) = cache_directory().iterdir()
+    assert left.name.startswith(cache.WORKING)
+    build({"other.c": SOURCE["answer.c"]})
+    assert left.exists()  # its process might be alive and about to take the lock
+    os.utime(left, (0, 0))
+    with locked(left):
+        path = build(SOURCE)
+        assert left.exists()
+    path.unlink()
+    build(SOURCE)
+    assert not left.exists()
+
+
+def test_two_processes_that_build_the_same_thing_both_have_it(monkeypatch, tmp_path):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    program = (
+        "import ctypes, sys\nfrom codegen.build import build\nsys.stdin.read()\n"
+        f"print(ctypes.CDLL(str(build({SOURCE!r}))).answer())\n"
+    )
+    both = [
+        subprocess.Popen(
+            [sys.executable, "-c", program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        )
+        for _ in range(2)
+    ]
+    for child in both:
+        child.stdin.close()
+    for child in both:
+        assert child.stdout.read() == "42\n"
+        assert child.wait() == 0
+        child.stdout.close()
+    assert len(list(cache_directory().iterdir())) == 2  # the library and its digest
 
 
 def test_a_compiler_that_cannot_be_read_is_bad_input(monkeypatch):

@@ -1,4 +1,4 @@
-"""Exit statuses of errors, interrupts, signals and closed pipes."""
+"""How the program ends: its exit status, one message, and with --json one document."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from click.testing import CliRunner, Result
 
 from orderconds.cli import program
 from orderconds.commands import screen
+from orderconds.tableau import find
 
 posix = pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
 
@@ -167,23 +168,34 @@ def test_a_closed_pipe_ends_every_output_quietly(args: str) -> None:
     assert (done.returncode, done.stderr) == (141, b"")
 
 
-@pytest.mark.parametrize("coercion", ["0", "1"])
-def test_a_locale_without_the_letters_of_a_name_is_no_error(tmp_path: Path, coercion: str) -> None:
-    path = tmp_path / "é.toml"
-    path.write_text('name = "euler"\nfamily = "rk"\nA = [[]]\nb = ["1"]\nsource = "Runge–Kutta é"\n')
-    environment = {
-        **os.environ,
-        "LC_ALL": "C",
-        "LANG": "C",
-        "PYTHONCOERCECLOCALE": coercion,
-        "PYTHONUTF8": coercion,
-    }
-    for words in (
-        ["check", str(path)],
-        ["convert", str(path), "--to", "json"],
-        ["trees", "rooted", "-p", "3"],
-    ):
-        done = subprocess.run(
-            [sys.executable, "-m", "orderconds", *words], env=environment, capture_output=True, check=False
-        )
-        assert (done.returncode, done.stderr) == (0, b"")
+@pytest.mark.parametrize(
+    ("name", "encoding"), [("é.toml", "ascii"), ("é.toml", "utf-8"), (os.fsdecode(b"\xff.toml"), "utf-8")]
+)
+def test_a_terminal_without_the_letters_of_a_name_is_no_error(
+    tmp_path: Path, name: str, encoding: str
+) -> None:
+    try:
+        (tmp_path / name).write_text('name = "euler"\nfamily = "rk"\nA = [[]]\nb = ["1"]\n')
+    except (OSError, UnicodeError):
+        pytest.skip("no name of a file on this system")
+    done = subprocess.run(
+        [sys.executable, "-m", "orderconds", "check", str(tmp_path / name)],
+        env={**os.environ, "PYTHONIOENCODING": encoding},
+        capture_output=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert b"euler: holds" in done.stdout
+
+
+def test_a_file_that_is_printed_is_utf_8_in_every_locale(tmp_path: Path) -> None:
+    text = find("cg4a").read_text(encoding="utf-8")
+    (tmp_path / "cg4a.toml").write_text(text.replace('source = "', 'source = "Müller–'), encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, "-m", "orderconds", "refine", str(tmp_path / "cg4a.toml"), "--digits", "30"],
+        env={**os.environ, "LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0"},
+        capture_output=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert "Müller–" in done.stdout.decode("utf-8")

@@ -16,6 +16,7 @@ from codegen.commands.emit import command as emit
 from codegen.commands.regenerate import command as regenerate
 from codegen.loader import load
 from orderconds.errors import InputError
+from orderconds.output_file import SUFFIX
 
 ROOT = Path(__file__).parents[3]
 
@@ -58,7 +59,7 @@ def test_the_command_in_the_header_makes_the_same_bytes(tmp_path):
 
 def test_explain_tells_what_a_long_step_calls_and_how_often():
     told = run(emit, "dipole", "-m", "cg:cg4a", "--explain")
-    assert "# functions of what the kernel repeats\n  piece_1, 5 calls: field(y1)\n" in told
+    assert "# outlined functions\n  piece_1, 5 calls: field(y1)\n" in told
 
 
 def test_the_header_s_command_quotes_a_file_s_name_and_keeps_the_default_of_an_input(tmp_path, monkeypatch):
@@ -121,7 +122,7 @@ def made(tmp_path):
 
 def test_regenerate_twice_changes_nothing(made):
     _, arguments = made
-    assert run(regenerate, *arguments, "--check").startswith("0 differences, 4 files belong there")
+    assert run(regenerate, *arguments, "--check").startswith("0 differences, 4 files expected")
     assert run(regenerate, *arguments).startswith("0 of 4 files rewritten")
 
 
@@ -138,7 +139,7 @@ def test_regenerate_check_names_what_differs_and_regenerate_mends_it(made, kind)
         run(emit, "dipole", "-m", "vcg:midpoint", "-t", "python", "-o", str(path.parent))
     told = run(regenerate, *arguments, "--check", status=1)
     assert f"{path}: {kind}" in told
-    assert "files belong there; type: orderconds regenerate" in told
+    assert "files expected; type: orderconds regenerate" in told
     record = json.loads(run(regenerate, *arguments, "--check", "--json", status=1))
     assert {"file": path.relative_to(folder).as_posix(), "kind": kind} in record["differences"]
     run(regenerate, *arguments)
@@ -153,6 +154,16 @@ def test_regenerate_never_removes_what_was_not_emitted(made):
     assert f"{letter}: unknown" in run(regenerate, *arguments)
     assert letter.read_text() == "mine"
     assert f"{letter}: unknown" in run(regenerate, *arguments, "--check", status=1)
+
+
+def test_what_a_killed_write_leaves_is_no_difference_and_the_next_write_removes_it(made):
+    folder, arguments = made
+    left = folder / "free_rigid_body" / f".free_rigid_body_cf4.c.k3_x91ab{SUFFIX}"
+    left.write_text("half")
+    assert run(regenerate, *arguments, "--check").startswith("0 differences")
+    (folder / "free_rigid_body" / "free_rigid_body_cf4.c").write_text("old")
+    run(regenerate, *arguments)
+    assert not left.exists()
 
 
 def test_a_list_that_cannot_be_read_is_bad_input(tmp_path):

@@ -9,8 +9,9 @@ from codegen.ir.expr import evaluate, walk
 from codegen.ir.interpret import interpret
 from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Let, Loop, Start
 from codegen.ir.program import Solve
+from codegen.kernel.assignments import INLINE
 from codegen.kernel.outlined_functions import WithFunctions
-from codegen.kernel.translate import INLINE, to_kernel
+from codegen.kernel.translate import to_kernel
 from codegen.passes import optimise
 from orderconds.ring import QQ
 from tests.strategies import field_scene, full, hamiltonian_scene, lowered, starting

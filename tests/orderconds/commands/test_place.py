@@ -45,3 +45,14 @@ def test_what_cannot_be_written_leaves_nothing_behind(tmp_path: Path) -> None:
 def test_a_device_is_written_to() -> None:
     put(os.devnull, b"gone")
     assert Path(os.devnull).is_char_device()
+
+
+def test_a_full_disk_leaves_the_file_as_it_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    (tmp_path / "x").write_bytes(b"before")
+    monkeypatch.setattr("orderconds.output_file.os.fsync", full)
+    with pytest.raises(InputError, match="no space left on device; expected a file that can be written"):
+        put(str(tmp_path / "x"), b"after")
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == {"x": b"before"}

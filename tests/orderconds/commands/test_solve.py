@@ -137,3 +137,25 @@ def test_a_killed_process_resumes_to_the_same_bytes(tmp_path: Path) -> None:
     process.wait()
     subprocess.run([*start, "-o", str(killed)], check=True, capture_output=True)
     assert killed.read_bytes() == whole.read_bytes()
+
+
+def test_two_processes_that_resume_one_search_give_the_file_of_one(tmp_path: Path) -> None:
+    words = [
+        "vcg",
+        "--stages",
+        "3",
+        "--order",
+        "3",
+        "--minimise",
+        "error",
+        "--starts",
+        "192",
+        "--processes",
+        "1",
+    ]
+    start = [sys.executable, "-m", "orderconds", "solve", *words, "-o"]
+    both = [subprocess.Popen([*start, str(tmp_path / "both.toml")], stdout=subprocess.DEVNULL) for _ in "ab"]
+    assert [process.wait() for process in both] == [0, 0]
+    subprocess.run([*start, str(tmp_path / "one.toml")], check=True, capture_output=True)
+    assert (tmp_path / "both.toml").read_bytes() == (tmp_path / "one.toml").read_bytes()
+    assert sorted(os.listdir(tmp_path)) == ["both.toml", "one.toml"]

@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -52,7 +57,6 @@ def test_the_checkpoint_is_used_and_not_computed_again(tmp_path: Path) -> None:
 
 
 def test_two_processes_give_the_same_file_as_one() -> None:
-    pytest.importorskip("joblib")
     alone = solve(ORDER).found
     together = solve(Order("vcg", 3, Spec(3), seed=3, minimised=True, starts=256, processes=2)).found
     assert alone is not None
@@ -62,7 +66,6 @@ def test_two_processes_give_the_same_file_as_one() -> None:
 
 def test_a_dask_cluster_gives_the_same_batches() -> None:
     distributed = pytest.importorskip("distributed")
-    pytest.importorskip("joblib")
     with distributed.LocalCluster(
         n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None
     ) as cluster:
@@ -72,9 +75,78 @@ def test_a_dask_cluster_gives_the_same_batches() -> None:
 
 
 def test_a_cluster_that_does_not_answer_is_named() -> None:
-    pytest.importorskip("joblib")
     with pytest.raises(InputError, match=r"no cluster answers|not installed"):
         list(batches(SEARCH, 2, Checkpoint(None, SEARCH), cluster="tcp://127.0.0.1:1"))
+
+
+def test_an_address_that_needs_certificates_is_bad_input() -> None:
+    pytest.importorskip("distributed")
+    with pytest.raises(InputError, match=r"--dask tls://127.0.0.1:1: no cluster answers.*tcp://host:port"):
+        list(batches(SEARCH, 2, Checkpoint(None, SEARCH), cluster="tls://127.0.0.1:1"))
+
+
+SCHEDULER = """
+import asyncio
+from distributed import Scheduler, Worker
+async def main():
+    async with Scheduler(host="127.0.0.1", port=0, dashboard=False) as scheduler:
+        async with Worker(scheduler.address, nthreads=1):
+            print(scheduler.address, flush=True)
+            await asyncio.sleep(600)
+asyncio.run(main())
+"""
+
+
+def test_a_scheduler_that_dies_is_one_error_and_the_checkpoint_stays(tmp_path: Path) -> None:
+    pytest.importorskip("distributed")
+    words = ["vcg", "--stages", "3", "--order", "3", "--minimise", "error", "--starts", "1000000"]
+    checkpoint = tmp_path / "found.toml.search"
+    with subprocess.Popen(
+        [sys.executable, "-c", SCHEDULER], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+    ) as scheduler:
+        assert scheduler.stdout is not None
+        address = scheduler.stdout.readline().strip()
+        command = [sys.executable, "-m", "orderconds", "solve", *words, "--dask", address]
+        with subprocess.Popen(
+            [*command, "-o", str(tmp_path / "found.toml")], stderr=subprocess.PIPE, text=True
+        ) as search:
+            while search.poll() is None and not checkpoint.exists():
+                time.sleep(0.01)
+            scheduler.kill()
+            _, err = search.communicate(timeout=60)
+    assert search.returncode == 2
+    assert err.startswith(f"orderconds: --dask {address}: the scheduler went away; ")
+    assert err.count("\n") == 1
+    assert checkpoint.exists()
+
+
+@pytest.mark.slow
+def test_the_death_of_a_worker_changes_nothing() -> None:
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+    ) as cluster:
+        found = batches(SEARCH, 40, Checkpoint(None, SEARCH), cluster=cluster.scheduler_address)
+        first = next(found)
+        os.kill(cluster.workers[0].pid, signal.SIGKILL)
+        there = [first, *found]
+    assert there == list(batches(SEARCH, 40, Checkpoint(None, SEARCH)))
+
+
+def test_a_checkpoint_is_not_written_through_a_link_that_foresees_its_name(tmp_path: Path) -> None:
+    victim = tmp_path / "victim"
+    victim.write_text("mine")
+    (tmp_path / ".checkpoint.partial").symlink_to(victim)
+    checkpoint = Checkpoint(tmp_path / "checkpoint", SEARCH)
+    checkpoint.add(Batch(0, 1.0))
+    assert victim.read_text() == "mine"
+    checkpoint.remove()
+    (tmp_path / "checkpoint").symlink_to(victim)
+    with pytest.raises(InputError, match="no regular file"):
+        checkpoint.add(Batch(1, 1.0))
+    with pytest.raises(InputError, match="a checkpoint that cannot be used: not a regular file"):
+        checkpoint.load()
+    assert victim.read_text() == "mine"
 
 
 def test_another_search_does_not_take_over_a_checkpoint(tmp_path: Path) -> None:

@@ -1,0 +1,140 @@
+"""The cache: files that are computed once, each beside a digest of its content.
+
+An entry answers only if it is a regular file of the user and its content has the digest; any other is
+computed again. The folder has mode 0700 and belongs to the user: who can write to it can have code run.
+Where there is no such folder, a temporary one serves until the process ends.
+"""
+
+from __future__ import annotations
+
+import atexit
+import hashlib
+import logging
+import os
+import shutil
+import stat
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from functools import cache
+from pathlib import Path
+
+from codegen.folder_lock import locked
+from orderconds.input_file import MAX_WRITTEN_BYTES, content_of, reason
+from orderconds.output_file import is_temporary, write_files
+
+WORKING = "building-"
+"""How the names of working folders begin."""
+
+SETTLED = 60.0
+"""Seconds after which a file without an owner counts as left behind."""
+
+
+def cache_directory() -> Path:
+    """Return the folder of the cache: $XDG_CACHE_HOME/orderconds, else ~/.cache/orderconds.
+
+    It is made where it is missing. Where it cannot be made, or belongs to another user, a warning says so
+    once, and the folder is a temporary one.
+    """
+    base = os.environ.get("XDG_CACHE_HOME", "")
+    try:
+        folder = (Path(base) if os.path.isabs(base) else Path.home() / ".cache") / "orderconds"
+    except RuntimeError:  # no HOME, and a user without a home folder
+        return temporary_directory("there is no home folder")
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        _require_private(folder)
+    except OSError as problem:
+        return temporary_directory(f"{folder}: {reason(problem)}")
+    return folder
+
+
+def _require_private(folder: Path) -> None:
+    """Raise an OSError unless the folder is the user's alone; close it to others where it was open."""
+    if not hasattr(os, "geteuid"):
+        return
+    for status in (folder.lstat(), folder.stat()):  # a link, too, is the user's
+        if status.st_uid != os.geteuid():
+            raise PermissionError(1, "a folder of another user")
+    if folder.stat().st_mode & 0o077:
+        folder.chmod(0o700)
+    mode = stat.S_IMODE(folder.stat().st_mode)
+    if mode & 0o077:
+        raise PermissionError(1, f"its mode is {mode:o}, open to other users")
+
+
+@cache
+def temporary_directory(why: str) -> Path:
+    """Return a folder for this process alone, removed at its end; ``why`` is logged once."""
+    logging.getLogger("orderconds").warning(
+        "orderconds: the cache cannot be used (%s); compiled modules are kept in a temporary folder until "
+        "the end; set XDG_CACHE_HOME to a folder of yours",
+        why,
+    )
+    folder = Path(tempfile.mkdtemp(prefix="orderconds-"))
+    atexit.register(_remove, folder, os.getpid())
+    return folder
+
+
+def _remove(folder: Path, owner: int) -> None:
+    if os.getpid() == owner:  # and not a worker process that was forked
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def recall(entry: Path) -> bytes | None:
+    """Return the content of an entry; None where it is missing, damaged, too large, or not the user's.
+
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     entry = Path(folder) / "x"
+    ...     keep(entry, b"content")
+    ...     _ = entry.write_bytes(b"conten")
+    ...     recall(entry) is None
+    True
+    """
+    try:
+        content = content_of(entry, limit=MAX_WRITTEN_BYTES, own=True)
+        kept = content_of(_digest_file(entry), own=True)
+    except OSError:
+        return None
+    return content if kept.strip() == _digest(content) else None
+
+
+def keep(entry: Path, content: bytes) -> None:
+    """Write an entry and its digest, each whole or not at all; an OSError says why that cannot be done."""
+    entry.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+    write_files({_digest_file(entry): _digest(content) + b"\n", entry: content}, private=True)
+
+
+def _digest_file(entry: Path) -> Path:
+    return entry.with_name(f"{entry.name}.sha256")
+
+
+def _digest(content: bytes) -> bytes:
+    return hashlib.sha256(content).hexdigest().encode()
+
+
+@contextmanager
+def working_directory(folder: Path) -> Iterator[Path]:
+    """Make a folder for intermediate files inside the cache; it goes at the end, however that comes.
+
+    What killed processes have left is removed first.
+    """
+    _sweep(folder)
+    temporary = tempfile.TemporaryDirectory(dir=folder, prefix=WORKING, ignore_cleanup_errors=True)
+    with temporary as name, locked(Path(name), wait=False):
+        yield Path(name)
+
+
+def _sweep(folder: Path) -> None:
+    """Remove the working folders whose processes have ended, and old temporary files."""
+    for path in folder.iterdir():
+        with suppress(OSError):
+            if path.stat(follow_symlinks=False).st_mtime > time.time() - SETTLED:
+                continue  # one that has just been made is not locked yet
+            if is_temporary(path.name):
+                path.unlink()
+            elif path.name.startswith(WORKING) and path.is_dir():
+                with locked(path, wait=False) as held:
+                    if held:
+                        shutil.rmtree(path, ignore_errors=True)

@@ -1,0 +1,77 @@
+"""Work on a dask cluster: jobs go to its workers and results come back in the order of the jobs."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
+from typing import Any, TypeVar
+
+from orderconds.errors import InputError
+
+Job = TypeVar("Job")
+Result = TypeVar("Result")
+
+TIMEOUT = 3
+"""Seconds to wait for a scheduler, also for one that has gone."""
+
+
+def on_cluster(work: Callable[[Job], Result], jobs: Sequence[Job], address: str) -> Iterator[Result]:
+    """Yield ``work(job)`` for each job, in order, computed by the cluster whose scheduler has that address.
+
+    A job whose worker dies is given to another worker. InputError where the scheduler does not answer, or
+    stops to.
+    """
+    level = logging.root.manager.disable
+    logging.disable(logging.CRITICAL)  # dask logs a traceback for each connection that breaks
+    try:
+        yield from _results(work, jobs, address)
+    finally:
+        logging.disable(level)
+
+
+def _results(work: Callable[[Job], Result], jobs: Sequence[Job], address: str) -> Iterator[Result]:
+    from concurrent.futures import CancelledError
+
+    client = _client(address)
+    from distributed import KilledWorker
+
+    try:
+        for future in client.map(work, jobs, pure=False):
+            try:
+                yield future.result()
+            except (OSError, CancelledError, TimeoutError, KilledWorker) as problem:
+                lost = "its workers die" if isinstance(problem, KilledWorker) else "the scheduler went away"
+                raise InputError(
+                    lost,
+                    where=f"--dask {address}",
+                    expected="a cluster that runs until the end",
+                    hint="start it again, then the same command; a checkpoint keeps what is finished",
+                ) from None
+    finally:
+        with suppress(Exception):  # it may be gone
+            client.close(timeout=TIMEOUT)
+
+
+def _client(address: str) -> Any:
+    """Return a client of a dask cluster."""
+    try:
+        from distributed import Client
+    except ImportError:
+        raise InputError(
+            "dask's distributed is not installed",
+            where="--dask",
+            expected="pip install 'orderconds[cluster]'",
+        ) from None
+    try:
+        return Client(address, timeout=TIMEOUT)
+    except (OSError, ValueError, TimeoutError, TypeError) as problem:  # TypeError: tls without certificates
+        raise InputError(
+            f"no cluster answers ({_words(problem)})",
+            where=f"--dask {address}",
+            expected="tcp://host:port of a scheduler",
+        ) from None
+
+
+def _words(problem: BaseException) -> str:
+    return str(problem).partition("\n")[0] or type(problem).__name__

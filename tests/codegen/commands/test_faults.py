@@ -1,0 +1,151 @@
+"""Kills, full disks, missing compilers and homes: nothing is half written, and the next run works."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import click
+import pytest
+from click.testing import CliRunner
+
+from codegen.commands.emit import command as emit
+from codegen.commands.regenerate import command as regenerate
+from codegen.loader import load
+from orderconds.errors import InputError
+from orderconds.output_file import SUFFIX
+
+ROOT = Path(__file__).parents[3]
+posix = pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+
+LIST = """
+[[module]]
+scene = "free_rigid_body"
+method = "cf4"
+targets = ["c", "python"]
+"""
+
+PROGRAM = """
+import os, signal, sys
+from importlib import import_module
+limit, module, words = int(sys.argv[1]), sys.argv[2], sys.argv[3:]
+replace, done = os.replace, []
+def kill(*names):
+    if len(done) == limit:
+        os.kill(os.getpid(), signal.SIGKILL)
+    done.append(replace(*names))
+os.replace = kill
+import_module(module).command(words, standalone_mode=False)
+"""
+
+
+def run(command: click.Command, *words: str) -> str:
+    result = CliRunner().invoke(command, words, standalone_mode=False)
+    if result.exception is not None:
+        raise result.exception
+    return result.stdout
+
+
+def kill_at(rename: int, module: str, *words: str) -> None:
+    """Run a command in a process that is killed in place of the rename of that number."""
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM, str(rename), f"codegen.commands.{module}", *words],
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        check=False,
+    )
+    assert done.returncode == -signal.SIGKILL
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+@posix
+@pytest.mark.parametrize("rename", [0, 3])
+def test_a_regeneration_that_is_killed_is_completed_by_the_next(rename: int, tmp_path: Path) -> None:
+    (tmp_path / "list.toml").write_text(LIST)
+    words = ("--list", str(tmp_path / "list.toml"), "-o", str(tmp_path / "made"))
+    kill_at(rename, "regenerate", *words)
+    assert any(name.endswith(SUFFIX) for name in contents(tmp_path / "made"))
+    told = run(regenerate, *words, "--check")
+    assert f"{4 - rename} differences, 4 files expected; type: orderconds regenerate" in told
+    assert SUFFIX not in told
+    run(regenerate, *words)
+    assert run(regenerate, *words, "--check").startswith("0 differences")
+    assert not any(name.endswith(SUFFIX) for name in contents(tmp_path / "made"))
+
+
+@posix
+@pytest.mark.parametrize("rename", [0, 1])
+def test_an_emission_that_is_killed_is_repaired_by_the_next(rename: int, tmp_path: Path) -> None:
+    words = ("free_rigid_body", "-m", "cf4", "-t", "python", "-o", str(tmp_path / "made"))
+    kill_at(rename, "emit", *words)
+    with pytest.raises(InputError, match="0 modules answer"):
+        load(tmp_path / "made")
+    run(emit, *words)
+    assert load(tmp_path / "made").interface.size == 3
+    assert not any(name.endswith(SUFFIX) for name in contents(tmp_path / "made"))
+
+
+@pytest.mark.parametrize("stop", [KeyboardInterrupt(), OSError(30, "Read-only file system")])
+@pytest.mark.parametrize("rename", [0, 1])
+def test_an_emission_that_stops_leaves_no_temporary_file(
+    stop: BaseException, rename: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    words = ("free_rigid_body", "-m", "cf4", "-t", "python", "-o", str(tmp_path / "made"))
+    replace, done = os.replace, []
+
+    def refuse(*names: str) -> None:
+        if len(done) == rename:
+            raise stop
+        done.append(replace(*names))
+
+    monkeypatch.setattr("orderconds.output_file.os.replace", refuse)
+    expected = InputError if isinstance(stop, OSError) else (KeyboardInterrupt, click.Abort)
+    with pytest.raises(expected):
+        run(emit, *words)
+    assert len(contents(tmp_path / "made")) == rename
+
+
+def test_without_a_compiler_one_message_says_what_to_install(tmp_path: Path) -> None:
+    environment = {**os.environ, "PATH": str(tmp_path), "PYTHONPATH": str(ROOT)}
+    environment.pop("CC", None)
+    command = [
+        sys.executable,
+        "-m",
+        "orderconds",
+        "converge",
+        "free_rigid_body",
+        "-m",
+        "cf4",
+        "--target",
+        "c",
+    ]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == (
+        "orderconds: PATH: no C compiler; expected cc, gcc or clang; install one, or set CC to its command\n"
+    )
+
+
+def test_an_almost_empty_environment_is_enough(tmp_path: Path) -> None:
+    """No HOME, no locale: the home folder is the account's, or the cache a temporary one."""
+    environment = {"PATH": os.environ["PATH"], "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(tmp_path)}
+    environment |= {"LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0"}
+    command = [
+        sys.executable,
+        "-m",
+        "orderconds",
+        "converge",
+        "free_rigid_body",
+        "-m",
+        "cf4",
+        "--target",
+        "c",
+    ]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
