@@ -103,9 +103,9 @@ def _aged(plan: Plan) -> list[Statement]:
     for k, loop in enumerate(plan.kernel.loops, 1):
         if loop.newton is None or not loop.newton.period:
             continue
-        made, period = plan.memory.field(f"made_{k}", Kind.COUNT), loop.newton.period
-        older = whole(0) if period == 1 else select((made % period) > 0, made + 1, 0)
-        sequence.append(Assign(made, older))
+        served, period = plan.memory.field(f"made_{k}", Kind.COUNT), loop.newton.period
+        older = whole(0) if period == 1 else select((served % period) > 0, served + 1, 0)
+        sequence.append(Assign(served, older))
     return sequence
 
 

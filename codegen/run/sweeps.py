@@ -190,11 +190,11 @@ class _Newton(_Loop):
 
     @property
     def making(self) -> Term:
-        """Whether a matrix is to be made in this sweep."""
+        """Whether a matrix is to be computed in this sweep."""
         return flag(f"make_{self.number}")
 
     @property
-    def made(self) -> Term:
+    def served(self) -> Term:
         """For how many steps the matrix of the memory has served, 0 where there is none."""
         return self.plan.memory.field(f"made_{self.number}", Kind.COUNT)
 
@@ -217,7 +217,7 @@ class _Newton(_Loop):
             body.append(Assign(residual, x - u))
         finite = total(residuals)
         if self.kept:
-            sequence.append(Assign(self.making, negated(self.made > 0)))
+            sequence.append(Assign(self.making, negated(self.served > 0)))
             sequence.append(Assign(flag("astray"), truth(False)))
             body.append(If(both(self.making, is_finite(finite)), tuple(self.renewed())))
         else:
@@ -227,11 +227,11 @@ class _Newton(_Loop):
         body += rule.rates()
         body += self.corrected(changes)
         body += rule.settled()
-        body.append(rule.decided(finite, self.made > 0 if self.kept and not self.newton.inverted else None))
+        body.append(rule.decided(finite, self.served > 0 if self.kept and not self.newton.inverted else None))
         if self.kept:
             astray = both(flag("still"), self.making)
             if not self.newton.inverted:
-                astray = either(astray, negated(self.made > 0))
+                astray = either(astray, negated(self.served > 0))
             body.append(Assign(flag("astray"), astray))
             slow = number(Newton.CONTRACTION) * rule.previous
             body.append(Assign(self.making, both(slow > 0.0, slow < CHANGE)))
@@ -243,16 +243,16 @@ class _Newton(_Loop):
         rule, changes = self.rule, [own(c) for c in self.newton.changes]
         sequence, body = self.begin(), self.computed()
         inverted = not self.newton.inverted
-        sequence.append(Assign(self.making, negated(self.made > 0)))
+        sequence.append(Assign(self.making, negated(self.served > 0)))
         body.append(If(self.making, tuple(self.renewed())))
         body += self.product(changes, self.images)
         body += rule.sums(changes, self.unknowns)
         body += self.corrected(changes)
         body += rule.settled_by_residuals()
-        body.append(rule.decided(CHANGE, self.made > 0 if inverted else None))
+        body.append(rule.decided(CHANGE, self.served > 0 if inverted else None))
         body.append(Assign(self.making, truth(False)))
         body.append(Assign(rule.previous, CHANGE))
-        return [*sequence, *self.until_settled(body, negated(self.made > 0) if inverted else None)]
+        return [*sequence, *self.until_settled(body, negated(self.served > 0) if inverted else None)]
 
     def corrected(self, changes: Sequence[Term]) -> list[Statement]:
         """Return the statements that add the changes."""
@@ -262,10 +262,10 @@ class _Newton(_Loop):
         """Return the statements that make the matrix of the memory and invert it."""
         sequence = self.entries()
         if self.newton.inverted:
-            return [*sequence, Assign(self.made, whole(1)), *self.matrix_counted()]
-        sequence.append(Call("invert", (whole(len(self.unknowns)), self.inverse), (self.made,)))
+            return [*sequence, Assign(self.served, whole(1)), *self.matrix_counted()]
+        sequence.append(Call("invert", (whole(len(self.unknowns)), self.inverse), (self.served,)))
         counted = self.matrix_counted()
-        return [*sequence, *([If(self.made > 0, tuple(counted))] if counted else [])]
+        return [*sequence, *([If(self.served > 0, tuple(counted))] if counted else [])]
 
     def matrix_counted(self) -> list[Statement]:
         """Return the statement that counts a matrix."""
