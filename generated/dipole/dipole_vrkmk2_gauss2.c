@@ -1,11 +1,11 @@
 /*
- * Dipole on a stick, T*SO(3) (thesis section 3.6): one step by vrkmk(2):gauss2
+ * Dipole on a stick, T*SO(3): one step by vrkmk(2):gauss2
  *
  * method:     family vrkmk(2), tableau gauss2
  * source:     Hammer and Hollingsworth 1955; Hairer, Lubich and Wanner, Table II.1.1; Table 3.1c
  *             of Bogfjellmo and Marthinsen
  * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
- * scene:      Dipole on a stick, T*SO(3) (thesis section 3.6), group SO(3)
+ * scene:      Dipole on a stick, T*SO(3), group SO(3)
  * solved by:  the equations of v1, v2, m1, m2: Newton's method, 6 unknowns (1.7 sweeps of 769
  *             operations and 0.35 matrices of 552 a step; fixed point: 3.2 sweeps of 845
  *             operations; Newton's method with the matrix to first order in h: 2.1 sweeps of 911

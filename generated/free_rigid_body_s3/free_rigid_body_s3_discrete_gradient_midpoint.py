@@ -1,11 +1,10 @@
-"""Free rigid body with attitude, S^3 (thesis section 2.6): one step by
-discrete_gradient:midpoint
+"""Free rigid body with attitude, S^3: one step by discrete_gradient:midpoint
 
 method:     family discrete_gradient, tableau midpoint
 source:     Table 3.2a of Bogfjellmo and Marthinsen
 order:      2, certificate: exact (every order condition up to it is zero in exact
             arithmetic)
-scene:      Free rigid body with attitude, S^3 (thesis section 2.6), group S^3
+scene:      Free rigid body with attitude, S^3, group S^3
 solved by:  the equations of xi: Newton's method, 3 unknowns (6.2 sweeps of 463
             operations and 0.85 matrices of 1509 a step; fixed point: does not
             converge with steps 8 times as long; Newton's method with the matrix to

@@ -1,10 +1,10 @@
-"""Heavy top as printed, T*SO(3) (thesis section 2.5): one step by slgi:midpoint
+"""Heavy top as printed, T*SO(3): one step by slgi:midpoint
 
 method:     family slgi, tableau midpoint
 source:     Table 3.2a of Bogfjellmo and Marthinsen
 order:      2, certificate: exact (every order condition up to it is zero in exact
             arithmetic)
-scene:      Heavy top as printed, T*SO(3) (thesis section 2.5), group SO(3)
+scene:      Heavy top as printed, T*SO(3), group SO(3)
 solved by:  the equations of xi1, n1: Newton's method, 6 unknowns (4.8 sweeps of 214
             operations and 1.00 matrices of 812 a step; fixed point: does not
             converge with steps 8 times as long; Newton's method with the matrix to

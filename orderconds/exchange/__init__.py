@@ -12,24 +12,14 @@ from __future__ import annotations
 import re
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol, cast
-
-from flint import fmpq
+from typing import Protocol, cast
 
 from orderconds.errors import InputError
-from orderconds.ring.decimals import endpoints
-from orderconds.ring.protocol import Element
 from orderconds.tableau import Tableau
+from orderconds.tableau.comparison import equal_coefficients
 from orderconds.tableau.file import MAX_NAME, bytes_of
 from orderconds.tableau.file_format import Data
 from orderconds.tableau.record import from_data
-
-if TYPE_CHECKING:
-    from orderconds.ring import Balls, NumberField
-    from orderconds.ring.rationals import Rationals
-
-COMPARED = 160
-"""Bits to which an exported method is compared with what reads back."""
 
 FORMATS = {
     "toml": ("orderconds.exchange.toml_file", ".toml"),
@@ -64,35 +54,12 @@ def _require_same(given: Tableau, back: Tableau, to: str) -> None:
     Balls are compared to the digits that both have, since a written one may be rounded otherwise.
     """
     same = (given.family, given.source, given.bibtex) == (back.family, back.source, back.bibtex)
-    one, other = _coefficients(given), _coefficients(back)
-    if not same or len(one) != len(other) or not all(map(_agree, one, other)):
+    if not (same and equal_coefficients(given, back)):
         raise InputError(
             f"a tableau that does not read back as the same from {to}",
             where=given.name,
             expected="a format that holds it, as json",
         )
-
-
-def _coefficients(tableau: Tableau) -> list[tuple[fmpq, fmpq]]:
-    """Return enclosures of the coefficients, those of the embedded row last."""
-    found: list[tuple[fmpq, fmpq]] = []
-    ring = cast("Rationals | NumberField | Balls", tableau.ring)
-
-    def visit(x: Element) -> Element:
-        found.append(endpoints(ring.ball(x, COMPARED)))
-        return x
-
-    tableau.method.map(visit)
-    if (lower := tableau.lower()) is not None:
-        lower.method.map(visit)
-    return found
-
-
-def _agree(one: tuple[fmpq, fmpq], other: tuple[fmpq, fmpq]) -> bool:
-    """Whether two enclosures meet, and neither is much wider than the other."""
-    widths = sorted(high - low for low, high in (one, other))
-    meet = one[0] <= other[1] and other[0] <= one[1]
-    return bool(meet and widths[1] <= 4 * widths[0] + fmpq(1, 2**100))
 
 
 def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Data:
