@@ -46,7 +46,7 @@ def _depth(root: Expr, depths: Mapping[str, int]) -> int:
         # Inputs have depth 0: the state is taken to be exact.
         if node.op == "sym":
             below = depths.get(node.payload, 0)
-        # The signed functions count too. Slopes do not: they occur in derivatives only, next to functions of
-        # the angle.
+        # The signed functions count too. Slopes do not: they occur
+        # in derivatives only, next to functions of the angle.
         by_node[node.id] = below + (node.op == "call" and "stumpff" in node.payload)
     return by_node[root.id]

@@ -142,8 +142,8 @@ class _Gathering:
                 other if node.op == "add" else _scaled(other, Number.rational(-1))
             ).items():
                 total[key] = (total[key][0] + c if key in total else c, atom)
-            # A term that cancels must leave: a combination of one term is a multiple, which products can
-            # absorb.
+            # A term that cancels must leave: a combination of
+            # one term is a multiple, which products can absorb.
             return {key: pair for key, pair in total.items() if not pair[0].is_zero}
         if node.op in ("mul", "pow") and node.id in self.powers and node.args[0].op != "const":
             return self._power(node)

@@ -153,8 +153,8 @@ class FloatDomain:
 
     def increment(self, x: float) -> float:
         """Return the step of a difference quotient at x."""
-        # The root of the rounding unit balances the rounding and the truncation error of a forward
-        # difference.
+        # The root of the rounding unit balances the rounding
+        # and the truncation error of a forward difference.
         return math.ldexp(max(1.0, abs(x)), -26)
 
 
@@ -262,7 +262,7 @@ class SeriesDomain:
         if function == "quotient":
             return self._quotient(z, args[1])
         starts = {"sin": (1, 2, z), "cos": (0, 2, self.ring.one), "exp": (0, 1, self.ring.one)}
-        # sin, cos and exp of a non-zero algebraic number are transcendental (Lindemann): no base field has them.
+        # sin, cos and exp of a non-zero algebraic number are transcendental: no base field has them.
         if self.base.is_zero(z.coefficients[0]) is not True:
             raise ArithmeticError(f"{function} of a series with a constant term is not exact")
         if function.startswith("slope"):

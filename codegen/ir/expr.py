@@ -108,8 +108,8 @@ class Space:
         self.one = self.const(Number.rational(1))
 
     def _make(self, op: str, args: tuple[Expr, ...] = (), payload: Payload = None) -> Expr:
-        # Arguments exist before their user, so its number is larger than theirs: numbers are a topological
-        # order.
+        # Arguments exist before their user, so its number is
+        # larger than theirs: numbers are a topological order.
         key = (op, tuple(a.id for a in args), payload)
         node = self._table.get(key)
         if node is None:
@@ -120,8 +120,8 @@ class Space:
         """Return value as a node of this space."""
         if isinstance(value, Expr):
             if value.space is not self:
-                # Node numbers of two spaces are unrelated: mixing them would intern different expressions as
-                # one.
+                # Node numbers of two spaces are unrelated: mixing
+                # them would intern different expressions as one.
                 raise ValueError("expressions of two spaces meet")
             return value
         return self.const(value if isinstance(value, Number) else Number.rational(value))
@@ -160,8 +160,8 @@ class Space:
         # x + x is exact as 2 x, and shares the product with other multiples of x.
         if a is b:
             return self.mul(self.const(Number.rational(2)), a)
-        # Addition commutes in floating point, so one order of operands serves; it does not associate, so no
-        # more.
+        # Addition commutes in floating point, so one order of
+        # operands serves; it does not associate, so no more.
         return self._make("add", (a, b) if a.id < b.id else (b, a))
 
     def sub(self, a: Expr, b: Expr) -> Expr:
@@ -200,8 +200,8 @@ class Space:
         if a.op == "neg":
             return self.neg(self.mul(a.args[0], b))
         if b.op == "neg":
-            # A constant takes the sign. Otherwise it moves outwards, so that x y and x (-y) share one
-            # product.
+            # A constant takes the sign. Otherwise it moves
+            # outwards, so that x y and x (-y) share one product.
             return self.mul(self.neg(a), b.args[0]) if a.op == "const" else self.neg(self.mul(a, b.args[0]))
         if a is b:
             return self.pow(a, 2)
@@ -284,8 +284,8 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
                     yield node
                     continue
                 waiting += (node, None)
-                # Reversed, because the stack returns the last entry first: operands are visited from left to
-                # right.
+                # Reversed, because the stack returns the last entry
+                # first: operands are visited from left to right.
                 waiting += [a for a in node.args[::-1] if a.id not in seen]
 
 

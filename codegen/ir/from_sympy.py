@@ -45,8 +45,8 @@ class _Reader:
 
     def node(self, e: sympy.Basic) -> Expr:
         """Return an expression as a node."""
-        # sympy's trees share subexpressions; without the table a nested formula would be read exponentially
-        # often.
+        # sympy's trees share subexpressions; without the table
+        # a nested formula would be read exponentially often.
         if e not in self.known:
             self.known[e] = self._read(e)
         return self.known[e]
@@ -58,8 +58,8 @@ class _Reader:
             return self.space.sym(e.name)
         if isinstance(e, sympy.Rational):
             return self.space.const(Number.rational(int(e.p), int(e.q)))
-        # Sums are read as binary operations in sorted order: rounding, too, then depends on the formula
-        # alone.
+        # Sums are read as binary operations in sorted order:
+        # rounding, too, then depends on the formula alone.
         if isinstance(e, sympy.Add):
             return _fold(self.space.add, [self.node(a) for a in _sorted(e)])
         if isinstance(e, sympy.Mul):

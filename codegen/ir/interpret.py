@@ -61,7 +61,6 @@ def interpret(
     expected = {} if solutions is None else solutions
     env: Env = {v: inputs[v.name] for v in program.inputs}
 
-    # A domain that tracks errors or replaces values needs each result together with its name.
     computed = getattr(domain, "computed", None)
 
     def run(assign: Assign) -> None:
@@ -74,17 +73,14 @@ def interpret(
         if isinstance(statement, Assign):
             run(statement)
         elif near is not None:
-            # near is a queue: each block takes the first entry and appends its solution, so the order is
-            # kept.
+            # near is a queue: each block takes the first entry and appends its solution.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
-            # Fixed points are tried first: where they contract they are sharp, and no difference quotient
-            # enters.
+            # Fixed points first: where they contract they are sharp, and need no difference quotients.
             patience = getattr(domain, "patience", limit) if newton else limit
             try:
                 _iterate(statement, env, domain, run, min(limit, patience), expected)
-            # Iterates that diverge may overflow, divide by zero or leave the domain of a root before the
-            # limit.
+            # Iterates that diverge may overflow, divide by zero or leave the domain of a root.
             except (ArithmeticError, ValueError):
                 if not newton or not hasattr(domain, "increment"):
                     raise

@@ -83,8 +83,8 @@ class _Graph:
 
     def eliminate(self) -> None:
         """Take out every inner vertex, the cheapest first, among equals the one nearest to the results."""
-        # Minus the number: among equal costs the youngest vertex is the first, which is nearest to the
-        # results.
+        # Minus the number: among equal costs the youngest
+        # vertex is the first, which is nearest to the results.
         queue = [(self._cost(v), -v) for v in self.inner]
         heapq.heapify(queue)
         gone: dict[int, bool] = {}

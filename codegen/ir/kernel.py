@@ -123,8 +123,8 @@ class Loop:
         What is read after the loop was computed before the last change. Chords contract by (h L)^2 where that
         moves by h L, so that a rate that ends the loop bounds it.
         """
-        # Values after the loop are recomputed from the last unknowns: their error is the rate times the last
-        # change.
+        # Values after the loop are recomputed from the last
+        # unknowns: their error is the rate times the last change.
         if self.read_anew and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
         first_order = self.solver == CHORD or (self.newton is not None and self.newton.residuals)

@@ -91,8 +91,8 @@ class NormalForms:
                         # Reduced after each factor: the intermediate polynomials stay short.
                         value = self._reduced(self._times(value, args[0]))
                 case "div":
-                    # 1/d is a variable: after this, equal divisors are equal variables, and quotients are
-                    # polynomials.
+                    # 1/d is a variable: after this, equal divisors are
+                    # equal variables, and quotients are polynomials.
                     divisor = self.space.one / self.expression(args[1])
                     value = self._times(args[0], self._variable(divisor))
                 case _:

@@ -264,8 +264,8 @@ class Adjoint(OfGroup):
 
     def opposite(self) -> Adjoint:
         """Return the operation that undoes this one."""
-        # Ad_g Ad_{g^-1} = 1, and the same for the plain duals, in which the order of a product is reversed:
-        # Ad*_{gk} = Ad*_k Ad*_g.
+        # Ad_g Ad_{g^-1} = 1, and the same for the plain duals, in which
+        # the order of a product is reversed: Ad*_{gk} = Ad*_k Ad*_g.
         return Adjoint(self.dual, not self.inverse)
 
 

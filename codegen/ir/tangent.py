@@ -30,8 +30,8 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
             continue
         slopes = partials(node)
         total = node.space.zero
-        # The chain rule along one direction: one product for each moving argument, whatever the number of
-        # seeds.
+        # The chain rule along one direction: one product for
+        # each moving argument, whatever the number of seeds.
         for k, rate in moving:
             total = total + slopes[k] * rate
         # Terms may cancel: a zero is not entered, so that the users of the node skip it too.
