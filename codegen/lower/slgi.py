@@ -34,6 +34,12 @@ class SymplecticIntegrator(VariationalLowering):
         return _program(problem, method)
 
 
+# dexp*_{-Y} = dexp*_Y Ad*_{exp(-Y)} contains the transport by exp(-Y). It is the same for all stages, and
+# so is each dexp*_{X_j} n_j: stages differ in the factors b_j a_ji/b_i alone, so a sweep has s + 1
+# functions dexp*.
+# One stage: all exponents are multiples of x = h xi and commute, which several stages do not allow. By b
+# dexp*_{-b x} Ad*_{exp(a x)} - a dexp*_{a x} = (b - a) dexp*_{-(b - a) x} the two terms in n are one.
+# Starts: the derivatives at the beginning of the step are right to O(h) in each stage.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs
@@ -46,14 +52,11 @@ def _program(scene: Problem, method: Method) -> Program:
         """Append the momenta of the stages, one or more."""
         X = [stages.combination(f"X{i + 1}", Kind.ALG, row, xi) for i, row in enumerate(tableau.A)]
         Y = stages.combination("Y", Kind.ALG, tableau.b, xi)
-        # dexp*_{-Y} = dexp*_Y Ad*_{exp(-Y)}: the transport by exp(-Y) is part of the function.
         minus = build.lin("y", Kind.ALG, [(Coefficient(-ONE.value), Y)])
         nu = [build.adjoint(f"nu{j + 1}", build.exp(f"g{j + 1}", X[j]), n[j]) for j in range(s)]
         terms = [(ONE, mu)] + [(stages.times_h(b[j]), nu[j]) for j in range(s)]
         total = build.lin("mubar", Kind.DUAL, terms)
-        # The same for all stages, so it is computed once.
         moved = build.dual_dexp("Lambda", minus, total)
-        # Each d_j serves all stages; they differ in the factor b_j a_ji/b_i alone.
         direct = [build.dual_dexp(f"d{j + 1}", X[j], n[j]) for j in range(s)]
         shared.update(g=build.exp("g", Y), mubar=total)
         momenta = []
@@ -64,11 +67,8 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def one() -> list[Var]:
         """Append the momentum of the theta-method, for any b_1."""
-        # (b - a) is 1 - theta. By b dexp*_{-b x} Ad*_{exp(a x)} - a
-        # dexp*_{a x} = (b - a) dexp*_{-(b - a) x} both terms in n merge.
         rest = b[0] - A[0][0]
         minus = build.lin("y", Kind.ALG, [(stages.times_h(-b[0]), xi[0])])
-        # All exponents are multiples of one xi and commute, which several stages do not allow.
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])
         free = build.dual_dexp("L", minus, mu)
         forced = build.dual_dexp("F", after, n[0])
@@ -86,11 +86,9 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def starts() -> list[Var]:
         x, r = build.hamilton("xi0", "n0", q, mu, *stages.at(None))
-        # The field at the beginning of the step is right to O(h) in each stage.
         return [x] * s + [r] * s
 
     def update() -> dict[str, Var]:
-        # Relative to q0 both parts of the state move by exp(Y).
         if s > 1:
             g = shared["g"]
             return {"q": build.mul("q1", g, q), "mu": build.adjoint("mu1", g, shared["mubar"], inverse=True)}

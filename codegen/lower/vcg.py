@@ -33,6 +33,13 @@ class VariationalCrouchGrossman(VariationalLowering):
         return _program(problem, method)
 
 
+# Products: all partial ones are kept, because factor i's momentum is transported by the product before it.
+# A zero coefficient gives exp(0) = 1, which a pass removes: so all lists of products have s + 1 entries.
+# Momenta: by dexp*_x Ad*_{exp(-x)} = dexp*_{-x} with x = h b_i xi_i the own factor of xi_i is in dexp*.
+# mu0 and all nu_j are carried separately. In a composition the term of nu_j for a later stage j cancels the
+# one with a_ji exactly, so stage i does not depend on stage j. a_ji/b_i is formed first: where they are
+# equal it is exactly one, also for balls.
+# Ad*_{E_j} takes the force from Q_j to q0, where the equations are written.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs
@@ -43,18 +50,14 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def partial_products(row: tuple[Element, ...], name: str) -> list[Var]:
         """Return the products after 0, 1, ..., s factors."""
-        # All partial products are kept, because factor i's momentum is transported by the product before it.
         products = [build.identity(f"{name}0")]
         for j in range(s):
-            # A zero coefficient gives exp(0) = 1, which a pass
-            # removes: so lists of products all have s + 1 entries.
             x = stages.combination(f"x{name}{j + 1}", Kind.ALG, row[j : j + 1], xi[j : j + 1])
             products.append(build.mul(f"{name}{j + 1}", build.exp(f"g{name}{j + 1}", x), products[-1]))
         return products
 
     def momentum(i: int, e: list[Var], E: list[list[Var]], nu: list[Var]) -> Var:
         """Append M_i, one term a coefficient."""
-        # By dexp*_x Ad*_{exp(-x)} = dexp*_{-x} with x = h b_i xi_i the own factor of xi_i is in dexp*.
         minus = stages.builder.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-b[i]), xi[i])])
 
         def carried(m: Var) -> Var:
@@ -62,8 +65,6 @@ def _program(scene: Problem, method: Method) -> Program:
             moved = build.adjoint(f"m{i + 1}", e[i], m, inverse=True)
             return build.dual_dexp(f"p{i + 1}", minus, moved)
 
-        # mu0 and all nu_j are carried separately. In a composition the term of nu_j for a later stage j
-        # cancels the one below exactly, so stage i no longer depends on stage j.
         terms = [(ONE, carried(mu))]
         for j in range(s):
             terms.append((stages.times_h(b[j]), carried(nu[j])))
@@ -72,7 +73,6 @@ def _program(scene: Problem, method: Method) -> Program:
                 continue
             x = build.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-a), xi[i])])
             moved = build.adjoint(f"m{i + 1}", E[j][i], nu[j], inverse=True)
-            # a/b_i first: where they are equal it is exactly one, also for balls.
             factor = Coefficient(-(b[j] * (a / b[i])), 1)
             terms.append((factor, build.dual_dexp(f"p{i + 1}", x, moved)))
         return build.lin(f"M{i + 1}", Kind.DUAL, terms)
@@ -80,14 +80,12 @@ def _program(scene: Problem, method: Method) -> Program:
     def images() -> list[Var]:
         e = partial_products(tableau.b, "e")
         E = [partial_products(row, f"E{i + 1}_") for i, row in enumerate(tableau.A)]
-        # Ad*_{E_j} takes the force from Q_j to q0, where the equations are written.
         nu = [build.adjoint(f"nu{j + 1}", E[j][s], n[j]) for j in range(s)]
         evaluations = []
         for i in range(s):
             Q = build.mul(f"Q{i + 1}", E[i][s], q)
             M = momentum(i, e, E, nu)
             evaluations.append(build.hamilton(f"f{i + 1}", f"r{i + 1}", Q, M, *stages.at(tableau.c[i])))
-        # The update reads the values of the block's body: nothing is computed twice.
         shared.update(e=e, nu=nu)
         return [x for x, _ in evaluations] + [r for _, r in evaluations]
 
