@@ -109,12 +109,14 @@ class _Gathering:
         # Arguments come first, so the combinations of a node's arguments are known when it is visited.
         for node in walk([root], stop=lambda n: n.id in self.sums):
             if node.id not in self.sums:
+                # Each node once: the combination of a shared node serves all its readers.
                 self.sums[node.id] = self._sum(node)
         return self._spell(root)
 
     def _spell(self, node: Expr) -> Expr:
-        """Return the expression of a node's combination; an inverse gets the numerator of its first reader."""
+        """Return the expression of a node's combination; an inverse gets its first reader's numerator."""
         if node.id not in self.written:
+            # Written at the first reading and then reused, so sharing survives.
             total = [self._inverse(c, atom) for c, atom in self.sums[node.id].values()]
             self.written[node.id] = _expression(total, node.space)
         return self.written[node.id]

@@ -56,6 +56,7 @@ class _Reader:
 
         if isinstance(e, sympy.Symbol):
             return self.space.sym(e.name)
+        # Before Float: a rational number stays exact, a float is refused.
         if isinstance(e, sympy.Rational):
             return self.space.const(Number.rational(int(e.p), int(e.q)))
         # Sums are read as binary operations in sorted order:
@@ -85,6 +86,7 @@ class _Reader:
                 below.append(self._power(self.node(a.base), -a.exp, a))
             else:
                 above.append(self.node(a))
+        # Numerator and divisor are separate products: x/(y z) has one division, x y^-1 z^-1 has two.
         product = _fold(self.space.mul, above) if above else self.space.one
         return self.space.div(product, _fold(self.space.mul, below)) if below else product
 

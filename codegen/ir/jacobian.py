@@ -87,6 +87,7 @@ class _Graph:
         # vertex is the first, which is nearest to the results.
         queue = [(self._cost(v), -v) for v in self.inner]
         heapq.heapify(queue)
+        # A vertex may have several entries in the queue; the first that is valid counts.
         gone: dict[int, bool] = {}
         while queue:
             cost, negative = heapq.heappop(queue)
@@ -107,6 +108,7 @@ class _Graph:
                     heapq.heappush(queue, (self._cost(u), -u))
 
     def _take_out(self, v: int) -> list[int]:
+        # The vertex leaves both tables first: products below must not find edges to it.
         ins, outs = self.before.pop(v), self.after.pop(v)
         for u in ins:
             del self.after[u][v]

@@ -154,9 +154,9 @@ class Start:
     # A guess that misses by half of the change is hardly better than u1, the guess of degree 0.
     ROUGH: ClassVar[float] = 0.5
     # A limit that is hardly ever reached: before the first success each try halves the step, so 100 of them
-    # reach 2^-100 h. After it, each failure takes the root of the factor: eight in a row end the search.
+    # reach 2^-100 h. After it, each failure takes the root of the factor: nine in a row end the search.
     TRIES: ClassVar[int] = 100
-    # The factor starts at 2, and 2^(1/2^8) < 1 + 2^-8: the eighth failure after a success is the last.
+    # The largest factor is 4, and 4^(1/2^9) < 1 + 2^-8: the ninth failure in a row is the last.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 

@@ -60,6 +60,7 @@ class FirstOrder:
         for node in walk(roots, lambda n: n.id in duals):
             if node.id not in duals:
                 duals[node.id] = _visit(node, [duals[a.id] for a in node.args], self.place, space)
+        # The two coefficients are joined at the end only: h is a symbol again in the result.
         h, none = space.sym(STEP), (space.zero, space.zero)
         rows = []
         for root in roots:

@@ -107,6 +107,7 @@ class NormalForms:
 
     def expression(self, polynomial: Mapping[Monomial, Number]) -> Expr:
         """Return a polynomial as an expression, the most frequent factor taken out first."""
+        # A copy: polynomials are kept for later expressions.
         terms = dict(polynomial)
         count: dict[int, int] = {}
         for monomial in terms:
@@ -126,6 +127,7 @@ class NormalForms:
                 continue
             powers[best] -= 1
             inside[tuple(sorted((a, n) for a, n in powers.items() if n))] = c
+        # Each call removes a factor from a term, so the recursion ends.
         product = self.atoms[best] * self.expression(inside)
         return self.expression(outside) + product if outside else product
 
@@ -166,6 +168,7 @@ class NormalForms:
     def _reduced(self, polynomial: Polynomial) -> Polynomial:
         """Return a polynomial without the left side of any relation."""
         done: Polynomial = {}
+        # popitem takes the latest entry: the order is that of insertion, and so does not depend on hashes.
         waiting = dict(polynomial)
         # Each step replaces one leading product. It ends if the rules do, which the class requires of them.
         while waiting:

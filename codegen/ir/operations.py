@@ -107,6 +107,7 @@ class Zero(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the results for arguments of a domain."""
+        # Scalars of the domain: sums with a plain 0 would have another type.
         return ((domain.rational(0),) * problem.dimension(),)
 
 
