@@ -56,9 +56,9 @@ def derive(family: str, order: int, *, every: bool = False, **options: int | Non
     >>> print(derivation.conditions[0])
     sum_i b_i = 1
     """
-    found = families.get(family, **options)
+    chosen = families.get(family, **options)
     if order < 1:
         raise InputError(f"order {order}", where="derive", expected="an order of at least 1")
-    conditions = found.all_conditions if every else found.essential_conditions
+    conditions = chosen.all_conditions if every else chosen.essential_conditions
     by_order = tuple(conditions(n) for n in range(1, order + 1))
-    return Derivation(found.label(), order, by_order, "" if every else found.remark(order))
+    return Derivation(chosen.label(), order, by_order, "" if every else chosen.remark(order))

@@ -66,8 +66,8 @@ class TableauItem(pytest.Item):
         if report.verdict != "holds":
             raise ClaimFails(report.summary())
         if all(family.claimed is None for family in report.orders) and not complete:
-            found = ", ".join(f"{family.family} {family.order}" for family in report.orders)
-            pytest.skip(f"the file claims no order; it has {found}")
+            orders = ", ".join(f"{family.family} {family.order}" for family in report.orders)
+            pytest.skip(f"the file claims no order; it has {orders}")
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """Return the verdict, or the message of a file that cannot be read, without a traceback."""

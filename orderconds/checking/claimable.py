@@ -17,17 +17,22 @@ from orderconds.tableau import Tableau
 def claimable_families(tableau: Tableau) -> tuple[Family, ...]:
     """Return the families in which a file of this tableau should claim an order.
 
-    Those that divide by weights come last; before them, those whose own format it is come first.
+    Families that divide by weights come last, and families on groups after the others. Among equals, a
+    family whose preferred format is the tableau's comes first.
 
     >>> from orderconds.checking import read
     >>> [family.name for family in claimable_families(read("rk4"))]
     ['rk', 'cg', 'rkmk', 'sprk', 'vcg', 'vrkmk']
     >>> [[f.name for f in claimable_families(read(name))] for name in ("cg4", "cf3")]
-    [['rk', 'cg', 'rkmk'], ['cf', 'rk']]
+    [['rk', 'cg', 'rkmk'], ['rk', 'cf']]
     """
     classes = map(families.family_class, families.names())
-    found = [family for c in classes if (family := c.claimable(tableau)) is not None]
-    return tuple(sorted(found, key=lambda f: (f.needs_nonzero_weights, f.formats[0] != tableau.family)))
+    members = [family for c in classes if (family := c.claimable(tableau)) is not None]
+
+    def place(family: Family) -> tuple[bool, bool, bool]:
+        return family.needs_nonzero_weights, family.on_groups, family.formats[0] != tableau.family
+
+    return tuple(sorted(members, key=place))
 
 
 def unclaimed(tableau: Tableau) -> tuple[Family, ...]:

@@ -56,7 +56,11 @@ class Meter:
 
 
 def resident_megabytes() -> float:
-    """Return the memory that this process occupies now, or at most so far where the system tells no more."""
+    """Return the memory that this process occupies; the largest so far where the system reports no other.
+
+    >>> resident_megabytes() >= 0
+    True
+    """
     try:
         with open("/proc/self/statm", encoding="ascii") as stream:
             pages = int(stream.read().split()[1])

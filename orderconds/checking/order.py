@@ -102,8 +102,8 @@ def family_order(
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
     >>> kutta3 = Tableau.load(find("kutta3"))
-    >>> found = family_order(kutta3, get("cg"))
-    >>> found.order, found.certificate
+    >>> computed = family_order(kutta3, get("cg"))
+    >>> computed.order, computed.certificate
     (2, 'exact')
     """
     method = _method(tableau, family)

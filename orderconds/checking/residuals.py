@@ -180,8 +180,8 @@ class _OnDemand:
     def __call__(self, place: int) -> Element:
         if place not in self._known:
             wanted = list(self._missing()) if self._known else [place]
-            found = self._evaluate([self._conditions[k] for k in wanted])
-            self._known.update(zip(wanted, found, strict=True))
+            residuals = self._evaluate([self._conditions[k] for k in wanted])
+            self._known.update(zip(wanted, residuals, strict=True))
         return self._known[place]
 
     def _missing(self) -> Iterator[int]:

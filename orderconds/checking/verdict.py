@@ -93,14 +93,14 @@ def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | Non
     asked = {family.label(): family for family in wanted if family.fixed_stages}
     always = (families.get("rk"), families.get(own))
     asked = {family.label(): family for family in always} | asked
-    found: dict[str, FamilyOrder] = {}
+    computed: dict[str, FamilyOrder] = {}
     for label, family in asked.items():
-        known = list(found.values())
+        known = list(computed.values())
         bound = None if label == own else _bound(family, known)
-        found[label] = family_order(lower, family, claimed, None, bound, _proved(known), brief=True)
-    orders = {label: family.order for label, family in found.items()}
-    certificates = {label: family.certificate for label, family in found.items()}
-    return EmbeddedOrder(claimed, orders, certificates, own, found[own].failing)
+        computed[label] = family_order(lower, family, claimed, None, bound, _proved(known), brief=True)
+    orders = {label: family.order for label, family in computed.items()}
+    certificates = {label: family.certificate for label, family in computed.items()}
+    return EmbeddedOrder(claimed, orders, certificates, own, computed[own].failing)
 
 
 def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
@@ -127,19 +127,21 @@ def _orders(
 ) -> tuple[FamilyOrder, ...]:
     """Return the order in each family, from theorems where evaluating it goes beyond the family's limit."""
     beside = _beside(tableau, wanted, required or 0)
-    found: list[FamilyOrder] = []
+    known_orders: list[FamilyOrder] = []
     for read_as, family, claimed in (*beside, *((tableau, *each) for each in wanted)):
-        known = _settled(tableau, family, found, facts)
+        known = _settled(tableau, family, known_orders, facts)
         if known is None:
-            bound = _bound(family, found)
-            order = family_order(read_as, family, claimed, required, bound, _proved(found), meter=meter)
+            bound = _bound(family, known_orders)
+            order = family_order(
+                read_as, family, claimed, required, bound, _proved(known_orders), meter=meter
+            )
             known = _certified(order, family, facts)
             if known.limit is not None and not beside:
                 known = _beyond(tableau, family, known, facts, meter)
         else:
             known = replace(known, claimed=claimed, required=required)
-        found.append(known)
-    return tuple(found[len(beside) :])
+        known_orders.append(known)
+    return tuple(known_orders[len(beside) :])
 
 
 Reading = tuple[Tableau, Family, int | None]
@@ -161,12 +163,12 @@ def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
     from orderconds.checking.claimable import claimable_families
     from orderconds.tableau.recognise import as_composition
 
-    found: dict[str, Reading] = {}
+    readings: dict[str, Reading] = {}
     for read_as in filter(None, (as_composition(tableau), tableau)):
         for family in claimable_families(read_as):
             if family.bounds_others and family.label() not in labels:
-                found.setdefault(family.label(), (read_as, family, tableau.claims.order(family.name)))
-    return list(found.values())
+                readings.setdefault(family.label(), (read_as, family, tableau.claims.order(family.name)))
+    return list(readings.values())
 
 
 def _beyond(
@@ -177,59 +179,59 @@ def _beyond(
     They bound it from below; from above, the order in another family does, or one condition that fails.
     """
     bounding = _bounding(tableau, [family.label()])
-    found = [family_order(read_as, other, claim, meter=meter) for read_as, other, claim in bounding]
-    known = _settled(tableau, family, found, facts)
+    bounding_orders = [family_order(read_as, other, claim, meter=meter) for read_as, other, claim in bounding]
+    known = _settled(tableau, family, bounding_orders, facts)
     if known is not None:
         return replace(known, claimed=ended.claimed, required=ended.required)
     from orderconds.proof.implications import least_order
 
-    orders = _decided(found) if ended.certificate == "decimal" else _proved(found)
+    orders = _decided(bounding_orders) if ended.certificate == "decimal" else _proved(bounding_orders)
     least = least_order((*facts, *orders.items()), family)
     failing = first_failing(tableau, family, least + 1) if least >= ended.order else ()
     return replace(ended, order=least, failing=failing, limit=None, stopped=None) if failing else ended
 
 
-def _bound(family: Family, found: Sequence[FamilyOrder]) -> FamilyOrder | None:
+def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | None:
     """Return, of the families whose conditions are among those of ``family``, the one of least order."""
-    if not found:
+    if not computed:
         return None
     from orderconds.proof.implications import consequences
 
     among = consequences([(family.label(), 1)])
-    bounds = [f for f in found if f.family in among and f.decided and f.failing]
+    bounds = [f for f in computed if f.family in among and f.decided and f.failing]
     return min(bounds, key=lambda f: f.order, default=None)
 
 
-def _decided(found: Sequence[FamilyOrder]) -> dict[str, int]:
+def _decided(computed: Sequence[FamilyOrder]) -> dict[str, int]:
     """Return the orders by label, those that rounded decimals support among them."""
-    return {f.family: f.order for f in found if f.decided}
+    return {f.family: f.order for f in computed if f.decided}
 
 
-def _proved(found: Sequence[FamilyOrder]) -> dict[str, int]:
+def _proved(computed: Sequence[FamilyOrder]) -> dict[str, int]:
     """Return the orders, by label, that are more than what rounded decimals support."""
-    return _decided([f for f in found if f.certificate != "decimal"])
+    return _decided([f for f in computed if f.certificate != "decimal"])
 
 
 def _settled(
-    tableau: Tableau, family: Family, found: Sequence[FamilyOrder], facts: tuple[Fact, ...]
+    tableau: Tableau, family: Family, computed: Sequence[FamilyOrder], facts: tuple[Fact, ...]
 ) -> FamilyOrder | None:
     """Return an order that follows from those found before, where it is at least the family's search limit.
 
     The conditions that fail are those of the family that bounds it from above. What follows from orders that
     decimals support is supported by decimals.
     """
-    proved = [f for f in found if f.certificate != "decimal"]
+    proved = [f for f in computed if f.certificate != "decimal"]
     settled = _settled_by(tableau, family, proved, facts)
-    if settled is None and len(found) > len(proved):
-        settled = _settled_by(tableau, family, found, facts)
+    if settled is None and len(computed) > len(proved):
+        settled = _settled_by(tableau, family, computed, facts)
         return settled and _certified(replace(settled, certificate="decimal"), family, facts)
     return settled
 
 
 def _settled_by(
-    tableau: Tableau, family: Family, found: Sequence[FamilyOrder], facts: tuple[Fact, ...]
+    tableau: Tableau, family: Family, computed: Sequence[FamilyOrder], facts: tuple[Fact, ...]
 ) -> FamilyOrder | None:
-    known = {f.family: f for f in found if f.decided and f.failing}
+    known = {f.family: f for f in computed if f.decided and f.failing}
     beyond = family.search_limit
     if all(f.order < beyond for f in known.values()):
         return None
@@ -237,21 +239,21 @@ def _settled_by(
 
     orders = {label: f.order for label, f in known.items()}
     own = family.order_of_tableau(tableau.method, tableau.ring, orders)
-    order = settled((*facts, *_decided(found).items(), (family.label(), own)), orders, family)
+    order = settled((*facts, *_decided(computed).items(), (family.label(), own)), orders, family)
     if order is None or order < beyond:
         return None
     bound = min(known.values(), key=lambda f: (f.order != order, f.certificate != "exact"))
-    certificate = "ball" if any(f.certificate == "ball" for f in found if f.decided) else "exact"
+    certificate = "ball" if any(f.certificate == "ball" for f in computed if f.decided) else "exact"
     return FamilyOrder(family.label(), order, certificate, True, bound.failing, None)
 
 
-def _certified(found: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> FamilyOrder:
+def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> FamilyOrder:
     """Raise the certificate from ``decimal`` to ``ball`` where proved facts imply the order."""
-    if found.certificate != "decimal" or not facts:
-        return found
+    if computed.certificate != "decimal" or not facts:
+        return computed
     from orderconds.proof.implications import implied
 
-    return replace(found, certificate="ball") if implied(facts, family, found.order) else found
+    return replace(computed, certificate="ball") if implied(facts, family, computed.order) else computed
 
 
 def read(given: str | PathLike[str]) -> Tableau:
@@ -275,8 +277,8 @@ def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int 
     format's."""
     claims = {claim.label: claim.order for claim in tableau.claims.orders}
     if family is not None:
-        found = families.get(family)
-        yield found, claims.get(found.label())
+        member = families.get(family)
+        yield member, claims.get(member.label())
         return
     for label, order in claims.items():
         yield _claimed(tableau, label), order
@@ -298,9 +300,9 @@ def _broken_claims(
 ) -> Iterator[str]:
     """Yield what the file says of properties and of its embedded row, and what was computed instead."""
     for name, claimed in tableau.claims.properties.items():
-        found = computed.get(name)
-        if found is not claimed:
-            said = "undecided" if found is None else str(found).lower()
+        holds = computed.get(name)
+        if holds is not claimed:
+            said = "undecided" if holds is None else str(holds).lower()
             yield f"{name} is {said}, claimed {str(claimed).lower()}"
     if embedded is not None and embedded.orders[embedded.own] != embedded.claimed:
         order = embedded.orders[embedded.own]
@@ -311,7 +313,7 @@ def _broken_claims(
 def _missing_claims(tableau: Tableau, unclaimed: Sequence[Family]) -> Iterator[str]:
     """Yield each of the ``unclaimed`` families with the claim that would hold."""
     for family in unclaimed:
-        found = family_order(tableau, family)
-        least = " at least" if found.limit is not None or not found.decided else ""
-        order = f"its order there is{least} {found.order}"
+        computed = family_order(tableau, family)
+        least = " at least" if computed.limit is not None or not computed.decided else ""
+        order = f"its order there is{least} {computed.order}"
         yield f"no order is claimed in family {family.label()}, which it can serve: {order}"

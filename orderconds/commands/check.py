@@ -200,10 +200,10 @@ def _files(arguments: Sequence[str]) -> Iterator[str]:
         if not os.path.isdir(argument):
             yield argument
             continue
-        found = sorted(str(path) for path in Path(argument).rglob("*.toml") if meant_as_tableau(path))
-        if not found:
+        paths = sorted(str(path) for path in Path(argument).rglob("*.toml") if meant_as_tableau(path))
+        if not paths:
             raise TableauError("no tableau below this directory", where=argument, expected="files *.toml")
-        yield from found
+        yield from paths
 
 
 def _print_report(report: Report, *, detailed: bool) -> None:

@@ -37,6 +37,7 @@ def put(path: str, content: bytes) -> None:
 
     Raises :class:`~orderconds.errors.InputError` where that cannot be done.
 
+    >>> import os
     >>> put(os.devnull, b"gone")
     """
     target = Path(path).resolve()  # a link stays a link

@@ -71,13 +71,13 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
         if path is not None and path.exists():
             interrupt.add_note(f"finished starts are kept in {path}; the same command goes on from there")
         raise
-    if outcome.found is not None and output is not None:
-        put(output, outcome.found.text.encode())
+    if outcome.solution is not None and output is not None:
+        put(output, outcome.solution.text.encode())
     if as_json:
         screen.print_json(_record(order, outcome, output))
     else:
         _print(order, outcome, output)
-    return 0 if outcome.found is not None else 1
+    return 0 if outcome.solution is not None else 1
 
 
 def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
@@ -124,18 +124,18 @@ def _size(text: str | None) -> Fraction | None:
 
 
 def _record(order: Order, outcome: Outcome, output: str | None) -> dict[str, object]:
-    verdict = "found" if outcome.found else "infeasible" if outcome.none else "nothing found"
+    verdict = "found" if outcome.solution else "infeasible" if outcome.none else "nothing found"
     record: dict[str, object] = {"verdict": verdict, "family": order.family, "order": order.order}
     record |= {"stages": order.spec.stages, "seed": order.seed, "command": order.command()}
     if outcome.none is not None:
         return {**record, "proof": outcome.none.as_json()}
     record |= {"tried": outcome.tried, "best_residual": outcome.best}
-    if outcome.found is not None:
+    if outcome.solution is not None:
         record |= {
-            "certificate": outcome.found.certificate,
-            "error_norm": outcome.found.error,
+            "certificate": outcome.solution.certificate,
+            "error_norm": outcome.solution.error,
             "file": output,
-            "tableau": outcome.found.text,
+            "tableau": outcome.solution.text,
         }
     return record
 
@@ -143,7 +143,7 @@ def _record(order: Order, outcome: Outcome, output: str | None) -> dict[str, obj
 def _print(order: Order, outcome: Outcome, output: str | None) -> None:
     if outcome.none is not None:
         _print_proof(order, outcome.none)
-    elif outcome.found is None:
+    elif outcome.solution is None:
         click.echo(
             f"orderconds: no {order.family} method of order {order.order} with {_stages(order)} "
             f"was found; best residual {outcome.best:.3g}",
@@ -152,10 +152,12 @@ def _print(order: Order, outcome: Outcome, output: str | None) -> None:
         for line in outcome.tried:
             click.echo(f"  tried {line}", err=True)
     elif output is None:
-        click.echo(outcome.found.text, nl=False)
+        click.echo(outcome.solution.text, nl=False)
     else:
-        error = "" if outcome.found.error is None else f", principal error {outcome.found.error:.6g}"
-        click.echo(f"{output}: {order.family} {order.order}, certificate {outcome.found.certificate}{error}")
+        error = "" if outcome.solution.error is None else f", principal error {outcome.solution.error:.6g}"
+        click.echo(
+            f"{output}: {order.family} {order.order}, certificate {outcome.solution.certificate}{error}"
+        )
 
 
 def _stages(order: Order) -> str:

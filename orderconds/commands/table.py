@@ -88,8 +88,8 @@ def row(name: str) -> tuple[str, ...]:
         best[claim.family] = max(best.get(claim.family, 0), claim.order)
     main = min(tableau.claims.orders, key=_first, default=None)
     report = check(tableau, family=main.label if main else None)
-    found = report.orders[0]
-    cost = report.work.get(found.family)
+    own = report.orders[0]
+    cost = report.work.get(own.family)
     method = tableau.method
     return (
         name,
@@ -97,8 +97,8 @@ def row(name: str) -> tuple[str, ...]:
         ", ".join(f"{family} {order}" for family, order in sorted(best.items(), key=lambda x: (-x[1], x[0]))),
         str(getattr(method, "s", None) or len(getattr(method, "stages", ())) or "-"),
         str(cost.exponentials) if cost and cost.exponentials is not None else "-",
-        "-" if found.error_norm is None else f"{found.error_norm:.2e}",
-        found.certificate,
+        "-" if own.error_norm is None else f"{own.error_norm:.2e}",
+        own.certificate,
     )
 
 

@@ -49,17 +49,17 @@ def command(
     """
     from orderconds.explain import kinds
 
-    found = kinds.get(kind)
+    chosen = kinds.get(kind)
     if count and (draw or (explain and svg is None)):
         raise click.UsageError("--count gives a number alone; leave --draw and --explain out")
     if svg is not None:
-        _write_svg(found, order, svg, explain)
+        _write_svg(chosen, order, svg, explain)
     if as_json:
-        screen.print_json(_record(kind, found, order, count, draw, explain, plain))
+        screen.print_json(_record(kind, chosen, order, count, draw, explain, plain))
     elif count:
-        click.echo(found.count(order))
+        click.echo(chosen.count(order))
     elif svg is None:
-        for line in _listed(found, order, draw, explain, plain):
+        for line in _listed(chosen, order, draw, explain, plain):
             click.echo(line)
     return 0
 

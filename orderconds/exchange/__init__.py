@@ -71,16 +71,16 @@ def _require_same(given: Tableau, back: Tableau, to: str) -> None:
 
 def _coefficients(tableau: Tableau) -> list[tuple[fmpq, fmpq]]:
     """Return enclosures of the coefficients, those of the embedded row last."""
-    found: list[tuple[fmpq, fmpq]] = []
+    intervals: list[tuple[fmpq, fmpq]] = []
 
     def visit(x: Element) -> Element:
-        found.append(endpoints(tableau.ring.ball(x, COMPARED)))
+        intervals.append(endpoints(tableau.ring.ball(x, COMPARED)))
         return x
 
     tableau.method.map(visit)
     if (lower := tableau.lower()) is not None:
         lower.method.map(visit)
-    return found
+    return intervals
 
 
 def _agree(one: tuple[fmpq, fmpq], other: tuple[fmpq, fmpq]) -> bool:

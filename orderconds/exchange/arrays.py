@@ -17,9 +17,10 @@ from orderconds.errors import TableauError
 from orderconds.exchange.unevaluated import CoefficientTooLong, with_names_inlined
 from orderconds.ring import Balls
 from orderconds.tableau import Tableau
-from orderconds.tableau.file_format import Data
+from orderconds.tableau.file_format import Data, Format
+from orderconds.tableau.formats import FORMATS, array_format
 from orderconds.tableau.record import from_data
-from orderconds.tableau.write import written_out
+from orderconds.tableau.write import without_names
 
 Row = list[str]
 Arrays = Data
@@ -43,7 +44,8 @@ def to_arrays(data: Data, target: str) -> Arrays:
     [['0', '0'], ['1', '0']]
     """
     family = data.get("family")
-    if family not in ("rk", "prk", "composition", "cf"):
+    kind = FORMATS.get(str(family))
+    if kind is None or not kind.in_arrays:
         raise TableauError(
             f"a tableau of format {family} in {target}",
             where=str(data.get("name")),
@@ -57,7 +59,7 @@ def to_arrays(data: Data, target: str) -> Arrays:
                 raise
     entries: Arrays = {key: data[key] for key in TEXTS if data.get(key)}
     entries |= {key: json.dumps(data[key]) for key in TABLES if data.get(key)}
-    if family == "cf":
+    if kind.as_products:
         return {**entries, **_products(data)}
     width = len(data["b"]) if "b" in data else 0
     for key in MATRICES + ROWS:
@@ -80,7 +82,7 @@ def data_without_names(tableau: Tableau) -> Data:
     """
     if isinstance(tableau.ring, Balls) and tableau.file is not None:
         tableau = with_names_inlined(tableau, tableau.file)
-    return written_out(tableau, name_radicals=False)
+    return without_names(tableau, name_radicals=False)
 
 
 def _filled(rows: Sequence[Sequence[str | int]], width: int) -> list[Row]:
@@ -117,23 +119,20 @@ def from_arrays(entries: Arrays, where: str) -> Data:
                 f"the array {name!r}", where=where, expected=f"one of {', '.join(sorted(known))}"
             )
     tables = {key: json_table(entries[key], f"{where}: {key}") for key in TABLES if key in entries}
-    family = entries.get("family") or next(
-        (f for key, f in (("A_hat", "prk"), ("A", "rk"), ("exponentials", "cf")) if key in entries),
-        "composition",
-    )
+    family = entries.get("family") or array_format(entries)
+    kind = FORMATS.get(family, Format)
     data = {key: entries[key] for key in ("name", "source", "bibtex", "base") if key in entries} | {
         "family": family,
         **tables,
     }
-    if family == "cf":
+    if kind.as_products:
         return data | _stages(entries, where)
     data |= {
         key: entries[key]
         for key in ("A", "b", "A_hat", "b_hat", "gamma", "alpha", "beta", "c")
         if key in entries
     }
-    if family == "composition":
-        data.setdefault("base", "symmetric-2" if "gamma" in entries else "adjoint-pair")
+    data = data | {key: value for key, value in kind.defaults(entries).items() if key not in data}
     if "embedded_b" in entries:
         stated = entries.get("embedded_order")
         order = {} if stated is None else {"order": _integer(stated, where)}

@@ -72,8 +72,8 @@ def read(content: bytes, where: str) -> Data:
     text, comments = _without_comments(text, where)
     entries: Arrays = {}
     for comment in comments:
-        if (found := _TEXT.fullmatch(comment)) and found[1] in TEXTS and "\n" not in comment:
-            entries.setdefault(found[1], unescaped(found[2]))
+        if (match := _TEXT.fullmatch(comment)) and match[1] in TEXTS and "\n" not in comment:
+            entries.setdefault(match[1], unescaped(match[2]))
     for name, brackets, value in _ARRAY.findall(text):
         key = next(
             (k for k in sorted(ROWS + MATRICES, key=len, reverse=True) if re.search(rf"(^|_){k}$", name)),

@@ -86,11 +86,11 @@ def read(content: bytes, where: str) -> Data:
     except UnicodeDecodeError:
         raise TableauError("bytes that are no UTF-8", where=where, expected="LaTeX") from None
     entries = _texts(text)
-    found = list(_environments(_COMMENT.sub("", text), where))
-    for name, body in found:
+    environments = list(_environments(_COMMENT.sub("", text), where))
+    for name, body in environments:
         if name is None:
             return from_arrays({**entries, **_butcher(body, where)}, where)
-    for name, body in found:
+    for name, body in environments:
         if name in entries:
             raise TableauError(f"two matrices {name}", where=where, expected="one")
         rows = _rows(body, where)
@@ -108,8 +108,8 @@ def _texts(text: str) -> Arrays:
     for line in text.split("\n"):
         if line.strip() and not line.startswith("%"):
             break
-        if (found := _TEXT.fullmatch(line.rstrip("\r"))) and found[1] in TEXTS:
-            entries.setdefault(found[1], unescaped(found[2]))
+        if (match := _TEXT.fullmatch(line.rstrip("\r"))) and match[1] in TEXTS:
+            entries.setdefault(match[1], unescaped(match[2]))
     return entries
 
 

@@ -77,12 +77,12 @@ class ActionFamily(Family):
         """
         from orderconds.series.action_relations import relations
 
-        found = relations(partial(self.random_series, order=order), _independent(self, order))
+        polynomials = relations(partial(self.random_series, order=order), _independent(self, order))
         return {
             tree: tuple(
                 (q * multiplier(tree) / prod(map(multiplier, trees)), trees) for q, trees in polynomial
             )
-            for tree, polynomial in found.items()
+            for tree, polynomial in polynomials.items()
         }
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:

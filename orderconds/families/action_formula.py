@@ -27,7 +27,7 @@ from orderconds.formula import (
     total,
     zero,
 )
-from orderconds.formula.nodes import Relation
+from orderconds.formula.notation import Relation
 from orderconds.series.action_lie import Terms, pade_terms
 from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, Word
 from orderconds.series.dexpinv import dexpinv_terms

@@ -27,6 +27,7 @@ class AmbientFamily(RungeKuttaFamily):
     illustrates = ()
     implies: ClassVar[Mapping[str, str]] = {"rk": "a vector space is its own ambient space"}
     bounds_others = False
+    default_series = False
     low_storage = ()
     keeps_manifold = False
 

@@ -94,6 +94,9 @@ class Family(ABC):
     cutoff: int | None = None
     """After how many brackets dexpinv is cut; None: not at all."""
 
+    default_series: ClassVar[bool] = False
+    """Whether ``orderconds modified`` may read a tableau in this family if the user names none."""
+
     # Search
     unknowns: ClassVar[str | None] = None
     """The tableau format whose coefficients ``orderconds solve`` looks for; None: no search."""
@@ -173,10 +176,10 @@ class Family(ABC):
             return ()
         if isinstance(ring, Balls):
             with precision(ring.bits):  # once, and not in each operation
-                found = self._residuals(*_UNWRAPPED(method, ring), conditions)
-            if not all(x.is_finite() for x in found):
+                differences = self._residuals(*_UNWRAPPED(method, ring), conditions)
+            if not all(x.is_finite() for x in differences):
                 raise ZeroDivisionError("division by a ball that contains zero")
-            return tuple(map(ring.enclose, found))
+            return tuple(map(ring.enclose, differences))
         return self._residuals(method, ring, conditions)
 
     def _residuals(
@@ -286,8 +289,8 @@ class Family(ABC):
         >>> from orderconds.ring import QQ
         >>> from orderconds.tableau import Tableau, find
         >>> rk4 = Tableau.load(find("rk4")).method
-        >>> found = get("vrkmk(2)").reductions(rk4, QQ, {"sprk": 4})
-        >>> found.cut.order, found.cut.longest
+        >>> reductions = get("vrkmk(2)").reductions(rk4, QQ, {"sprk": 4})
+        >>> reductions.cut.order, reductions.cut.longest
         (4, 4)
         """
         cut = self.unseen_cut(method, orders)

@@ -51,6 +51,7 @@ class CommutatorFreeFamily(OrderedForestFamily):
     )
     formats = ("cf", "rk")
     implies: ClassVar[Mapping[str, str]] = {"rk": "a vector space is a group"}
+    default_series = True
     unknowns = "cf"
 
     def series(self, method: Method, ring: Ring) -> ExponentialsSeries:
@@ -85,12 +86,12 @@ def exponentials(method: Method) -> list[Exponentials]:
     >>> [len(rows) for rows in exponentials(Tableau.load(find("cf4")).method)]
     [0, 1, 1, 2, 2]
     """
-    found: list[Exponentials] = []
+    paths: list[Exponentials] = []
     commutator_free = expect(method, CommutatorFree)
     for stage in (*commutator_free.stages, commutator_free.update):
-        before = found[stage.start] if stage.start is not None else ()
-        found.append((*before, *stage.exponentials))
-    return found
+        before = paths[stage.start] if stage.start is not None else ()
+        paths.append((*before, *stage.exponentials))
+    return paths
 
 
 def coefficient_tables(method: Method, ring: Ring) -> dict[str, Table]:

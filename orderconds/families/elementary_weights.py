@@ -74,8 +74,8 @@ def weight_conditions(
     >>> [str(condition) for condition in weight_conditions("sprk", directed_free_trees(2), text)]
     ['sum_i b_i c_i = 1/2']
     """
-    found = [weight_condition(family, tree, text, formula) for tree in trees]
-    return tuple(found) if switching is None else with_relations(found, switching, text)
+    conditions = [weight_condition(family, tree, text, formula) for tree in trees]
+    return tuple(conditions) if switching is None else with_relations(conditions, switching, text)
 
 
 def weight_condition(

@@ -56,10 +56,10 @@ class MagnusFamily(WordFamily):
 
     def require(self, method: Method, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` for a method that uses another map."""
-        found = expect(method, Magnus).transform
-        if found != self.transform:
+        transform = expect(method, Magnus).transform
+        if transform != self.transform:
             raise InputError(
-                f'map = "{found}"',
+                f'map = "{transform}"',
                 where=f"family {self.name}",
                 expected=f'map = "{self.transform}"',
                 hint=f"ask for the family {self.for_method(method).name!r}",

@@ -147,8 +147,8 @@ def family_class(name: str) -> type[Family]:
     """
     if name not in _registered and name in BUILT_IN:
         import_module(BUILT_IN[name])  # which registers it
-    found = _registered.get(name) or _installed(name)
-    if found is None:
+    kind = _registered.get(name) or _installed(name)
+    if kind is None:
         import difflib
 
         known = installed_names()
@@ -158,7 +158,7 @@ def family_class(name: str) -> type[Family]:
             expected=f"one of {', '.join(known)}",
             hint=f"did you mean {close[0]!r}?" if close else "",
         )
-    return found
+    return kind
 
 
 def _installed(name: str) -> type[Family] | None:

@@ -116,12 +116,12 @@ def with_relations(
     >>> [c.relation for c in with_relations(SymplecticFamily().all_conditions(2), SWITCHING, text)]
     ['1/2 <.> <.>']
     """
-    found = []
+    result = []
     for condition in conditions:
         equal = polynomial(condition.key)
         alone = equal == {(condition.key,): 1}
-        found.append(condition if alone else replace(condition, relation=spell(equal, text)))
-    return tuple(found)
+        result.append(condition if alone else replace(condition, relation=spell(equal, text)))
+    return tuple(result)
 
 
 def letter_key(tree: Tree) -> tuple[int, bytes]:
@@ -150,11 +150,11 @@ def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], 
 
 
 def _shuffled(words: dict[tuple[Tree, ...], int], factor: tuple[Tree, ...]) -> dict[tuple[Tree, ...], int]:
-    found: dict[tuple[Tree, ...], int] = {}
+    counts: dict[tuple[Tree, ...], int] = {}
     for word, times in words.items():
         for shuffled, more in shuffle(word, factor).items():
-            found[shuffled] = found.get(shuffled, 0) + times * more
-    return found
+            counts[shuffled] = counts.get(shuffled, 0) + times * more
+    return counts
 
 
 def in_lyndon_words(forest: Forest, scale: Callable[[Forest], int]) -> Polynomial:

@@ -44,6 +44,7 @@ class RungeKuttaFamily(Family):
     implies: ClassVar[Mapping[str, str]] = {"symplectic_rk": "a symplectic method is a Runge-Kutta method"}
     low_order = "rk"
     bounds_others = True
+    default_series = True
     low_storage: ClassVar[tuple[str, ...]] = ("rk", "cf")
     fixed_stages = True
     unknowns = "rk"

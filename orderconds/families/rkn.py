@@ -86,13 +86,13 @@ class NystroemFamily(Family):
         swap = splitting.rkn == T
         steps = [(1 - part if swap else part, x) for part, x in splitting.steps]
         values = SplittingFamily().series(Splitting(("T", "V"), tuple(steps)), ring)
-        found = []
+        results = []
         for condition in conditions:
             value = ring.zero
             for word, scale in condition.key:
                 value = value + values(word) * scale
-            found.append(value * _scale(condition.key))
-        return tuple(found)
+            results.append(value * _scale(condition.key))
+        return tuple(results)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
         """Return the form of splittings T + V."""
@@ -191,13 +191,13 @@ def _potentials(weight: int) -> tuple[Series, ...]:
     """Return what x o y = [x,[T,y]] makes of V, with this weight, as words."""
     if weight == 1:
         return (expand(V),)
-    found = []
+    potentials = []
     for left in range(1, weight // 2 + 1):
         right = weight - 1 - left
         for i, x in enumerate(_potentials(left)):
             for y in _potentials(right)[i if left == right else 0 :] if right >= left else ():
-                found.append(_commutator(x, _commutator(expand(T), y)))
-    return tuple(found)
+                potentials.append(_commutator(x, _commutator(expand(T), y)))
+    return tuple(potentials)
 
 
 @lru_cache(maxsize=32)
@@ -258,12 +258,12 @@ def _monomials(order: int, heaviest: int) -> list[tuple[Functional, ...]]:
     def extend(left: int, start: int) -> list[tuple[Functional, ...]]:
         if left == 0:
             return [()]
-        found = []
+        extensions = []
         for place in range(start, len(known)):
             n = len(known[place][0][0])
             if n <= left:
-                found += [(known[place], *rest) for rest in extend(left - n, place)]
-        return found
+                extensions += [(known[place], *rest) for rest in extend(left - n, place)]
+        return extensions
 
     return extend(order, 0)
 

@@ -256,7 +256,7 @@ def _named(formula: Formula, names: Mapping[str, str], free: tuple[str, ...]) ->
 def coefficients(formula: Formula) -> Iterator[Coefficient]:
     """Yield every coefficient that occurs, from left to right.
 
-    >>> [found.name for found in coefficients(product(coefficient("b", "i"), coefficient("c", "i")))]
+    >>> [c.name for c in coefficients(product(coefficient("b", "i"), coefficient("c", "i")))]
     ['b', 'c']
     """
     match formula:

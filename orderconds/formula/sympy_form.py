@@ -9,7 +9,8 @@ from collections.abc import Sequence
 
 import sympy
 
-from orderconds.formula.nodes import Coefficient, Formula, IndexSum, Power, Product, Relation, Total
+from orderconds.formula.nodes import Coefficient, Formula, IndexSum, Power, Product, Total
+from orderconds.formula.notation import Relation
 
 Limit = tuple[sympy.Symbol, sympy.Expr, sympy.Expr]
 """A summation index with its first and its last value."""

@@ -71,12 +71,12 @@ def certify(tableau: Tableau, bits: int = 256) -> Certificate:
     :class:`~orderconds.proof.krawczyk.NotProved` with what is missing.
 
     >>> from orderconds.tableau import find
-    >>> found = certify(Tableau.load(find("cg4a")))
-    >>> found.facts, found.equations
+    >>> certificate = certify(Tableau.load(find("cg4a")))
+    >>> certificate.facts, certificate.equations
     ((('cg', 4),), 13)
     """
-    found = _certify(_Key(tableau), bits)
-    return replace(found, tableau=replace(found.tableau, path=tableau.path))
+    certificate = _certify(_Key(tableau), bits)
+    return replace(certificate, tableau=replace(certificate.tableau, path=tableau.path))
 
 
 class _Key:

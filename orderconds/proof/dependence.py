@@ -21,7 +21,7 @@ from orderconds.ring.draws import Draws
 from orderconds.ring.reconstruct import rational_number
 from orderconds.ring.samples import Sample, Samples, echelon
 from orderconds.series.monomials import products
-from orderconds.tableau.unknowns import Spelled
+from orderconds.tableau.unknowns import SymbolicCoefficients
 
 FIRST = 40
 """Members to begin with: a sub-family mostly has few conditions."""
@@ -60,13 +60,13 @@ class Dependences:
             return None
 
     def _fraction(self, condition: OrderCondition, monomial: Monomial, part: int) -> Fraction:
-        found = [modular[condition].get(monomial, (0, 0))[part] for modular in self.residues]
-        return rational_number(found, self.primes) if any(found) else Fraction(0)
+        residues = [modular[condition].get(monomial, (0, 0))[part] for modular in self.residues]
+        return rational_number(residues, self.primes) if any(residues) else Fraction(0)
 
 
 def dependences(
     family: Family,
-    spelled: Spelled,
+    symbolic: SymbolicCoefficients,
     candidates: Sequence[Sequence[OrderCondition]],
     draws: Draws,
     surd: Surd | None,
@@ -78,16 +78,16 @@ def dependences(
     another one does not count.
     """
     everything = [c for of_order in candidates for c in of_order]
-    avoided = [n for c in constants(spelled) for n in (c.value.numerator, c.value.denominator)]
+    avoided = [n for c in constants(symbolic) for n in (c.value.numerator, c.value.denominator)]
     best: Dependences | None = None
     for prime in islice(draws.primes(PRIME_BITS, avoided), MAX_PRIMES):
         try:
-            found = _modulo(_Sampling(family, spelled, everything, prime, draws, read), candidates, surd)
+            result = _modulo(_Sampling(family, symbolic, everything, prime, draws, read), candidates, surd)
         except (_NoRoot, ZeroWeight, ZeroDivisionError, ValueError):
             continue
-        if found is None:
+        if result is None:
             continue
-        pivots, residues = found
+        pivots, residues = result
         places = [everything.index(c) for c in pivots]
         known = [] if best is None else [everything.index(c) for c in best.pivots]
         if best is None or (-len(places), places) < (-len(known), known):
@@ -108,8 +108,8 @@ def _modulo(
     """
     prime = sampling.prime
     if surd is None:
-        pivots, found = _independent(sampling, candidates, None)
-        return pivots, {c: {m: (x, 0) for m, x in terms.items()} for c, terms in found.items()}
+        pivots, combinations = _independent(sampling, candidates, None)
+        return pivots, {c: {m: (x, 0) for m, x in terms.items()} for c, terms in combinations.items()}
     root = _root_modulo(surd.radicand, prime)
     (pivots, one), (others, two) = (_independent(sampling, candidates, r) for r in (root, prime - root))
     if pivots != others:
@@ -136,8 +136,8 @@ def _independent(
         for n, of_order in enumerate(candidates, start=1):
             row = [*products(generators, n), *(values[c] for c in of_order)]
             before = len(row) - len(of_order)
-            found, dependent = echelon([x.coordinates() for x in row], sampling.prime)
-            chosen = [of_order[p - before] for p in found if p >= before]
+            places, dependent = echelon([x.coordinates() for x in row], sampling.prime)
+            chosen = [of_order[p - before] for p in places if p >= before]
             for place, terms in dependent.items():
                 if place >= before:
                     combinations[of_order[place - before]] = {row[p].factors: x for p, x in terms.items()}
@@ -170,7 +170,7 @@ class _Sampling:
     """Conditions of a family, and where to evaluate them."""
 
     family: Family
-    spelled: Spelled
+    symbolic: SymbolicCoefficients
     conditions: Sequence[OrderCondition]
     prime: int
     draws: Draws
@@ -180,8 +180,8 @@ class _Sampling:
         """Return the values of the conditions at so many random members and at the flow."""
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
-        known = {u.constant: ring.random(generator) for u in self.spelled.decimals()}
-        method: Any = self.spelled.method(ring, known)[0]
+        known = {u.constant: ring.random(generator) for u in self.symbolic.decimals()}
+        method: Any = self.symbolic.method(ring, known)[0]
         read = method if self.read is None else self.read(method, ring)
         values = self.family.evaluate(read, ring, self.conditions)
         flow = [

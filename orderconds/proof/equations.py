@@ -135,7 +135,7 @@ def equations(tableau: Tableau) -> Equations:
         family = named if own.symmetric_family(tableau.method) is None else own
         return Equations(tableau, proof, family.symmetric_facts(proof.order), _letters(tableau, proof))
     if proof.reduction == "low-storage":
-        if not any(place.startswith("low_storage.") for place in proof.spelled.expressions):
+        if not any(place.startswith("low_storage.") for place in proof.symbolic.expressions):
             raise NotProved("reduction: the file gives no low_storage scheme")
         implied = families.get(proof.conditions).low_storage
         if not implied or proof.order > LOW_STORAGE_ORDER:
@@ -161,7 +161,7 @@ def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
     def read(method: Method, ring: Ring) -> Method:
         return _read(family, replace(tableau, ring=ring, method=method), proof)
 
-    return independent_conditions(family, proof.spelled, proof.order, read)
+    return independent_conditions(family, proof.symbolic, proof.order, read)
 
 
 def _letters(tableau: Tableau, proof: Proof) -> int | None:
@@ -172,11 +172,11 @@ def _letters(tableau: Tableau, proof: Proof) -> int | None:
     method = tableau.method
     if not isinstance(method, Magnus) or proof.order > 2 * method.s:
         return None
-    spelled = proof.spelled
-    nodes = {place: x for place, x in spelled.expressions.items() if re.fullmatch(r"c\[\d+\]", place)}
-    exact = {name: x for name, x in spelled.numbers.items() if not any(c.unit for c in rounded_and_exact(x))}
+    symbolic = proof.symbolic
+    nodes = {place: x for place, x in symbolic.expressions.items() if re.fullmatch(r"c\[\d+\]", place)}
+    exact = {name: x for name, x in symbolic.numbers.items() if not any(c.unit for c in rounded_and_exact(x))}
     try:
-        ring, values = evaluate(nodes, exact, spelled.where)
+        ring, values = evaluate(nodes, exact, symbolic.where)
     except TableauError:  # nodes that depend on a decimal
         return None
     return method.s if gauss_nodes(list(values.values()), ring) else None
@@ -228,7 +228,7 @@ def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
         return list(range(len(values)))
     from orderconds.tableau.random_member import OUTSIDE, RandomMember
 
-    R = RandomMember(system.proof.spelled)
+    R = RandomMember(system.proof.symbolic)
     try:
         exact = system([R.variable(u.constant) for u in system.proof.unknowns], R, flat)
     except OUTSIDE:

@@ -23,7 +23,7 @@ from orderconds.tableau.evaluate import NamedRoot, evaluate_in, rounded_and_exac
 from orderconds.tableau.grammar import Constant
 from orderconds.tableau.products import Method
 from orderconds.tableau.random_member import OUTSIDE, RandomMember, radicals
-from orderconds.tableau.unknowns import Spelled
+from orderconds.tableau.unknowns import SymbolicCoefficients
 
 Reading = Callable[[Method, Ring], Method]
 """Turns a file's method over a ring into the method that a family evaluates."""
@@ -44,23 +44,23 @@ class Surd:
     root: Element
 
 
-def lone_square_root(spelled: Spelled) -> Surd | None:
+def lone_square_root(symbolic: SymbolicCoefficients) -> Surd | None:
     """Return the only radical of a file where it is the square root of an exact rational, else None.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["sqrt(12)"]\\n'
     >>> proof = Tableau.loads(text + '[proof]\\nconditions = "rk"\\norder = 1').proof
-    >>> found = lone_square_root(proof.spelled)
-    >>> found.radicand, found.ring.text(found.root * found.root)
+    >>> surd = lone_square_root(proof.symbolic)
+    >>> surd.radicand, surd.ring.text(surd.root * surd.root)
     (Fraction(12, 1), '12')
     """
-    different = radicals(spelled)
+    different = radicals(symbolic)
     if len(different) != 1 or different[0].exponent.denominator != 2:
         return None
-    exact = {name: x for name, x in spelled.numbers.items() if not any(c.unit for c in rounded_and_exact(x))}
+    exact = {name: x for name, x in symbolic.numbers.items() if not any(c.unit for c in rounded_and_exact(x))}
     tower = Tower()
     try:
-        inside: Any = evaluate_in(tower, {"radicand": different[0].base}, exact, spelled.where)["radicand"]
+        inside: Any = evaluate_in(tower, {"radicand": different[0].base}, exact, symbolic.where)["radicand"]
         if not inside.is_rational:
             return None
         radicand = inside.rational_value
@@ -102,37 +102,39 @@ class ExactMember:
 
 def exact_member(
     family: Family,
-    spelled: Spelled,
+    symbolic: SymbolicCoefficients,
     conditions: Sequence[OrderCondition],
     draws: Draws,
     surd: Surd | None,
     read: Reading | None = None,
 ) -> ExactMember | None:
-    """Return a random member of the sub-family that ``spelled`` describes.
+    """Return a random member of the sub-family that ``symbolic`` describes.
 
     None where it cannot be evaluated: its numbers explode, or a divisor is zero.
     """
     try:
-        method, ring = _member(spelled, draws, surd)
+        method, ring = _member(symbolic, draws, surd)
         left = family.evaluate(method if read is None else read(method, ring), ring, conditions)
     except OUTSIDE:
         return None
     return ExactMember(ring, dict(zip(conditions, left, strict=True)), surd)
 
 
-def _member(spelled: Spelled, draws: Draws, surd: Surd | None) -> tuple[Method, Ring]:
+def _member(symbolic: SymbolicCoefficients, draws: Draws, surd: Surd | None) -> tuple[Method, Ring]:
     if surd is None:
-        ring = RandomMember(spelled, draws)
+        ring = RandomMember(symbolic, draws)
         return ring.method(), ring
-    values = evaluate_in(_Scalars(spelled, draws, surd), spelled.expressions, spelled.numbers, spelled.where)
-    return spelled.build(values, surd.ring)[0], surd.ring
+    values = evaluate_in(
+        _Scalars(symbolic, draws, surd), symbolic.expressions, symbolic.numbers, symbolic.where
+    )
+    return symbolic.build(values, surd.ring)[0], surd.ring
 
 
 class _Scalars:
     """Numbers drawn over the field that a square root generates."""
 
-    def __init__(self, spelled: Spelled, draws: Draws, surd: Surd) -> None:
-        self._drawn, self._surd = RandomMember(spelled, draws), surd
+    def __init__(self, symbolic: SymbolicCoefficients, draws: Draws, surd: Surd) -> None:
+        self._drawn, self._surd = RandomMember(symbolic, draws), surd
 
     def constant(self, value: Fraction, unit: Fraction) -> Element:
         if unit:
@@ -149,16 +151,16 @@ class _Scalars:
         return self._drawn.size(x) if self._surd.ring.name == "QQ" else Tower().size(x)
 
 
-def constants(spelled: Spelled) -> Iterator[Constant]:
+def constants(symbolic: SymbolicCoefficients) -> Iterator[Constant]:
     """Yield every constant of a file.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]\\n'
     >>> proof = Tableau.loads(text + '[proof]\\nconditions = "rk"\\norder = 1').proof
-    >>> [str(c.value) for c in constants(proof.spelled)]
+    >>> [str(c.value) for c in constants(proof.symbolic)]
     ['1/2', '1']
     """
-    for x in (*spelled.expressions.values(), *spelled.numbers.values()):
+    for x in (*symbolic.expressions.values(), *symbolic.numbers.values()):
         if isinstance(x, NamedRoot):
             yield from (Constant(c) for c in x.minpoly)
         else:

@@ -83,14 +83,14 @@ def jets(system: System, point: Sequence[arb]) -> Sequence[Jet]:
 def inverse(matrix: arb_mat) -> arb_mat:
     """Return the midpoints of the inverse; :class:`NotProved` where there is none.
 
-    >>> inverse(arb_mat(1, 1, [4]))[0, 0] == 0.25
+    >>> inverted(arb_mat(1, 1, [4]))[0, 0] == 0.25
     True
     """
     try:
-        found = matrix.inv()
+        inverted = matrix.inv()
     except ZeroDivisionError:
         raise NotProved("the equations are dependent at the decimals: their Jacobian is singular") from None
-    return found.mid()
+    return inverted.mid()
 
 
 def _jacobian(values: Sequence[Jet]) -> arb_mat:

@@ -45,8 +45,8 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.file import text_of
-    >>> found = refine(text_of(find("cg4a")), digits=30)
-    >>> {len(decimal.partition(".")[2]) for decimal in found.decimals.values()}
+    >>> refinement = refine(text_of(find("cg4a")), digits=30)
+    >>> {len(decimal.partition(".")[2]) for decimal in refinement.decimals.values()}
     {30}
     """
     tableau = Tableau.loads(text, where)
@@ -151,7 +151,7 @@ def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequen
         if count == 0:
             raise NotProved(f"cannot find the digits of {unknown.name} in the text of the file")
         record[unknown.name] = _printed(proof, unknown.name)
-    kept = {name: _spelled(value) for name, value in proof.printed.items()} or record
+    kept = {name: _decimal_text(value) for name, value in proof.printed.items()} or record
     lines, skipping = list[str](), False
     for line in text.splitlines():
         if line.lstrip().startswith("["):
@@ -175,10 +175,10 @@ def _header(line: str) -> str:
     >>> _header("[ proof . printed ]  # as the source has them"), _header('pins = ["a"]')
     ('proof.printed', '')
     """
-    found = re.match(r"\s*\[\[?([^\[\]#]*)\]", line)
-    if found is None:
+    header = re.match(r"\s*\[\[?([^\[\]#]*)\]", line)
+    if header is None:
         return ""
-    return ".".join(part.strip().strip("\"'") for part in found[1].split("."))
+    return ".".join(part.strip().strip("\"'") for part in header[1].split("."))
 
 
 def _figures(value: Fraction, places: int) -> str:
@@ -193,13 +193,13 @@ def _printed(proof: Proof, name: str) -> str:
     """Return the number of that name with the decimals as they stand."""
     at = replace(proof, pinned=(*proof.pinned, *proof.unknowns), unknowns=())
     value = at.number(name, cast("RootedRing", QQ), {})  # a decimal has no radicals
-    return _spelled(Fraction(int(value.p), int(value.q)))
+    return _decimal_text(Fraction(int(value.p), int(value.q)))
 
 
-def _spelled(x: Fraction) -> str:
+def _decimal_text(x: Fraction) -> str:
     """Spell a rational as a decimal where it is one.
 
-    >>> _spelled(Fraction(-1, 8)), _spelled(Fraction(1, 3))
+    >>> _decimal_text(Fraction(-1, 8)), _decimal_text(Fraction(1, 3))
     ('-0.125', '1/3')
     """
     places = next((n for n in range(60) if 10**n % x.denominator == 0), None)

@@ -20,11 +20,11 @@ from orderconds.proof.dependence import dependences
 from orderconds.proof.exact_member import Reading, exact_member, lone_square_root
 from orderconds.ring.draws import Draws
 from orderconds.tableau.random_member import description
-from orderconds.tableau.unknowns import Spelled
+from orderconds.tableau.unknowns import SymbolicCoefficients
 
 
 def independent_conditions(
-    family: Family, spelled: Spelled, order: int, read: Reading | None = None
+    family: Family, symbolic: SymbolicCoefficients, order: int, read: Reading | None = None
 ) -> tuple[OrderCondition, ...]:
     """Return the family's conditions up to ``order`` that do not follow from others for this spelling.
 
@@ -34,21 +34,23 @@ def independent_conditions(
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["b1/2"], ["b1", "b2/2"]]\\nb = ["b1", "b2"]\\n'
     >>> text += '[numbers]\\nb1 = "0.4~"\\nb2 = "1 - b1"\\n[proof]\\nconditions = "vcg"\\norder = 3'
-    >>> spelled = Tableau.loads(text).proof.spelled
-    >>> [c.tree for c in independent_conditions(families.get("vcg"), spelled, 3)]
+    >>> symbolic = Tableau.loads(text).proof.symbolic
+    >>> [c.tree for c in independent_conditions(families.get("vcg"), symbolic, 3)]
     ['o(o o)']
     """
     candidates = decisive_conditions(family, order)
     everything = tuple(c for of_order in candidates for c in of_order)
-    draws = Draws(family.label(), str(order), description(spelled))
-    surd = lone_square_root(spelled)
-    member = exact_member(family, spelled, everything, draws, surd, read)
+    draws = Draws(family.label(), str(order), description(symbolic))
+    surd = lone_square_root(symbolic)
+    member = exact_member(family, symbolic, everything, draws, surd, read)
     if member is None:
         return everything
     kept = set(everything)
-    for found in dependences(family, spelled, candidates, draws, surd, read):
-        unverified = {c for c, combination in found.combinations() if not member.verifies(c, combination)}
-        kept = unverified.union(found.pivots)
+    for dependence in dependences(family, symbolic, candidates, draws, surd, read):
+        unverified = {
+            c for c, combination in dependence.combinations() if not member.verifies(c, combination)
+        }
+        kept = unverified.union(dependence.pivots)
         if not unverified:
             break
     return tuple(c for c in everything if c in kept and not member.holds(c))

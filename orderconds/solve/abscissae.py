@@ -36,17 +36,17 @@ def commutator_free_times(update: Sequence[Sequence[str]], b: Sequence[str]) -> 
     >>> commutator_free_times([["x"], ["y"]], ["b1"])
     {'b1': 'x + y', 'y1': 'x', 'y2': 'y', 'm1': '1 - (x*(1/2*y1 + y2) + y*(1/2*y2))/b1'}
     """
-    found = {b[i]: _sum(column) for i, column in enumerate(zip(*update, strict=True))}
+    times = {b[i]: _sum(column) for i, column in enumerate(zip(*update, strict=True))}
     totals = [f"y{J + 1}" for J in range(len(update))]
-    found |= {y: _sum(row) for y, row in zip(totals, update, strict=True)}
+    times |= {y: _sum(row) for y, row in zip(totals, update, strict=True)}
     for i, weight in enumerate(b):
         later = [
             f"{row[i]}*({' + '.join([f'1/2*{totals[J]}', *totals[J + 1 :]])})"
             for J, row in enumerate(update)
             if row[i] != "0"
         ]
-        found[f"m{i + 1}"] = f"1 - ({' + '.join(later)})/{weight}"
-    return found
+        times[f"m{i + 1}"] = f"1 - ({' + '.join(later)})/{weight}"
+    return times
 
 
 def _sum(row: Sequence[str]) -> str:
@@ -64,17 +64,17 @@ def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, 
     """
     s = len(b)
     entries = [(i, j) for i in range(s) for j in range(s)]
-    spelled = {(i, j): fixed.get(A[i][j], A[i][j]) for i, j in entries}
+    texts = {(i, j): fixed.get(A[i][j], A[i][j]) for i, j in entries}
     unknown = set(_spanning_tree([e for e in entries if A[e[0]][e[1]] not in fixed], s))
     cells = {}
     while unknown:
         i, j, by_row = _leaf(unknown)
         unknown.remove((i, j))
         if by_row:
-            others = [spelled[i, k] for k in range(s) if k != j and spelled[i, k] != "0"]
+            others = [texts[i, k] for k in range(s) if k != j and texts[i, k] != "0"]
             cells[A[i][j]] = " - ".join([f"m{i + 1}", *others]).replace("- -", "+ ")
         else:
-            others = [f"{b[k]}*{spelled[k, j]}" for k in range(s) if k != i and spelled[k, j] != "0"]
+            others = [f"{b[k]}*{texts[k, j]}" for k in range(s) if k != i and texts[k, j] != "0"]
             total = " - ".join([f"{b[j]}*(1 - m{j + 1})", *others])
             cells[A[i][j]] = f"({total})/{b[i]}"
     return cells
@@ -117,8 +117,8 @@ def symmetric_transport(
     stage, if there is one. With j' = s + 1 - j, columns j ask for sum_i b_i (x_ij - x_ij') = C_j: they are
     solved for the last row of ``own``, rows for one entry each.
 
-    >>> found = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
-    >>> found["x12"], found["x11"]
+    >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
+    >>> last["x12"], last["x11"]
     ('1/2*(m1 - (y1) - (C1/b1))', 'x12 + C1/b1')
     """
     s, half = len(update[0]), len(own)

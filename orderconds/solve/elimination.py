@@ -93,9 +93,9 @@ def infeasible(problem: Problem) -> Infeasible | None:
     for variables, members in _subsystems([x for x in system if not plain.is_zero(x[1])], plain):
         consequence = _consequence(problem, variables, [x for _, x in members], plain)
         if consequence is not None:
-            found = _certificate(variables, members, consequence, plain)
-            if found is not None:
-                return found
+            certificate = _certificate(variables, members, consequence, plain)
+            if certificate is not None:
+                return certificate
     return None
 
 
@@ -163,10 +163,10 @@ def _sympy(x: fmpq_mpoly, variables: Sequence[int], symbols: Sequence[sympy.Symb
 def _flint(polynomial: sympy.Poly, plain: Polynomials) -> fmpq_mpoly:
     """Return a univariate sympy polynomial, its coefficients whole and without common factor."""
     place = plain.names.index(polynomial.gen.name)
-    found = plain.zero
+    result = plain.zero
     for (power,), c in polynomial.primitive()[1].clear_denoms(convert=True)[1].terms():
-        found = found + plain.rational(int(c)) * plain.generators[place] ** power
-    return found
+        result = result + plain.rational(int(c)) * plain.generators[place] ** power
+    return result
 
 
 def _certificate(
@@ -226,13 +226,13 @@ def _multipliers(
         if pivot == len(columns):
             return None
         values[pivot] = reduced[i, len(columns)]
-    found = []
+    products = []
     for k in range(len(members)):
         share = values[k * len(monomials) : (k + 1) * len(monomials)]
-        found.append(
+        products.append(
             sum(
                 (plain.rational(int(c.p), int(c.q)) * m for c, m in zip(share, monomials, strict=True) if c),
                 plain.zero,
             )
         )
-    return found
+    return products

@@ -44,11 +44,11 @@ def least_squares(system: System, points: Floats, sweeps: int = 200) -> tuple[Fl
         normal[:, diagonal, diagonal] += (damping[active] * np.sqrt(size[active]) + 1e-18)[:, None]
         right = np.matmul(J.transpose(0, 2, 1), r[..., None])
         tried = points[active] - _solved(normal, right)[..., 0]
-        found, sloped = system(tried)
-        there = _squares(found)
+        residuals, sloped = system(tried)
+        there = _squares(residuals)
         better = (there < size[active]) & np.isfinite(sloped).all(axis=(1, 2))
         chosen = np.flatnonzero(active)[better]
-        points[chosen], values[chosen], slopes[chosen] = tried[better], found[better], sloped[better]
+        points[chosen], values[chosen], slopes[chosen] = tried[better], residuals[better], sloped[better]
         size[chosen] = there[better]
         factor = np.where(better, 0.3, 4.0)
         damping[active] = np.maximum(damping[active] * factor, 1e-6)

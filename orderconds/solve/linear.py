@@ -29,9 +29,9 @@ class Constraint:
 class Elimination:
     """Coefficients ``names``, later ones expressed by earlier ones as constraints come in.
 
-    >>> found = Elimination(("a", "b", "c"))
-    >>> found.impose([equality("c = a + 1/2"), equality("b = a")])
-    >>> found.free, spell(found.cell("c"))
+    >>> elimination = Elimination(("a", "b", "c"))
+    >>> elimination.impose([equality("c = a + 1/2"), equality("b = a")])
+    >>> elimination.free, spell(elimination.cell("c"))
     (('a',), '1/2 + a')
     """
 
@@ -69,19 +69,19 @@ class Elimination:
             self.solved[pivot] = row
 
     def _reduced(self, form: Affine) -> dict[str, Fraction]:
-        found = dict(form)
+        result = dict(form)
         for name in form:
             if name in self.solved:
-                found = _substituted(found, name, self.solved[name])
-        return {name: x for name, x in found.items() if x}
+                result = _substituted(result, name, self.solved[name])
+        return {name: x for name, x in result.items() if x}
 
 
 def _substituted(form: Affine, name: str, by: Affine) -> dict[str, Fraction]:
-    found = dict(form)
-    scale = found.pop(name, Fraction(0))
+    result = dict(form)
+    scale = result.pop(name, Fraction(0))
     for other, x in by.items():
-        found[other] = found.get(other, Fraction(0)) + scale * x
-    return {key: x for key, x in found.items() if x}
+        result[other] = result.get(other, Fraction(0)) + scale * x
+    return {key: x for key, x in result.items() if x}
 
 
 def equality(text: str, where: str = "--fix") -> Constraint:
@@ -115,19 +115,19 @@ def _affine(x: Expression) -> Affine:
         return {x.name: Fraction(1)}
     if not isinstance(x, Chain):
         raise TypeError("not linear")
-    found = dict(_affine(x.operands[0]))
+    result = dict(_affine(x.operands[0]))
     for sign, operand in zip(x.operators, map(_affine, x.operands[1:]), strict=True):
         if sign in "+-":
             for name, value in operand.items():
-                found[name] = found.get(name, Fraction(0)) + (value if sign == "+" else -value)
+                result[name] = result.get(name, Fraction(0)) + (value if sign == "+" else -value)
             continue
-        if set(found) <= {""} and sign == "*":
-            found, operand = dict(operand), found
+        if set(result) <= {""} and sign == "*":
+            result, operand = dict(operand), result
         if not set(operand) <= {""}:
             raise TypeError("not linear")
         scale = operand.get("", Fraction(0))
-        found = {name: value * scale if sign == "*" else value / scale for name, value in found.items()}
-    return found
+        result = {name: value * scale if sign == "*" else value / scale for name, value in result.items()}
+    return result
 
 
 def zero(name: str, why: str) -> Constraint:
@@ -181,5 +181,5 @@ def named(letter: str, *indices: int) -> str:
     >>> named("a", 2, 1), named("a", 10, 1)
     ('a21', 'a10_1')
     """
-    joint = "" if all(i < 10 for i in indices) and len(indices) < 3 else "_"
-    return letter + joint.join(map(str, indices))
+    separator = "" if all(i < 10 for i in indices) and len(indices) < 3 else "_"
+    return letter + separator.join(map(str, indices))

@@ -58,7 +58,7 @@ class Problem:
         """
         symmetric = self.structure.startswith("symmetric")
         highest = self.order - 1 if symmetric and self.order % 2 == 0 else self.order
-        return independent_conditions(self.family, self.ansatz.spelled(), highest)
+        return independent_conditions(self.family, self.ansatz.symbolic(), highest)
 
     @cached_property
     def tape(self) -> Tape:
@@ -96,7 +96,7 @@ class Problem:
     def positive(self) -> tuple[int, ...]:
         """Return the places, among ``coefficients``, of those required to be positive."""
         names = self.ansatz.cells
-        found: list[int] = []
+        indices: list[int] = []
         for wish in self.spec.positive:
             if wish == "b":
                 places = list(range(len(names), self.coefficients.size))
@@ -104,8 +104,8 @@ class Problem:
                 places = [k for k, name in enumerate(names) if name == wish]
             if not places:
                 raise InputError(f"{wish!r}", where="--positive", expected=f"b, or one of {', '.join(names)}")
-            found += places
-        return tuple(found)
+            indices += places
+        return tuple(indices)
 
     def bounds(self, points: Floats) -> tuple[Floats, Floats]:
         """Return how far coefficients are beyond the bounds asked for, and the Jacobian of that."""

@@ -110,9 +110,9 @@ def run_batch(search: Search, number: int) -> Batch:
     late = 0.0 if regular else SINGULAR
     chosen = [(late + _score(problem, points[i]), points[i]) for i in regular or solved]
     if search.minimised:
-        nearest = sorted(chosen, key=lambda found: found[0])[:KEPT]
+        nearest = sorted(chosen, key=lambda pair: pair[0])[:KEPT]
         chosen = [(late + size, x) for x, size in (minimise(problem, x) for _, x in nearest)]
-    best = sorted(chosen, key=lambda found: found[0])[:KEPT]
+    best = sorted(chosen, key=lambda pair: pair[0])[:KEPT]
     solutions = tuple((score, tuple(map(float, x))) for score, x in best)
     return Batch(number, float(norms.min()), solutions)
 

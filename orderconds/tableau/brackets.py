@@ -128,8 +128,8 @@ def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, 
     >>> extent_of_sum(((0, 1), (Bracket(0, 1), 1)), extents({}))
     (1, 2)
     """
-    found = [extent(term) for term, _ in combination] or [(1, 1)]  # the empty sum, zero, is of any length
-    return min(least for least, _ in found), max(most for _, most in found)
+    extents = [extent(term) for term, _ in combination] or [(1, 1)]  # the empty sum, zero, is of any length
+    return min(least for least, _ in extents), max(most for _, most in extents)
 
 
 def expand(combination: Combination, named: Mapping[str, NodeSeries], ring: Ring) -> NodeSeries:
@@ -216,5 +216,5 @@ def _expect(token: str, tokens: list[str], place: int, text: str, where: str) ->
     return place + 1
 
 
-def _error(found: str, where: str) -> TableauError:
-    return TableauError(found, where=where, expected='a node ("1"), a name, or a bracket ("[2,1]")')
+def _error(problem: str, where: str) -> TableauError:
+    return TableauError(problem, where=where, expected='a node ("1"), a name, or a bracket ("[2,1]")')

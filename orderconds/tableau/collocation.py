@@ -50,9 +50,9 @@ class Nodes:
 
     def __init__(self, s: int, left: bool, right: bool) -> None:
         tower = Tower()
-        found = roots(nodal_polynomial(s, left, right), tower)
+        nodes = roots(nodal_polynomial(s, left, right), tower)
         field = tower.field
-        self.c = sorted((field.lift(x) for x in found), key=float)
+        self.c = sorted((field.lift(x) for x in nodes), key=float)
         self.tower, self.s = tower, s
         self.lagrange = [self._lagrange(j) for j in range(s)]
         self.b = [self.integral(j, self.one) for j in range(s)]
@@ -247,10 +247,10 @@ def roots(polynomial: fmpq_poly, tower: Tower) -> list[Algebraic]:
     >>> roots(fmpq_poly([0, -2, 0, 1]), Tower())
     [Algebraic(0), Algebraic(-sqrt(2)), Algebraic(sqrt(2))]
     """
-    found: list[Algebraic] = []
+    result: list[Algebraic] = []
     for factor, _ in polynomial.factor()[1]:
-        found += _roots_of_irreducible(factor, tower)
-    return found
+        result += _roots_of_irreducible(factor, tower)
+    return result
 
 
 def _roots_of_irreducible(factor: fmpq_poly, tower: Tower) -> list[Algebraic]:
@@ -265,13 +265,13 @@ def _roots_of_irreducible(factor: fmpq_poly, tower: Tower) -> list[Algebraic]:
         return [tower.constant(_fraction(middle), Fraction(0)) + sign * x for x in sides for sign in (-1, 1)]
     monic = factor / factor.leading_coefficient()
     coefficients = [_fraction(x) for x in monic.coeffs()]
-    found = []
+    named = []
     for k, enclosed in enumerate(real_roots(monic, 256)[:-1]):
         near = endpoints(enclosed)[0]
         places = Fraction(1, 10**40)
-        found.append(tower.named_root(coefficients, _fraction(near), places, f"c{k + 1}"))
+        named.append(tower.named_root(coefficients, _fraction(near), places, f"c{k + 1}"))
     last = tower.constant(-coefficients[-2], Fraction(0))
-    return [*found, last - sum(found[1:], found[0])]
+    return [*named, last - sum(named[1:], named[0])]
 
 
 def _quadratic(factor: fmpq_poly, tower: Tower) -> list[Algebraic]:

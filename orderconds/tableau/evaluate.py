@@ -131,8 +131,8 @@ class _Evaluation:
         self.open: list[str] = []
         self.place = ""
 
-    def error(self, found: str, expected: str) -> TableauError:
-        return TableauError(found, where=f"{self.where}: {self.place}", expected=expected)
+    def error(self, problem: str, expected: str) -> TableauError:
+        return TableauError(problem, where=f"{self.where}: {self.place}", expected=expected)
 
     def all(self, expressions: Mapping[str, Expression]) -> dict[str, Element]:
         result = {}
@@ -147,10 +147,10 @@ class _Evaluation:
             self.value(Name(name))
 
     def value(self, x: Expression) -> Element:
-        found = self.known.get(x)
-        if found is None:
-            found = self.known[x] = self.bounded(self.compute(x))
-        return found
+        value = self.known.get(x)
+        if value is None:
+            value = self.known[x] = self.bounded(self.compute(x))
+        return value
 
     def bounded(self, value: Element) -> Element:
         if self.scalars.size(value) > MAX_SIZE:

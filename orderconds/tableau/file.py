@@ -32,7 +32,7 @@ from orderconds.tableau.method_properties import PROPERTIES
 from orderconds.tableau.methods import LowerOrder
 from orderconds.tableau.products import Method
 from orderconds.tableau.toml_reader import parse_toml
-from orderconds.tableau.unknowns import Proof, Spelled
+from orderconds.tableau.unknowns import Proof, SymbolicCoefficients
 
 MAX_NAME = 64
 KEYS = frozenset(("family", "A", "b", "stage", "update", "low_storage", "gamma", "alpha", "exponents"))
@@ -60,7 +60,7 @@ class File(Struct, frozen=True):
     method: Method
     embedded: LowerOrder | None
     claims: Claims
-    spelled: Spelled
+    symbolic: SymbolicCoefficients
     proof: Proof | None
 
 
@@ -143,7 +143,7 @@ def read(data: Mapping[str, object], where: str) -> File:
     except TableauError as problem:  # which names the tableau and the key, not the file
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
-    source = Spelled(expressions, numbers, where, entry.build)
+    source = SymbolicCoefficients(expressions, numbers, where, entry.build)
     return File(data, entry, ring, method, embedded, _claims(entry, where), source, _proof(entry, source))
 
 
@@ -151,8 +151,8 @@ def _converted(data: Mapping[str, object], where: str) -> Format:
     """Return the typed file, its format chosen by ``family``."""
     family = data.get("family")
     if not isinstance(family, str) or family not in FORMATS:
-        found = "no family" if family is None else f"family = {family!r}"
-        raise TableauError(found, where=f"{where}: family", expected=f"one of {', '.join(FORMATS)}")
+        given = "no family" if family is None else f"family = {family!r}"
+        raise TableauError(given, where=f"{where}: family", expected=f"one of {', '.join(FORMATS)}")
     kind = FORMATS[family]
     try:
         return msgspec.convert(data, kind)
@@ -175,23 +175,23 @@ def _each(
 
 def _explained(message: str, kind: type[Struct], prefix: str, where: str) -> TableauError:
     """Turn msgspec's message into one that says where, what, and what was expected."""
-    found, _, path = message.partition(" - at `$")
+    summary, _, path = message.partition(" - at `$")
     key = re.sub(r"\[(\d+)\]", lambda m: f"[{int(m[1]) + 1}]", path.rstrip("`"))
     key = (prefix + key).removeprefix(".")
     place = f"{where}: {key}" if key else where
-    if unknown := re.fullmatch(r"Object contains unknown field `(.*)`", found, re.DOTALL):
+    if unknown := re.fullmatch(r"Object contains unknown field `(.*)`", summary, re.DOTALL):
         inner = re.split(r"[.\[]", key)[0]
         struct = _NESTED.get((kind, inner), _NESTED.get(inner, kind))
         keys = ", ".join(sorted(struct.__struct_encode_fields__))
         return TableauError(f"unknown key {unknown[1]!r}", where=place, expected=f"one of {keys}")
-    if missing := re.fullmatch(r"Object missing required field `(.*)`", found, re.DOTALL):
+    if missing := re.fullmatch(r"Object missing required field `(.*)`", summary, re.DOTALL):
         return TableauError(f"no {missing[1]}", where=place, expected=f"the key {missing[1]}")
-    if wrong := re.fullmatch(r"Expected `(.*)`, got `(.*)`", found, re.DOTALL):
+    if wrong := re.fullmatch(r"Expected `(.*)`, got `(.*)`", summary, re.DOTALL):
         hint = ""
         if wrong[2] == "float" and "str" in wrong[1]:
             hint = 'quote it: "0.5" is exactly 1/2, "0.81772~" a rounded decimal'
         return TableauError(f"a value of type {wrong[2]}", where=place, expected=wrong[1], hint=hint)
-    return TableauError(found[:1].lower() + found[1:], where=place)
+    return TableauError(summary[:1].lower() + summary[1:], where=place)
 
 
 def _verify_names(entry: Format, where: str) -> None:
@@ -204,9 +204,9 @@ def _verify_names(entry: Format, where: str) -> None:
                 expected=f"at most {MAX_NAME}",
             )
     for key in ("source", "bibtex"):
-        if found := _CONTROL.search(getattr(entry, key)):
+        if character := _CONTROL.search(getattr(entry, key)):
             raise TableauError(
-                f"the control character U+{ord(found[0]):04X}",
+                f"the control character U+{ord(character[0]):04X}",
                 where=f"{where}: {key}",
                 expected="text that reads as it is written",
             )
@@ -269,13 +269,13 @@ def _decimal(text: str, where: str) -> Constant:
     return Constant(Fraction(f"{match[1]}.{places}0"), Fraction(1, 10 ** len(places)))
 
 
-def _proof(entry: Format, spelled: Spelled) -> Proof | None:
+def _proof(entry: Format, symbolic: SymbolicCoefficients) -> Proof | None:
     """Return what the file says of the equations that its decimals solve, the names in it verified."""
     given = entry.proof
     if given is None:
         return None
-    place = f"{spelled.where}: proof"
-    decimals = {u.name: u for u in spelled.decimals()}
+    place = f"{symbolic.where}: proof"
+    decimals = {u.name: u for u in symbolic.decimals()}
     if not decimals:
         raise TableauError("a proof for exact coefficients", where=place, expected='decimals with "~"')
     for name in given.pins:
@@ -289,7 +289,7 @@ def _proof(entry: Format, spelled: Spelled) -> Proof | None:
             where=place,
             expected='assumptions such as { B = 6, C = 3, D = 2 } with reduction = "simplifying" only',
         )
-    known = {*entry.numbers, *spelled.expressions}
+    known = {*entry.numbers, *symbolic.expressions}
     for name in given.printed:
         if name not in known:
             raise TableauError(
@@ -303,7 +303,7 @@ def _proof(entry: Format, spelled: Spelled) -> Proof | None:
         printed={name: _rational(x, f"{place}.printed.{name}") for name, x in given.printed.items()},
         unknowns=tuple(u for u in decimals.values() if u.name not in given.pins),
         pinned=tuple(u for u in decimals.values() if u.name in given.pins),
-        spelled=spelled,
+        symbolic=symbolic,
     )
 
 

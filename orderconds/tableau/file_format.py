@@ -7,8 +7,8 @@ are named as in the file, entries counted from 1.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, Literal
+from collections.abc import Collection, Iterator, Mapping
+from typing import Annotated, Any, ClassVar, Literal
 
 from msgspec import Meta, Struct
 
@@ -66,6 +66,18 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     claims: dict[str, Any] = {}
     proof: ProofEntry | None = None
 
+    in_arrays: ClassVar[bool] = False
+    """Whether named arrays can hold a tableau of this format (:mod:`orderconds.exchange.arrays`)."""
+    distinctive_key: ClassVar[str] = ""
+    """The array that identifies this format if none is stated; '' for the format of all other arrays."""
+    as_products: ClassVar[bool] = False
+    """Whether arrays hold the format as a list of exponentials."""
+
+    @classmethod
+    def defaults(cls, names: Collection[str]) -> Data:
+        """Return the keys that arrays with these names leave out."""
+        return {}
+
     def coefficients(self) -> Places:
         """Yield (place, spelling) of every coefficient."""
         yield from ()
@@ -84,8 +96,8 @@ def row_places(row: list[Coefficient], place: str) -> Places:
     >>> list(row_places(["1/2", 1], "b"))
     [('b[1]', '1/2'), ('b[2]', 1)]
     """
-    for j, spelled in enumerate(row):
-        yield f"{place}[{j + 1}]", spelled
+    for j, coefficient in enumerate(row):
+        yield f"{place}[{j + 1}]", coefficient
 
 
 def filled_row(values: Mapping[str, Element], place: str, s: int, ring: Ring) -> Row:

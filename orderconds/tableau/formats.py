@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Annotated
+from collections.abc import Collection, Iterator, Mapping
+from typing import Annotated, ClassVar
 
 from msgspec import Meta, Struct, field
 
@@ -46,6 +46,9 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
     b: list[Coefficient]
     c: list[Coefficient] = field(default_factory=list)
     embedded: EmbeddedEntry | None = None
+
+    in_arrays: ClassVar[bool] = True
+    distinctive_key: ClassVar[str] = "A"
 
     def verify(self, where: str) -> None:
         """Check len(A) = len(b) and that no row is longer."""
@@ -106,6 +109,9 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
     b: list[Coefficient]
     A_hat: list[list[Coefficient]]
     b_hat: list[Coefficient]
+
+    in_arrays: ClassVar[bool] = True
+    distinctive_key: ClassVar[str] = "A_hat"
 
     def _parts(self) -> Iterator[tuple[str, list[list[Coefficient]], str, list[Coefficient]]]:
         yield "A", self.A, "b", self.b
@@ -178,6 +184,10 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
     update: StageEntry | None = None
     low_storage: LowStorage | None = None
     embedded: EmbeddedProduct | None = None
+
+    in_arrays: ClassVar[bool] = True
+    distinctive_key: ClassVar[str] = "exponentials"
+    as_products: ClassVar[bool] = True
 
     def verify(self, where: str) -> None:
         """Check that one of the two forms is given and that stages start from earlier ones."""
@@ -290,3 +300,14 @@ FORMATS: dict[str, type[Format]] = {
     "rk": RungeKuttaFile,
     "splitting": SplittingFile,
 }
+
+
+def array_format(names: Collection[str]) -> str:
+    """Return the format of a tableau whose arrays have these names, recognised by its distinctive array.
+
+    >>> array_format(["A", "b"]), array_format(["A", "A_hat"]), array_format(["alpha", "beta"])
+    ('rk', 'prk', 'composition')
+    """
+    kinds = {name: kind for name, kind in FORMATS.items() if kind.in_arrays}
+    distinct = [name for name, kind in kinds.items() if kind.distinctive_key in names]
+    return min(distinct or [name for name, kind in kinds.items() if not kind.distinctive_key])

@@ -49,14 +49,14 @@ def _same(one: Sequence[Row], other: Sequence[Row], ring: Ring) -> bool | None:
 
 def _reduced(rows: Sequence[Row], ring: Ring) -> list[Row]:
     """Return a product of exponentials with neighbours that are multiples of each other added up."""
-    found: list[Row] = []
+    reduced: list[Row] = []
     for row in rows:
         total = row
-        if found and _parallel(found[-1], row, ring):
-            total = tuple(x + y for x, y in zip(found.pop(), row, strict=True))
+        if reduced and _parallel(reduced[-1], row, ring):
+            total = tuple(x + y for x, y in zip(reduced.pop(), row, strict=True))
         if not all(ring.is_zero(x) is True for x in total):
-            found.append(total)
-    return found
+            reduced.append(total)
+    return reduced
 
 
 def _parallel(x: Row, y: Row, ring: Ring) -> bool:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Literal
+from collections.abc import Collection, Iterator, Mapping
+from typing import ClassVar, Literal
 
 from msgspec import field
 
@@ -15,6 +15,7 @@ from orderconds.tableau.brackets import spell as spell_term
 from orderconds.tableau.file_format import (
     MAX_PARTS,
     Coefficient,
+    Data,
     Format,
     Places,
     counted,
@@ -35,6 +36,13 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
     gamma: list[Coefficient] | None = None
     alpha: list[Coefficient] | None = None
     beta: list[Coefficient] | None = None
+
+    in_arrays: ClassVar[bool] = True
+
+    @classmethod
+    def defaults(cls, names: Collection[str]) -> Data:
+        """Return the base that goes with the steps."""
+        return {"base": "symmetric-2" if "gamma" in names else "adjoint-pair"}
 
     def verify(self, where: str) -> None:
         """Check that the steps are those of the base, and that each alpha has its beta."""
@@ -88,8 +96,8 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
             )
         for name in self.parts:
             if not name or self.parts.count(name) > 1:
-                found = f"the part {name!r} twice" if name else "a part without name"
-                raise TableauError(found, where=f"{where}: parts", expected="a name for each part")
+                problem = f"the part {name!r} twice" if name else "a part without name"
+                raise TableauError(problem, where=f"{where}: parts", expected="a name for each part")
         counted(len(self.step), f"{where}: step")
         known = ", ".join(self.parts)
         for k, (name, _) in enumerate(self.step):
@@ -106,8 +114,8 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
 
     def coefficients(self) -> Places:
         """Yield the steps."""
-        for k, (_, spelled) in enumerate(self.step):
-            yield f"step[{k + 1}]", spelled
+        for k, (_, coefficient) in enumerate(self.step):
+            yield f"step[{k + 1}]", coefficient
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
         """Return the splitting."""
@@ -180,8 +188,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
         """Yield the nodes, then the coefficients of the elements and the exponents."""
         yield from row_places(self.c, "c")
         for place, table in self._tables():
-            for key, spelled in table.items():
-                yield f"{place}.{key}", spelled
+            for key, coefficient in table.items():
+                yield f"{place}.{key}", coefficient
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
         """Return the method; TableauError where products do not pair up to elements of quadratic groups."""

@@ -20,7 +20,7 @@ from orderconds.ring.rationals import Rationals
 from orderconds.tableau.evaluate import Definition
 from orderconds.tableau.grammar import Chain, Constant, Power
 from orderconds.tableau.products import Method
-from orderconds.tableau.unknowns import Spelled
+from orderconds.tableau.unknowns import SymbolicCoefficients
 
 BITS = 128
 """Size of the numbers drawn. Values are bounded in size, so that a degree stays far below 2^40."""
@@ -32,8 +32,8 @@ OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
 class RandomMember(Rationals):
     """Q, with a number drawn for each decimal and each radical of a file."""
 
-    def __init__(self, spelled: Spelled, draws: Draws | None = None) -> None:
-        self._spelled, self._draws = spelled, draws or Draws(description(spelled))
+    def __init__(self, symbolic: SymbolicCoefficients, draws: Draws | None = None) -> None:
+        self._symbolic, self._draws = symbolic, draws or Draws(description(symbolic))
 
     def variable(self, constant: Constant) -> fmpq:
         """Return the number that is drawn for a decimal."""
@@ -59,33 +59,39 @@ class RandomMember(Rationals):
         >>> from orderconds.tableau import Tableau
         >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\nnumbers = { a = "0.5~" }\\n'
         >>> proof = Tableau.loads(text + '[proof]\\nconditions = "rk"\\norder = 1').proof
-        >>> method = RandomMember(proof.spelled).method()
+        >>> method = RandomMember(proof.symbolic).method()
         >>> method.b[0] / method.A[0][0]
         2
         """
-        return self._spelled.method(
-            self, {u.constant: self.variable(u.constant) for u in self._spelled.decimals()}
+        return self._symbolic.method(
+            self, {u.constant: self.variable(u.constant) for u in self._symbolic.decimals()}
         )[0]
 
     def _drawn(self, name: str) -> fmpq:
         return fmpq(self._draws.number(name, BITS))
 
 
-def description(spelled: Spelled) -> str:
-    """Return a text that fixes the coefficients as functions of the decimals."""
-    return repr(([*spelled.expressions.items()], [*spelled.numbers.items()]))
+def description(symbolic: SymbolicCoefficients) -> str:
+    """Return a text that determines the coefficients as functions of the decimals.
+
+    >>> from orderconds.tableau import Tableau
+    >>> file = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]').file
+    >>> "b[1]" in description(file.symbolic)
+    True
+    """
+    return repr(([*symbolic.expressions.items()], [*symbolic.numbers.items()]))
 
 
-def radicals(spelled: Spelled) -> tuple[Power, ...]:
+def radicals(symbolic: SymbolicCoefficients) -> tuple[Power, ...]:
     """Return the different radicals that stand in a file.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["sqrt(3)"]\\nnumbers.a = "0.5~*sqrt(3)"\\n'
     >>> proof = Tableau.loads(text + '[proof]\\nconditions = "rk"\\norder = 1').proof
-    >>> len(radicals(proof.spelled))
+    >>> len(radicals(proof.symbolic))
     1
     """
-    definitions = (*spelled.numbers.values(), *spelled.expressions.values())
+    definitions = (*symbolic.numbers.values(), *symbolic.expressions.values())
     return tuple(dict.fromkeys(radical for x in definitions for radical in _radicals(x)))
 
 

@@ -18,8 +18,8 @@ def as_composition(tableau: Tableau) -> Tableau | None:
     >>> from orderconds.tableau import find
     >>> jump = Tableau.load(find("triple_jump"))
     >>> arrays = replace(jump, family="rk", method=jump.read_as(("rk",)))
-    >>> found = as_composition(arrays)
-    >>> found.family, len(found.method.gamma)
+    >>> recognised = as_composition(arrays)
+    >>> recognised.family, len(recognised.method.gamma)
     ('composition', 3)
     >>> as_composition(Tableau.load(find("gauss2"))) is None
     True

@@ -42,7 +42,7 @@ class RootedRing(Ring, Protocol):
 
 
 class Unknown(Struct, frozen=True):
-    """A rounded decimal: its name, and the one positive constant that is spelled in the file."""
+    """A rounded decimal: its name, and the one positive constant that is symbolic in the file."""
 
     name: str
     constant: Constant
@@ -62,15 +62,15 @@ class Proof:
     printed: Mapping[str, Fraction]
     unknowns: tuple[Unknown, ...]
     pinned: tuple[Unknown, ...]
-    spelled: Spelled = field(repr=False)
+    symbolic: SymbolicCoefficients = field(repr=False)
 
     def over(self, ring: RootedRing, values: Mapping[str, Element]) -> Built:
         """Return the method with ``values`` for the unknowns and the pinned decimals as exact numbers."""
-        return self.spelled.method(ring, self._known(ring, values))
+        return self.symbolic.method(ring, self._known(ring, values))
 
     def number(self, name: str, ring: RootedRing, values: Mapping[str, Element]) -> Element:
         """Return the number of that name, or at that place, with ``values`` for the unknowns."""
-        return self.spelled.number(name, ring, self._known(ring, values))
+        return self.symbolic.number(name, ring, self._known(ring, values))
 
     def _known(self, ring: RootedRing, values: Mapping[str, Element]) -> dict[Constant, Element]:
         known = {u.constant: values[u.name] for u in self.unknowns}
@@ -79,7 +79,7 @@ class Proof:
         return known
 
 
-class Spelled(Struct, frozen=True):
+class SymbolicCoefficients(Struct, frozen=True):
     """The parsed coefficients of a file, to be evaluated in another ring or with other decimals."""
 
     expressions: Mapping[str, Expression]
@@ -94,20 +94,20 @@ class Spelled(Struct, frozen=True):
 
     def number(self, name: str, ring: RootedRing, known: Mapping[Constant, Element]) -> Element:
         """Return one number of the file, by its name or its place."""
-        spelled = {name: Name(name) if name in self.numbers else self.expressions[name]}
-        return evaluate_in(_Substituted(ring, known), spelled, self.numbers, self.where)[name]
+        expression = {name: Name(name) if name in self.numbers else self.expressions[name]}
+        return evaluate_in(_Substituted(ring, known), expression, self.numbers, self.where)[name]
 
     def decimals(self) -> tuple[Unknown, ...]:
         """Return every rounded decimal, named numbers first, in the order of the file."""
-        found: dict[Constant, str] = {}
+        names_of: dict[Constant, str] = {}
         for name, definition in (*self.numbers.items(), *self.expressions.items()):
             for constant in rounded_and_exact(definition):
                 if constant.unit:
-                    found.setdefault(constant, name)
-        names = list(found.values())
+                    names_of.setdefault(constant, name)
+        names = list(names_of.values())
         return tuple(
             Unknown(name if names.count(name) == 1 else f"{name}: {float(constant.value):.6g}", constant)
-            for constant, name in found.items()
+            for constant, name in names_of.items()
         )
 
 

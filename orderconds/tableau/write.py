@@ -50,7 +50,7 @@ def as_data(tableau: Tableau) -> Data:
     """
     file = tableau.file
     if file is None or file.method is not tableau.method or file.embedded is not tableau.embedded:
-        return written_out(tableau)
+        return without_names(tableau)
     data = deepcopy(dict(file.data)) | {"name": tableau.name}
     for key in ("source", "bibtex"):
         if getattr(tableau, key) != data.get(key, ""):
@@ -61,14 +61,14 @@ def as_data(tableau: Tableau) -> Data:
     return data
 
 
-def written_out(tableau: Tableau, *, name_radicals: bool = True) -> Data:
+def without_names(tableau: Tableau, *, name_radicals: bool = True) -> Data:
     """Return the keys and values of a file with every coefficient spelled in full, without names.
 
     Named are roots that have no other spelling and, with ``name_radicals``, square roots inside others.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\nnumbers = { a = "1/2" }\\n'
-    >>> written_out(Tableau.loads(text))
+    >>> without_names(Tableau.loads(text))
     {'name': 'm', 'family': 'rk', 'A': [['1/2']], 'b': ['1']}
     """
     radicals = _Radicals(tableau.ring) if name_radicals else None
@@ -164,11 +164,11 @@ def _named_roots(tableau: Tableau) -> Data:
 
 
 def _claims(claims: Claims) -> Data:
-    found: Data = {}
+    table: Data = {}
     for claim in claims.orders:
         if claim.cutoff is None:
-            found[claim.family] = claim.order
+            table[claim.family] = claim.order
         else:
-            found.setdefault(claim.family, []).append({"cutoff": claim.cutoff, "order": claim.order})
-    found |= claims.properties
-    return {"claims": found} if found else {}
+            table.setdefault(claim.family, []).append({"cutoff": claim.cutoff, "order": claim.order})
+    table |= claims.properties
+    return {"claims": table} if table else {}
