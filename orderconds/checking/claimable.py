@@ -1,10 +1,10 @@
-"""The families that a tableau can claim: those in which its file should state an order.
+"""The claimable families of a tableau: its file should state an order in each of them.
 
 A Butcher tableau claims ``rk``, ``cg`` and ``rkmk``, and with non-zero weights ``sprk``, ``vcg`` and
 ``vrkmk`` (any cut-off of ``rkmk`` and ``vrkmk`` is a claim); a commutator-free method claims ``rk``,
 ``cf`` and, with non-zero weights, ``vcf``. A pair claims ``prk``, and where it is symplectic
-``sprk_separable`` instead. Families that say the same of a tableau (``prk`` of an ``rk`` one) are not
-demanded. Each family decides for itself (:meth:`orderconds.families.Family.claimable`).
+``sprk_separable`` instead. A family whose order follows from another one, as ``prk`` for an ``rk`` tableau,
+is not included. Each family decides (:meth:`orderconds.families.Family.claimable`).
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def claimable_families(tableau: Tableau) -> tuple[Family, ...]:
 
 
 def unclaimed(tableau: Tableau) -> tuple[Family, ...]:
-    """Return the families that the tableau can claim and its file claims no order in.
+    """Return the claimable families in which the file claims no order.
 
     >>> from orderconds.tableau import find
     >>> unclaimed(Tableau.load(find("kutta3")))

@@ -31,13 +31,13 @@ def check(
     certified: bool = False,
     limits: Limits | None = None,
 ) -> Report:
-    """Find the exact order of ``tableau`` (or of the file, or the library name) in each family it claims.
+    """Find the exact order of ``tableau`` (or of a file, or of a library name) in each family that it claims.
 
-    With ``family`` (``"vcg"``, ``"rkmk(1)"``) that family alone, claimed or not. With ``order`` the order
-    must be at least that, in place of the claims. With ``complete`` a claim is missing, and fails, for each
-    family that the tableau can claim; with ``certified`` an order that rounded decimals support, and no more,
-    fails. A tableau without claims is checked in the family of its format. ``limits`` bound the work; an
-    order that they leave open is a lower bound.
+    With ``family`` (``"vcg"``, ``"rkmk(1)"``) only that family is checked, claimed or not. With ``order`` the
+    order must be at least that, and claims are ignored. With ``complete`` the check fails unless there is a
+    claim for each claimable family. With ``certified`` it fails if only rounded decimals support an order. A
+    tableau without claims is checked in the family of its format. ``limits`` bound the work; if one is
+    reached, the order is a lower bound.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family,
     :class:`~orderconds.errors.ZeroWeight` where a family divides by some b_i = 0,
@@ -82,9 +82,9 @@ def check(
 
 
 def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | None:
-    """Return the orders of the embedded row in the families whose stages do not depend on the weights.
+    """Return the orders of the embedded row in families whose stages do not depend on the weights.
 
-    Those of them that are wanted, always the classical one and that of the tableau's format.
+    These are the wanted families, the classical one, and that of the format.
     """
     lower = tableau.lower()
     if lower is None or tableau.embedded is None:
@@ -104,7 +104,8 @@ def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | Non
 
 
 def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
-    """Return the proof that the file's decimals stand for a solution, or why there is none."""
+    """Return the proof that there is a solution near the decimals of the file, or the reasons why there is
+    none."""
     if tableau.proof is None:
         return None, []
     from orderconds.proof.certificate import certify
@@ -125,7 +126,7 @@ def _orders(
     required: int | None,
     meter: Meter,
 ) -> tuple[FamilyOrder, ...]:
-    """Return the order in each family, from theorems where evaluating it goes beyond the family's limit."""
+    """Return the order in each family; beyond the limit of a family, from theorems."""
     beside = _beside(tableau, wanted, required or 0)
     known_orders: list[FamilyOrder] = []
     for read_as, family, claimed in (*beside, *((tableau, *each) for each in wanted)):
@@ -145,20 +146,20 @@ def _orders(
 
 
 Reading = tuple[Tableau, Family, int | None]
-"""A tableau in a form that a family reads, the family, and the order that is claimed."""
+"""A tableau in a format of the family, the family, and the claimed order."""
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
-    """Return families, beside those wanted, from whose orders a claim beyond a family's limit may follow."""
+    """Return further families whose orders may imply a claim beyond the limit of a family."""
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
     return _bounding(tableau, {family.label() for family, _ in wanted})
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return the families that bound the orders of others, but for those named.
+    """Return the families whose orders bound those of others, without the families in ``labels``.
 
-    A plain array that is a composition of midpoints is read as one, too.
+    A plain array that is a composition of midpoints is also read as a composition.
     """
     from orderconds.checking.claimable import claimable_families
     from orderconds.tableau.recognise import as_composition
@@ -174,9 +175,10 @@ def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
 def _beyond(
     tableau: Tableau, family: Family, ended: FamilyOrder, facts: tuple[Fact, ...], meter: Meter
 ) -> FamilyOrder:
-    """Return the order where theorems decide it beyond the end of the search, else ``ended``.
+    """Return the order if theorems decide it beyond the end of the search, else ``ended``.
 
-    They bound it from below; from above, the order in another family does, or one condition that fails.
+    Theorems bound the order from below. The order in another family, or a failing condition, bounds it from
+    above.
     """
     bounding = _bounding(tableau, [family.label()])
     bounding_orders = [family_order(read_as, other, claim, meter=meter) for read_as, other, claim in bounding]
@@ -192,7 +194,7 @@ def _beyond(
 
 
 def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | None:
-    """Return, of the families whose conditions are among those of ``family``, the one of least order."""
+    """Return the lowest order in a family whose conditions are a subset of those of ``family``."""
     if not computed:
         return None
     from orderconds.proof.implications import consequences
@@ -203,22 +205,22 @@ def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | Non
 
 
 def _decided(computed: Sequence[FamilyOrder]) -> dict[str, int]:
-    """Return the orders by label, those that rounded decimals support among them."""
+    """Return the decided orders by label, including those that rounded decimals support."""
     return {f.family: f.order for f in computed if f.decided}
 
 
 def _proved(computed: Sequence[FamilyOrder]) -> dict[str, int]:
-    """Return the orders, by label, that are more than what rounded decimals support."""
+    """Return the proved orders by label."""
     return _decided([f for f in computed if f.certificate != "decimal"])
 
 
 def _settled(
     tableau: Tableau, family: Family, computed: Sequence[FamilyOrder], facts: tuple[Fact, ...]
 ) -> FamilyOrder | None:
-    """Return an order that follows from those found before, where it is at least the family's search limit.
+    """Return an order that follows from earlier ones, if it is at least the search limit of the family.
 
-    The conditions that fail are those of the family that bounds it from above. What follows from orders that
-    decimals support is supported by decimals.
+    The failing conditions are those of the family that bounds it from above. An order that follows from
+    orders with certificate ``decimal`` has this certificate too.
     """
     proved = [f for f in computed if f.certificate != "decimal"]
     settled = _settled_by(tableau, family, proved, facts)
@@ -248,7 +250,7 @@ def _settled_by(
 
 
 def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> FamilyOrder:
-    """Raise the certificate from ``decimal`` to ``ball`` where proved facts imply the order."""
+    """Change the certificate from ``decimal`` to ``ball`` if proved facts imply the order."""
     if computed.certificate != "decimal" or not facts:
         return computed
     from orderconds.proof.implications import implied
@@ -257,7 +259,8 @@ def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -
 
 
 def read(given: str | PathLike[str]) -> Tableau:
-    """Read a file of any format that :mod:`orderconds.exchange` reads, or the library's tableau of this name.
+    """Read a file of any format that :mod:`orderconds.exchange` reads, or the tableau of this name in the
+    library.
 
     >>> read("rk4").name
     'rk4'
@@ -273,8 +276,8 @@ def read(given: str | PathLike[str]) -> Tableau:
 
 
 def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int | None]]:
-    """Yield the families to check and what is claimed: the one asked for, else all claimed, else the
-    format's."""
+    """Yield the families to check with their claims: the given one, else all claimed, else that of the
+    format."""
     claims = {claim.label: claim.order for claim in tableau.claims.orders}
     if family is not None:
         member = families.get(family)
@@ -287,7 +290,8 @@ def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int 
 
 
 def _claimed(tableau: Tableau, label: str) -> Family:
-    """Return the family of a claim; a name that there is not is an error of the file, at its key."""
+    """Return the family of a claim; InputError with the key in the file if there is no family of this
+    name."""
     try:
         return families.get(label)
     except InputError as problem:
@@ -298,7 +302,7 @@ def _claimed(tableau: Tableau, label: str) -> Family:
 def _broken_claims(
     tableau: Tableau, computed: dict[str, bool | None], embedded: EmbeddedOrder | None
 ) -> Iterator[str]:
-    """Yield what the file says of properties and of its embedded row, and what was computed instead."""
+    """Yield a message for each false claim on a property or on the embedded row."""
     for name, claimed in tableau.claims.properties.items():
         holds = computed.get(name)
         if holds is not claimed:
@@ -311,7 +315,7 @@ def _broken_claims(
 
 
 def _missing_claims(tableau: Tableau, unclaimed: Sequence[Family]) -> Iterator[str]:
-    """Yield each of the ``unclaimed`` families with the claim that would hold."""
+    """Yield a message for each family without a claim, with the order that it could claim."""
     for family in unclaimed:
         computed = family_order(tableau, family)
         least = " at least" if computed.limit is not None or not computed.decided else ""

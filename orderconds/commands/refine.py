@@ -44,5 +44,5 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     if as_json:
         screen.print_json({"decimals": refined.decimals, "proof": proof.as_json()})
     elif output is None:
-        click.echo(refined.text.encode(), nl=False)  # a file is UTF-8, whatever the terminal is
+        click.echo(refined.text.encode(), nl=False)  # a file is UTF-8, also if the terminal is not
     return 0

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 @click.option("--fsal", is_flag=True, help="The last stage is the first of the next step.")
 @click.option("--fix", multiple=True, metavar="a21=1/2", help="A linear equation; may be given often.")
 @click.option("--positive", multiple=True, metavar="NAME", help="A coefficient, or b for all weights.")
-@click.option("--size", metavar="X", help="No coefficient beyond X in size.")
+@click.option("--size", metavar="X", help="No coefficient is larger than X in absolute value.")
 @click.option(
     "--exponentials", type=click.IntRange(1, 12), default=2, show_default=True, help="cf, vcf: in the update."
 )
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 )
 @click.option("--rkn", is_flag=True, help="splitting: the parts are T and V with [V,[V,[V,T]]] = 0.")
 @click.option(
-    "--minimise", type=click.Choice(["error"]), help="Try all starts and take the least principal error."
+    "--minimise", type=click.Choice(["error"]), help="Use all starts and choose the least principal error."
 )
 @click.option("--starts", type=click.IntRange(1, 10**7), help="Random starts.  [4096; minimising 1024]")
 @click.option("--seed", type=click.IntRange(0, 2**31), default=0, show_default=True)
@@ -54,10 +54,10 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
     """Find a method of FAMILY with S stages and order P, prove its order, and write its tableau.
 
     Exits with 0 if a method was found and proved, 1 if none was, or none exists, 2 for contradictory
-    options. The same seed gives the same file, however many processes there are. An interrupted
+    options. The same seed gives the same file for any number of processes. An interrupted
     search keeps its finished batches in the checkpoint, and the same command continues from there.
     """
-    # One thread a process: results then do not depend on how many there are.
+    # One thread for each process: results then do not depend on the number of threads.
     for library in ("OPENBLAS", "OMP", "MKL"):
         os.environ[f"{library}_NUM_THREADS"] = "1"
     from orderconds.solve.solver import solve
@@ -69,7 +69,7 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
     except KeyboardInterrupt as interrupt:
         path = order.checkpoint
         if path is not None and path.exists():
-            interrupt.add_note(f"finished starts are kept in {path}; the same command goes on from there")
+            interrupt.add_note(f"finished starts are kept in {path}; repeat the command to continue")
         raise
     if outcome.solution is not None and output is not None:
         put(output, outcome.solution.text.encode())
@@ -113,7 +113,7 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 def _size(text: str | None) -> Fraction | None:
     if text is None:
         return None
-    number = r"\d{1,20}(/\d{1,20}|\.\d{0,20})?([eE][+-]?\d{1,2})?"  # no exponent that fills the memory
+    number = r"\d{1,20}(/\d{1,20}|\.\d{0,20})?([eE][+-]?\d{1,2})?"  # an exponent would give numbers that fill the memory
     try:
         size = Fraction(text) if re.fullmatch(number, text, re.ASCII) else Fraction(0)
     except (ValueError, ZeroDivisionError):  # 1/0, 1/2e3

@@ -1,4 +1,4 @@
-"""Conditions at one random member of a file's sub-family, exactly: where combinations of them are verified.
+"""Exact values of conditions at one random member of the sub-family of a file, to verify combinations.
 
 The member is that of :mod:`orderconds.tableau.random_member`, over Q, or over Q(sqrt(d)) where the square
 root of a rational is the only radical of the file.
@@ -26,7 +26,7 @@ from orderconds.tableau.random_member import OUTSIDE, RandomMember, radicals
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 Reading = Callable[[Method, Ring], Method]
-"""Turns a file's method over a ring into the method that a family evaluates."""
+"""A function from the method of a file over a ring to the method that a family evaluates."""
 
 Monomial = tuple[OrderCondition, ...]
 """The product of the left-hand sides of conditions."""
@@ -45,7 +45,7 @@ class Surd:
 
 
 def lone_square_root(symbolic: SymbolicCoefficients) -> Surd | None:
-    """Return the only radical of a file where it is the square root of an exact rational, else None.
+    """Return the only radical of a file if it is the square root of an exact rational, else None.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["sqrt(12)"]\\n'
@@ -73,20 +73,20 @@ def lone_square_root(symbolic: SymbolicCoefficients) -> Surd | None:
 
 @dataclass(frozen=True)
 class ExactMember:
-    """The left-hand sides of conditions at one member; ``surd`` is the square root in coefficients."""
+    """The left-hand sides of conditions at one member; ``surd`` is the square root in its coefficients."""
 
     ring: Ring
     values: Mapping[OrderCondition, Element]
     surd: Surd | None
 
     def holds(self, condition: OrderCondition) -> bool:
-        """Say whether a condition holds here, hence at every member."""
+        """Whether a condition holds at this member, hence at every member."""
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
 
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:
-        """Say whether a combination gives the left-hand side here, and the right-hand side.
+        """Whether a combination equals the left-hand side at this member, and gives the right-hand side.
 
-        Where the conditions in it hold, ``condition`` then holds, for every member.
+        Then ``condition`` follows from the conditions in the combination, at every member.
         """
         if combination is None:
             return False
@@ -110,7 +110,19 @@ def exact_member(
 ) -> ExactMember | None:
     """Return a random member of the sub-family that ``symbolic`` describes.
 
-    None where it cannot be evaluated: its numbers explode, or a divisor is zero.
+    None if it cannot be evaluated: its numbers grow too large, or a divisor is zero.
+
+    >>> from orderconds import families
+    >>> from orderconds.proof.subfamily import decisive_conditions
+    >>> from orderconds.tableau import Tableau
+    >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["b1/2"], ["b1", "b2/2"]]\\nb = ["b1", "b2"]\\n'
+    >>> text += '[numbers]\\nb1 = "0.4~"\\nb2 = "1 - b1"\\n[proof]\\nconditions = "vcg"\\norder = 3'
+    >>> family, symbolic = families.get("vcg"), Tableau.loads(text).proof.symbolic
+    >>> candidates = decisive_conditions(family, 3)
+    >>> conditions = [c for of_order in candidates for c in of_order]
+    >>> member = exact_member(family, symbolic, conditions, Draws("example"), None)
+    >>> [c.tree for c in conditions if not member.holds(c)]
+    ['o(o o)']
     """
     try:
         method, ring = _member(symbolic, draws, surd)
@@ -131,7 +143,7 @@ def _member(symbolic: SymbolicCoefficients, draws: Draws, surd: Surd | None) -> 
 
 
 class _Scalars:
-    """Numbers drawn over the field that a square root generates."""
+    """Random numbers in the field that a square root generates."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws, surd: Surd) -> None:
         self._drawn, self._surd = RandomMember(symbolic, draws), surd

@@ -8,8 +8,8 @@ conditions of lower order. It then holds where the kept conditions hold.
 Combinations are found modulo primes (:mod:`orderconds.proof.dependence`), which proves nothing. Each one is
 then verified exactly at a member drawn from a digest of the file (:mod:`orderconds.proof.exact_member`). A
 condition without a verified combination is kept. So is one whose left-hand side is constant, unless exact
-arithmetic finds it equal to its right-hand side. Where a file has several radicals they are random numbers
-too, which makes the sub-family larger and the statement stronger.
+arithmetic finds it equal to its right-hand side. If a file has several radicals, they are random numbers too.
+The sub-family is then larger and the statement stronger.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from orderconds.tableau.unknowns import SymbolicCoefficients
 def independent_conditions(
     family: Family, symbolic: SymbolicCoefficients, order: int, read: Reading | None = None
 ) -> tuple[OrderCondition, ...]:
-    """Return the family's conditions up to ``order`` that do not follow from others for this spelling.
+    """Return the conditions up to ``order`` that do not follow from others in the sub-family.
 
     ``read`` turns the file's method and its ring into the method that the family evaluates.
 

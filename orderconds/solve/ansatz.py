@@ -1,8 +1,8 @@
 """An ansatz: a tableau file whose decimals are the unknowns of a search.
 
 The coefficients of a family with a number of stages, named a21, b1, ... and related by constraints, are
-written as a file. The same text then runs through every engine: over recorded programs for the search, over
-residues for ranks, over balls for the proof.
+written as a file. The same text is then evaluated over recorded programs for the search, modulo primes for
+ranks, and over balls for the proof.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from orderconds.tableau.unknowns import RootedRing, SymbolicCoefficients
 
 @dataclass(frozen=True)
 class Ansatz:
-    """Coefficients as text: ``numbers`` by name, the names of unknown ones in ``free``, and the ``body``.
-
-    ``cells`` are the names of the coefficients that are not constants.
+    """The text of a tableau file whose free coefficients have no values yet. ``free`` are the names of the
+    unknowns, ``numbers`` the formulas of dependent coefficients by name, ``body`` the other lines. ``cells``
+    are the names of the coefficients that are not constants.
     """
 
     family: str
@@ -49,7 +49,7 @@ class Ansatz:
             raise InputError(
                 "the constraints leave no coefficient free",
                 where="constraints",
-                expected="something to solve for",
+                expected="at least one free coefficient",
             )
         return proof.symbolic
 
@@ -68,14 +68,14 @@ class Ansatz:
         return self.symbolic()
 
     def coefficients(self, values: Sequence[Element], ring: RootedRing) -> list[Element]:
-        """Return every coefficient that is no constant, in the order of ``cells``."""
+        """Return every coefficient that is not constant, in the order of ``cells``."""
         symbolic = self._symbolic
         known = {u.constant: x for u, x in zip(symbolic.decimals(), self._sorted(values), strict=True)}
         return [symbolic.number(name, ring, known) for name in self.cells]
 
 
 def _place(name: str) -> tuple[bool, bool, str, list[int]]:
-    """Sort names by their letters, then by their indices as numbers."""
+    """Return the sort key of a name: its letters, then its indices as numbers."""
     letters = name.rstrip("0123456789_")
     return (letters != "m", letters != "b", letters, [int(x) for x in name[len(letters) :].split("_") if x])
 

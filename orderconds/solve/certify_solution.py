@@ -1,7 +1,7 @@
-"""From a solution in doubles to a file with a certificate.
+"""Certify a solution that was computed in double precision, and write it as a tableau file.
 
-First the coefficients that the equations leave free are rounded to short decimals. The others are solved
-again and sharpened by Newton's method in balls. If they are algebraic numbers of one field, recognised by
+First, coefficients that the equations do not determine are rounded to short decimals. The others are computed
+again to high precision by Newton's method in balls. If they are algebraic numbers of one field, recognised by
 lattice reduction, the file has closed forms and its order is checked exactly. Otherwise its decimals are
 unknowns of the conditions that are independent for the ansatz (reduction ``spelling``), and interval
 arithmetic proves them.
@@ -46,16 +46,16 @@ STEPS = (
     Fraction(1, 100),
     Fraction(1, 1000),
 )
-"""Free coefficients are rounded to multiples of these, the coarsest first that leaves a good solution."""
+"""Free coefficients are rounded to multiples of one of these: the coarsest with a good solution."""
 
 FINE = (Fraction(1, 10**5), Fraction(1, 10**7))
-"""The same where the principal error has been minimised, which is flat to second order there."""
+"""The same after the principal error was minimised; near a minimum, rounding hardly changes it."""
 
 DIGITS = 50
-"""Places of a decimal in the file."""
+"""Decimal places of a coefficient in the file."""
 
 BITS = 1400
-"""Working precision of Newton's method, of which lattice reduction makes use."""
+"""Working precision of Newton's method in bits; lattice reduction needs it this high."""
 
 WORSE = 1.5
 """A rounded solution may have larger coefficients, and a larger principal error, by this factor."""
@@ -74,7 +74,7 @@ class Solution:
 def certify_solution(
     problem: Problem, point: Sequence[float], name: str, source: str, *, minimised: bool = False
 ) -> Solution:
-    """Return the file of a solution near ``point``; raises NotProved where nothing can be proved.
+    """Return the file of a solution near ``point``; raises NotProved if no order can be proved.
 
     >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem
@@ -100,7 +100,7 @@ def certify_solution(
 def _rounded_free(
     problem: Problem, point: Floats, steps: Sequence[Fraction]
 ) -> tuple[Floats, dict[int, Fraction], list[int]]:
-    """Return a nearby solution, its free coefficients with short values, and those that are solved for."""
+    """Return a nearby solution, the short values of its free coefficients, and the indices of the others."""
     _, slopes = problem.tape.jacobians(point[None])
     solved = determined(slopes[0])
     loose = [j for j in range(len(point)) if j not in solved]
@@ -121,7 +121,8 @@ def _rounded_free(
 
 
 def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple[Floats, float]:
-    """Return the solution near ``start`` with the other coefficients as they are, and its residual norm."""
+    """Solve for some coefficients, with the others fixed; return the solution near ``start`` and its residual
+    norm."""
 
     def restricted(points: Floats) -> tuple[Floats, Floats]:
         whole = np.repeat(start[None], len(points), axis=0)
@@ -144,7 +145,7 @@ def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
 
 
 def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
-    """Say whether the unknowns are well determined: no singular value is tiny."""
+    """Whether the equations determine the unknowns well: no singular value is tiny."""
     if not solved:
         return True
     _, slopes = problem.tape.jacobians(point[None])
@@ -217,7 +218,7 @@ def _newton(
 
 
 def _square_roots(problem: Problem) -> dict[str, arb]:
-    """Return the square roots of rationals that the ansatz is spelled with."""
+    """Return the square roots of rational numbers that occur in the ansatz."""
     roots = {}
     with precision(BITS):
         for radical in radicals(problem.ansatz.symbolic()):
@@ -237,7 +238,7 @@ def _roots(forms: dict[str, ClosedForm]) -> list[str]:
 
 
 def _exact(problem: Problem, text: str, source: str) -> Solution | None:
-    """Return the file with exact coefficients, or None where it has not the order."""
+    """Return the solution with exact coefficients, or None if it does not have the order."""
     tableau = Tableau.loads(text)
     label = problem.ansatz.family
     report = check(tableau, label, problem.order)
@@ -248,7 +249,7 @@ def _exact(problem: Problem, text: str, source: str) -> Solution | None:
 
 
 def _without_zeros(method: Method, ring: Ring) -> Method:
-    """Return a commutator-free method without the exponentials that turned out to be of zero."""
+    """Return a commutator-free method without the exponentials whose exponent is zero."""
     if not isinstance(method, CommutatorFree):
         return method
 
@@ -266,7 +267,7 @@ def _proved(
     digits: dict[str, str] = {}
     with precision(BITS):
         for name, x in sharp.items():
-            # Equal spellings would be one unknown.
+            # Two equal decimals in a file are one unknown.
             places = DIGITS
             while (decimal := _signed(x, places)).lstrip("-") in {y.lstrip("-") for y in digits.values()}:
                 places += 1
@@ -283,12 +284,12 @@ def _proved(
 
 
 def _signed(x: arb, places: int) -> str:
-    """Return a number as a decimal with ``places`` places that is an unknown of the file's equations."""
+    """Return a rounded decimal with ``places`` places and the sign ``~``."""
     return ("-" if x < 0 else "") + decimal_places(abs(x), places) + "~"
 
 
 def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
-    """Return the file with a claim for each family and property that is certain."""
+    """Return the solution with a claim for each proved order and property."""
     if not exact:
         certify(tableau)
     claims: list[OrderClaim] = []
@@ -314,7 +315,7 @@ def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
     claimed = replace(tableau, claims=Claims(tuple(claims), held))
     written = dumps(claimed)
     if exact:
-        # With names where that is shorter, as it is for numbers with long spellings.
+        # Choose the shorter of two forms: every coefficient in full, or with names for repeated numbers.
         written = min(toml_text(without_names(claimed)), written, key=len)
     error = principal_error(claimed, problem.ansatz.family, problem.order + 1)
     return Solution(Tableau.loads(written), written, certificate, error)
@@ -323,7 +324,7 @@ def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
 def principal_error(tableau: Tableau, family: str, order: int) -> float | None:
     """Return the 2-norm of the residuals of this order.
 
-    Which they are is a question of the family (:meth:`orderconds.families.Family.principal_residuals`).
+    The family chooses the residuals (:meth:`orderconds.families.Family.principal_residuals`).
 
     >>> from orderconds.checking import read
     >>> round(principal_error(read("suzuki4"), "vcg", 5), 6)

@@ -1,4 +1,4 @@
-"""Numbers known to many digits as elements of one number field: relations found by lattice reduction.
+"""Recognise numbers known to many digits as elements of one number field, by lattice reduction.
 
 A real number near a root of a polynomial with small integer coefficients shows as a short vector of the
 lattice spanned by (e_k, N x^k), with N large (Lenstra, Lenstra and Lovasz 1982). The result is a guess,
@@ -19,10 +19,10 @@ from orderconds.ring.precision import precision
 from orderconds.ring.roots import isolating, real_roots
 
 MAX_DEGREE = 6
-"""Degree of the fields that are recognised."""
+"""The highest degree of a field that is recognised."""
 
 MAX_TEXT = 160
-"""A closed form longer than this is none."""
+"""A closed form with more characters is not used."""
 
 
 @dataclass(frozen=True)
@@ -38,8 +38,8 @@ def closed_forms(
 ) -> dict[str, ClosedForm] | None:
     """Return all of the numbers as elements of one field of degree at most :data:`MAX_DEGREE`, or None.
 
-    ``bits`` is the precision to which the numbers are known. Square roots that are expected, by their
-    spelling, may extend the field of the number of least degree.
+    ``bits`` is the precision to which the numbers are known. ``radicals`` are expected square roots by their
+    text; they may extend the field of the number of least degree.
 
     >>> with precision(400):
     ...     root = arb(3).sqrt()
@@ -144,7 +144,7 @@ def _relation(values: Sequence[arb], bits: int) -> list[int] | None:
         rows.append([int(k == j) for j in range(len(values))] + [int((low * fmpq(scale)).round())])
     reduced = fmpz_mat(rows).lll()
     shortest = [int(reduced[0, k]) for k in range(len(values) + 1)]
-    # By chance a vector is about as long as the determinant's root; a relation is much shorter.
+    # A random vector is about as long as the root of the determinant; a true relation is much shorter.
     longest = max(abs(c) for c in shortest).bit_length()
     if 2 * longest * (len(values) + 1) > known:
         return None
@@ -156,7 +156,7 @@ def _root_of_linear(p: fmpz_poly) -> Fraction:
 
 
 def _square_root(p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
-    """Return sqrt(D), D without square factors, for the field of a quadratic polynomial."""
+    """Return sqrt(D), with D square-free, for the field of a quadratic polynomial."""
     discriminant = int(p[1]) ** 2 - 4 * int(p[0]) * int(p[2])
     free = 1
     for prime, power in fmpz(discriminant).factor():
@@ -166,7 +166,7 @@ def _square_root(p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
 
 
 def _named(x: arb, p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
-    """Return the root itself under the name r, with what defines it in a file."""
+    """Return the root, its name ``r``, and the lines that define it in a file."""
     monic = fmpq_poly([fmpq(c) for c in p.coeffs()]) / fmpq(p[p.degree()])
     place = min(
         range(len(real_roots(monic, 128))), key=lambda k: float(abs(real_roots(monic, 128)[k] - x).mid())

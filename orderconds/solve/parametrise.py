@@ -1,4 +1,5 @@
-"""The parametrisation of methods in a search: coefficients named, constrained and laid out in a file."""
+"""The parametrisation of methods in a search: names of coefficients, constraints, and the text of the
+file."""
 
 from __future__ import annotations
 
@@ -39,7 +40,7 @@ def _eliminated(names: Sequence[str], spec: Spec, constraints: Sequence[Constrai
 
 @dataclass(frozen=True)
 class _Cells:
-    """Coefficients after elimination: how each is written in the file, and the numbers behind them."""
+    """Coefficients after elimination: the text of each in the file, and the formulas of named numbers."""
 
     elimination: Elimination
     extra: Mapping[str, str] | None = None
@@ -52,7 +53,7 @@ class _Cells:
         return spell(form) if set(form) <= {""} else name
 
     def numbers(self, names: Sequence[str]) -> dict[str, str]:
-        """Return the spellings of dependent coefficients that are no constants."""
+        """Return the formulas of dependent coefficients that are not constants."""
         texts = {}
         for name in names:
             form = self.elimination.cell(name)
@@ -61,12 +62,12 @@ class _Cells:
         return {**texts, **(self.extra or {})}
 
     def unknown(self, names: Sequence[str]) -> tuple[str, ...]:
-        """Return the coefficients that are no constants."""
+        """Return the coefficients that are not constants."""
         return tuple(name for name in names if self.written(name) == name)
 
 
 def _row(cells: _Cells, names: Sequence[str], full: bool = False) -> str:
-    """Spell a row of coefficients; zeros at its end are left out unless it is ``full``."""
+    """Return the text of a row of coefficients, without zeros at its end unless it is ``full``."""
     texts = [cells.written(name) for name in names]
     while not full and texts and texts[-1] == "0":
         texts.pop()
@@ -180,7 +181,7 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return totals a_ij with the right abscissae, and the last exponentials of the stages they determine."""
+    """Return sums a_ij of exponents with the required abscissae, and the last exponentials of the stages."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
@@ -202,7 +203,7 @@ def _abscissae(
 
 
 def _gauss(s: int) -> dict[str, str]:
-    """Return the Gauss tableau, spelled: the sums of the exponents of each stage, and the weights."""
+    """Return the Gauss tableau as text: the sums of the exponents of each stage, and the weights."""
     from orderconds.tableau.collocation import construct
 
     tableau = construct("gauss", s)
@@ -228,7 +229,7 @@ def _totals(
 def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return sums x_ij of the stages' own exponents with the right abscissae, and the last exponents."""
+    """Return sums x_ij of each stage's own exponents with the required abscissae, and the last exponents."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two")
@@ -285,7 +286,7 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # The middle step is the one that the sum determines: the outer ones are named before it.
+    # The sum determines the middle step; therefore the outer steps come before it.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)
@@ -379,8 +380,8 @@ def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:
 class Layout:
     """How the coefficients of one tableau format are parametrised.
 
-    ``ansatz`` takes a family, what is asked of the method, a structure and a name; ``structures`` returns the
-    structures in which a search begins.
+    ``ansatz`` takes a family, a specification of the method, a structure and a name; ``structures`` returns
+    the structures in which a search begins.
     """
 
     ansatz: Callable[[Family, Spec, str, str], Ansatz]
@@ -393,7 +394,7 @@ LAYOUTS = {
     "composition": Layout(composition, one_structure),
     "splitting": Layout(splitting, one_structure),
 }
-"""Tableau format to its layout: :attr:`orderconds.families.Family.unknowns` names one of them."""
+"""The layout of each tableau format; :attr:`orderconds.families.Family.unknowns` is a key of this table."""
 
 
 def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found") -> Ansatz:

@@ -1,4 +1,4 @@
-"""A search from start to end: prove infeasibility, or search and write the best method that can be proved."""
+"""The whole search: prove that no method exists, or search and return the best method with a proof."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from orderconds.solve.search import BATCH, Batch, Checkpoint, Search, batches
 from orderconds.solve.spec import Spec
 
 PLAIN, MINIMISED = 4096, 1024
-"""Starts in each structure, where the principal error is not minimised, and where it is."""
+"""Starts in each structure, without and with minimisation of the principal error."""
 
 
 @dataclass
 class Outcome:
     """The outcome of a search: a method, a proof that there is none, or neither.
 
-    ``best`` is the least residual norm of all starts, ``tried`` says in words what was done.
+    ``best`` is the least residual norm of all starts, ``tried`` describes each attempt in words.
     """
 
     solution: Solution | None = None
@@ -37,7 +37,7 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Order:
-    """A search and the work that may be spent on it."""
+    """The options of a search and its limits on work."""
 
     family: str
     order: int
@@ -148,13 +148,13 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
         + (f"; solutions not proved: {refused}" if refused else "")
     )
     outcome.structure = structure
-    checkpoint.remove()  # the search is over, whatever it came to
+    checkpoint.remove()  # the search is over, with or without a solution
 
 
 def _finished(
     problem: Problem, seen: list[Batch], order: Order, source: str, refused: str
 ) -> tuple[Solution | None, str]:
-    """Return the best solution that can be proved, or why the last could not be."""
+    """Return the best solution with a proof, or the reason why the last proof failed."""
     solutions = sorted((s for batch in seen for s in batch.solutions), key=lambda pair: pair[0])
     for _, point in solutions[:8]:
         try:

@@ -1,8 +1,8 @@
 """A recorded program compiled for numpy: values and exact Jacobians at many points together.
 
-The operations that the outputs need are sorted into levels, each depending on earlier levels only, so that
-one level is a few calls of numpy, whatever the number of operations in it. The Jacobian is computed by
-forward differentiation: every operation carries its gradient.
+The operations that the outputs need are sorted into levels, each depending on earlier levels only, so that a
+level takes a few calls of numpy for any number of operations. The Jacobian is computed by forward
+differentiation: every operation carries its gradient.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Places = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class _Level:
-    """Operations of one kind whose operands are all known: they fill the rows ``start`` to ``stop``."""
+    """Operations of one kind on rows of earlier levels; their results are the rows ``start`` to ``stop``."""
 
     kind: int
     start: int
@@ -73,7 +73,7 @@ class Tape:
 
     def _forward(self, points: Floats) -> Floats:
         values = self._start(points)
-        with np.errstate(all="ignore"):  # a start may run away; its residuals then say so
+        with np.errstate(all="ignore"):  # a start may diverge; its residuals are then infinite
             for level in self._levels:
                 out = values[level.start : level.stop]
                 if level.kind == ROOT:

@@ -36,9 +36,9 @@ from orderconds.tableau.unknowns import Proof, SymbolicCoefficients
 
 MAX_NAME = 64
 KEYS = frozenset(("family", "A", "b", "stage", "update", "low_storage", "gamma", "alpha", "exponents"))
-"""A file with one of these keys is meant as a tableau."""
+"""A file with one of these keys is taken for a tableau."""
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufeff]")
-"""Characters that end lines unseen or change the direction of writing; tab and newline are none."""
+"""Characters that end lines invisibly or change the direction of writing, without tab and newline."""
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.+-]*")
 _NUMBER = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
@@ -65,7 +65,7 @@ class File(Struct, frozen=True):
 
 
 def text_of(path: str | Path) -> str:
-    """Return the text of a tableau file, refused where it is too large or no UTF-8.
+    """Return the text of a tableau file; TableauError if it is too large or not UTF-8.
 
     >>> from orderconds.tableau import find
     >>> text_of(find("kutta3")).splitlines()[0]
@@ -80,18 +80,18 @@ def text_of(path: str | Path) -> str:
 
 
 def bytes_of(path: str | Path) -> bytes:
-    """Return the content of a regular file, refused where it is too large for a tableau.
+    """Return the content of a regular file; TableauError if it is too large for a tableau.
 
     >>> from orderconds.tableau import find
     >>> bytes_of(find("kutta3"))[:4]
     b'name'
     """
     content = read_bytes(path, "a tableau file", error=TableauError)
-    return content.removeprefix(BOM_UTF8)  # some editors and spreadsheets put one before the text
+    return content.removeprefix(BOM_UTF8)  # some editors and spreadsheets begin a file with this mark
 
 
 def meant_as_tableau(path: str | Path) -> bool:
-    """Whether a TOML file has a key of a tableau; one that cannot be read may have been meant so.
+    """Whether a TOML file has a key of a tableau, or cannot be read.
 
     >>> from orderconds.tableau.library import root
     >>> meant_as_tableau(root().parent / "pyproject.toml"), meant_as_tableau(root() / "rk" / "rk4.toml")
@@ -140,7 +140,7 @@ def read(data: Mapping[str, object], where: str) -> File:
     ring, values = evaluate(expressions, numbers, where)
     try:
         method, embedded = entry.build(values, ring)
-    except TableauError as problem:  # which names the tableau and the key, not the file
+    except TableauError as problem:  # the message so far names the tableau and the key, but not the file
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
     source = SymbolicCoefficients(expressions, numbers, where, entry.build)
@@ -163,7 +163,7 @@ def _converted(data: Mapping[str, object], where: str) -> Format:
 def _each(
     table: Mapping[str, object], kind: Any, struct: type[Struct], key: str, where: str
 ) -> dict[str, Any]:
-    """Return the entries of a table typed one by one, so that a message can name the entry."""
+    """Convert the entries of a table one by one, so that an error message can name the entry."""
     result = {}
     for name, value in table.items():
         try:
@@ -174,7 +174,7 @@ def _each(
 
 
 def _explained(message: str, kind: type[Struct], prefix: str, where: str) -> TableauError:
-    """Turn msgspec's message into one that says where, what, and what was expected."""
+    """Turn an error of msgspec into one with the place, the value and the expectation."""
     summary, _, path = message.partition(" - at `$")
     key = re.sub(r"\[(\d+)\]", lambda m: f"[{int(m[1]) + 1}]", path.rstrip("`"))
     key = (prefix + key).removeprefix(".")
@@ -244,7 +244,7 @@ def _numbers(entry: Format, where: str) -> dict[str, Definition]:
 
 
 def _rational(x: str | int, where: str) -> Fraction:
-    """Read a rational number: of a minimal polynomial, whose radicals need none, or as a source prints it."""
+    """Read a rational number: a coefficient of a minimal polynomial, or a printed decimal."""
     try:
         return _fraction(_parsed(x, where))
     except (TypeError, ZeroDivisionError):
@@ -270,7 +270,7 @@ def _decimal(text: str, where: str) -> Constant:
 
 
 def _proof(entry: Format, symbolic: SymbolicCoefficients) -> Proof | None:
-    """Return what the file says of the equations that its decimals solve, the names in it verified."""
+    """Return the ``[proof]`` of the file, its names verified."""
     given = entry.proof
     if given is None:
         return None

@@ -1,4 +1,4 @@
-"""The formats of a tableau file, one class each: which keys it has and which method they make."""
+"""The formats of a tableau file. Each class has the keys of one format and builds the method."""
 
 from __future__ import annotations
 
@@ -40,7 +40,8 @@ class EmbeddedEntry(Struct, forbid_unknown_fields=True):
 
 
 class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "rk"``: A by rows, zeros at their ends may be left out, and b; c, if given, is verified."""
+    """``family = "rk"``: A by rows (zeros at the end of a row may be left out), b, and optionally c, which is
+    verified."""
 
     A: list[list[Coefficient]]
     b: list[Coefficient]
@@ -155,7 +156,8 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class StageEntry(Struct, forbid_unknown_fields=True):
-    """A product of exponentials, the first acts first, on stage ``from`` (counted from 1; default y0)."""
+    """A product of exponentials applied to stage ``from`` (counted from 1; default y0); the first acts
+    first."""
 
     exp: list[list[Coefficient]] = []
     start: int | None = field(default=None, name="from")
@@ -168,7 +170,7 @@ class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
 
 
 class LowStorage(Struct, forbid_unknown_fields=True):
-    """K <- A_i K + F(Y), Y <- exp(h B_i K) Y, in two registers (2N)."""
+    """A scheme with two registers (2N): K <- A_i K + F(Y), Y <- exp(h B_i K) Y."""
 
     A: list[Coefficient]
     B: list[Coefficient]
@@ -190,7 +192,7 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
     as_products: ClassVar[bool] = True
 
     def verify(self, where: str) -> None:
-        """Check that one of the two forms is given and that stages start from earlier ones."""
+        """Check that the file has exactly one of the two forms and that stages start from earlier ones."""
         if self.low_storage:
             if self.stage or self.update:
                 raise TableauError(

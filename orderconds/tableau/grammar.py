@@ -1,4 +1,4 @@
-"""The grammar of a coefficient: bounded arithmetic, parsed by recursive descent, never run as code.
+"""The grammar of a coefficient: arithmetic of bounded size, parsed by recursive descent, never executed.
 
 ::
 
@@ -49,9 +49,9 @@ class Name(Struct, frozen=True, cache_hash=True):
 
 
 class Chain(Struct, frozen=True, cache_hash=True):
-    """``operands`` joined from left to right by ``operators``, one fewer; all of ``+ -`` or all of ``* /``.
+    """Operands joined from left to right by ``operators``, which are all ``+ -`` or all ``* /``.
 
-    Flat, so that the depth of an expression is that of its parentheses.
+    The chain is flat, so that the depth of an expression is that of its parentheses.
     """
 
     operators: tuple[str, ...]
@@ -72,7 +72,7 @@ ZERO = Constant(Fraction(0))
 def parse(text: str, where: str = "") -> Expression:
     """Parse one coefficient.
 
-    Raises :class:`TableauError` with the position of what it could not read.
+    Raises :class:`TableauError` with the position of the error.
 
     >>> parse("0.81772~")
     Constant(value=Fraction(20443, 25000), unit=Fraction(1, 100000))
@@ -83,7 +83,7 @@ def parse(text: str, where: str = "") -> Expression:
 
 
 def spell(x: Expression, limit: int | None = None) -> str:
-    """Return text of the same value, which parses to x where x was parsed; cut anywhere beyond ``limit``.
+    """Return the text of an expression; a text longer than ``limit`` is cut.
 
     >>> [spell(parse(text)) for text in ("-(1 - sqrt(2))*3/4", "2^(-1/3)", "0.50~", "1 - (2 - 3)")]
     ['(-(1 - sqrt(2)))*3/4', '2^(-1/3)', '0.50~', '1 - (2 - 3)']
@@ -111,7 +111,7 @@ def _level(x: Expression) -> int:
 
 
 def _parts(x: Expression, least: int) -> Iterator[str]:
-    """Yield the text of x, in parentheses where it binds less tightly than ``least``."""
+    """Yield the text of x, in parentheses if it binds less tightly than ``least``."""
     level = _level(x)
     if level < least:
         yield from ("(", *_parts(x, SUM), ")")
@@ -136,7 +136,7 @@ def _parts(x: Expression, least: int) -> Iterator[str]:
 
 
 def _constant(x: Constant) -> str:
-    """Spell a constant: a fraction is a decimal where it is one, as the grammar has it."""
+    """Return the text of a constant: a decimal if it is finite, else a fraction."""
     unit = x.unit or next(
         (Fraction(1, 10**n) for n in range(MAX_TEXT) if 10**n % x.value.denominator == 0), None
     )

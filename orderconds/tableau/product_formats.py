@@ -89,7 +89,7 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
     rkn: str | None = None
 
     def verify(self, where: str) -> None:
-        """Check that parts are named once each and that steps and ``rkn`` name parts."""
+        """Check that the names of parts differ and that steps and ``rkn`` refer to parts."""
         if not 2 <= len(self.parts) <= MAX_PARTS:
             raise TableauError(
                 f"{len(self.parts)} parts", where=f"{where}: parts", expected=f"2 to {MAX_PARTS} parts"
@@ -129,7 +129,8 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
 class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
     """``family = "magnus"``: nodes c and exponents, tables of brackets over nodes counted from 1.
 
-    ``elements`` names Lie elements for those after it and for the exponents; ``map`` is ``exp`` or ``cay``.
+    ``elements`` names Lie elements, to which later elements and the exponents may refer; ``map`` is ``exp``
+    or ``cay``.
     """
 
     c: list[Coefficient]
@@ -144,7 +145,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield f"exponents[{k + 1}]", table
 
     def verify(self, where: str) -> None:
-        """Check that terms are brackets of nodes and of elements named before, products with cay alone."""
+        """Check that terms are brackets of nodes and of earlier elements; products are allowed only with
+        cay."""
         s = counted(len(self.c), f"{where}: c")
         counted(len(self.exponents), f"{where}: exponents", "exponents")
         known: list[str] = []
@@ -181,7 +183,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             raise TableauError(
                 f"the product {key!r}",
                 where=where,
-                expected='brackets; products stand with map = "cay" alone',
+                expected='brackets; products only with map = "cay"',
             )
 
     def coefficients(self) -> Places:
@@ -192,7 +194,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                 yield f"{place}.{key}", coefficient
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the method; TableauError where products do not pair up to elements of quadratic groups."""
+        """Return the method; TableauError if its products do not add up to Lie elements of quadratic
+        groups."""
         tables = {
             place: tuple((parse_term(key, place), values[f"{place}.{key}"]) for key in table)
             for place, table in self._tables()
@@ -203,7 +206,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             tuple((name, tables[f"elements.{name}"]) for name in self.elements),
             self.map,
         )
-        # brackets alone lie in every Lie algebra
+        # only brackets lie in every Lie algebra
         products = any(has_product(term) for table in tables.values() for term, _ in table)
         for k, series in enumerate(method.words(ring) if products else ()):
             for word, value in series.items():
@@ -212,6 +215,6 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                     raise TableauError(
                         f"a product that leaves quadratic groups in exponent {k + 1}",
                         where=f"{self.name}: exponents[{k + 1}]",
-                        expected="x*y*z beside z*y*x with one coefficient, x*y beside y*x with opposite ones",
+                        expected="x*y*z and z*y*x with equal coefficients, x*y and y*x with opposite ones",
                     )
         return method, None

@@ -1,9 +1,10 @@
 """A file's method with random numbers in place of its rounded decimals and its radicals, over Q.
 
-What holds there holds whatever numbers they stand for. An identity between rational functions of degree at
-most D that is false holds at a point drawn from 2^128 values a coordinate with probability at most D / 2^128
-(Schwartz 1980; Zippel 1979). The numbers come from a digest of the file, so that a search for a file whose
-own point deceives is hopeless. Arithmetic is exact: no prime enters.
+An identity that holds there holds for all values of the decimals, up to a negligible probability: a false
+identity between rational functions of degree at most D holds at a random point, with 2^128 values for each
+coordinate, with probability at most D / 2^128 (Schwartz 1980; Zippel 1979). The numbers come from a digest of
+the file. Hence nobody can construct a file for which the test is wrong. Arithmetic is exact, not modulo
+primes.
 """
 
 from __future__ import annotations
@@ -23,28 +24,28 @@ from orderconds.tableau.products import Method
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 BITS = 128
-"""Size of the numbers drawn. Values are bounded in size, so that a degree stays far below 2^40."""
+"""Bits of a random number. The bound on the size of values keeps degrees far below 2^40."""
 
 OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
-"""What is raised where a member cannot be evaluated: its numbers explode, or a divisor is zero."""
+"""The errors of a member that cannot be evaluated: its numbers grow too large, or a divisor is zero."""
 
 
 class RandomMember(Rationals):
-    """Q, with a number drawn for each decimal and each radical of a file."""
+    """The field Q, with a random number for each decimal and each radical of a file."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws | None = None) -> None:
         self._symbolic, self._draws = symbolic, draws or Draws(description(symbolic))
 
     def variable(self, constant: Constant) -> fmpq:
-        """Return the number that is drawn for a decimal."""
+        """Return the random number for a decimal."""
         return self._drawn(f"decimal {constant.value} {constant.unit}")
 
     def root(self, x: fmpq, index: int) -> fmpq:
-        """Return the number that is drawn for this root."""
+        """Return the random number for this root."""
         return self._drawn(f"root {index} {x}")
 
     def named_root(self, minpoly: Any, near: Fraction, unit: Fraction, name: str) -> fmpq:
-        """Return the number that is drawn for this name."""
+        """Return the random number for this name."""
         return self._drawn(f"named {name}")
 
     def size(self, x: fmpq) -> int:
@@ -54,7 +55,7 @@ class RandomMember(Rationals):
     def method(self) -> Method:
         """Return the method.
 
-        Raises one of :data:`OUTSIDE` where it cannot be evaluated.
+        Raises one of :data:`OUTSIDE` if it cannot be evaluated.
 
         >>> from orderconds.tableau import Tableau
         >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\nnumbers = { a = "0.5~" }\\n'
@@ -83,7 +84,7 @@ def description(symbolic: SymbolicCoefficients) -> str:
 
 
 def radicals(symbolic: SymbolicCoefficients) -> tuple[Power, ...]:
-    """Return the different radicals that stand in a file.
+    """Return the different radicals in a file.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["sqrt(3)"]\\nnumbers.a = "0.5~*sqrt(3)"\\n'

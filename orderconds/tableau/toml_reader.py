@@ -1,4 +1,4 @@
-"""TOML of bounded depth: the standard reader takes gigabytes for keys of thousands of parts."""
+"""TOML with short keys. (The standard reader needs gigabytes for keys with thousands of parts.)"""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import tomllib
 from orderconds.tableau.file_format import Data
 
 MAX_PARTS = 24
-"""No key of a tableau file has more than two parts."""
+"""The most parts of a key; keys of tableau files have at most two."""
 
 _LONG_KEY = re.compile(
     r"(?<![\w.'\"-])"
@@ -17,7 +17,8 @@ _LONG_KEY = re.compile(
 
 
 def parse_toml(text: str) -> Data:
-    """Return the keys and values; ValueError for what is no TOML, or has keys of very many parts.
+    """Return the keys and values; ValueError for invalid TOML, or for keys with more than :data:`MAX_PARTS`
+    parts.
 
     >>> parse_toml('a.b = "1"')
     {'a': {'b': '1'}}

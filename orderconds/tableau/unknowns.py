@@ -1,4 +1,4 @@
-"""The rounded decimals of a file as unknowns of equations, and what the file says of their proof.
+"""The rounded decimals of a file as unknowns of equations, and the ``[proof]`` table of the file.
 
 A decimal with ``~`` approximates a number without a known closed form. With a ``[proof]`` table it is an
 unknown: the true method solves the order conditions that the table names, near the decimals of the file.
@@ -8,11 +8,11 @@ unknown: the true method solves the order conditions that the table names, near 
     [proof]
     conditions = "cg"          # the family whose independent conditions are the equations
     order = 4                  # all of them up to this order
-    pins = ["a31", "a42"]      # decimals taken at their word: exact, no unknowns
-    reduction = "symmetric"    # optional: what makes fewer equations enough
-    printed = { a21 = "0.8177227988124852" }   # optional: as the source prints them
+    pins = ["a31", "a42"]      # decimals that are exact numbers, not unknowns
+    reduction = "symmetric"    # optional: a reason why fewer equations suffice
+    printed = { a21 = "0.8177227988124852" }   # optional: the digits printed in the source
 
-An unknown is named as under ``numbers``, or by its place (``A[2][1]``). Equal spellings are one unknown.
+An unknown is named as under ``numbers``, or by its place (``A[2][1]``). Equal decimals are one unknown.
 """
 
 from __future__ import annotations
@@ -31,18 +31,18 @@ from orderconds.tableau.methods import LowerOrder
 from orderconds.tableau.products import Method
 
 Built = tuple[Method, LowerOrder | None]
-"""A method and what estimates its error."""
+"""A method and its embedded row."""
 
 
 class RootedRing(Ring, Protocol):
-    """A ring in which radicals can be taken: balls, jets."""
+    """A ring with radicals: balls, jets."""
 
     def root(self, x: Element, index: int) -> Element:
         """Return the real root."""
 
 
 class Unknown(Struct, frozen=True):
-    """A rounded decimal: its name, and the one positive constant that is symbolic in the file."""
+    """A rounded decimal: its name, and its absolute value in the file."""
 
     name: str
     constant: Constant
@@ -50,9 +50,9 @@ class Unknown(Struct, frozen=True):
 
 @dataclass(frozen=True)
 class Proof:
-    """What a file says of the equations that its decimals solve; ``printed`` are the source's numbers.
+    """The equations that the decimals of a file solve. ``printed`` are the numbers printed in the source.
 
-    ``unknowns`` are what the equations are solved for, ``pinned`` the decimals taken as exact.
+    The equations are solved for ``unknowns``; the decimals ``pinned`` are exact numbers.
     """
 
     conditions: str
@@ -112,7 +112,7 @@ class SymbolicCoefficients(Struct, frozen=True):
 
 
 class _Substituted:
-    """Scalars of a ring in which the rounded decimals have the values given."""
+    """Scalars of a ring, with given values for the rounded decimals."""
 
     def __init__(self, ring: RootedRing, known: Mapping[Constant, Element]) -> None:
         self.ring, self.known = ring, known
