@@ -1,7 +1,7 @@
 """The residuals of the conditions of one order, with verdicts: zero, not zero, or a ball too wide to decide.
 
-In a number field, balls are much cheaper than exact arithmetic and show that most residuals of a failing order
-are not zero. Exact arithmetic is used for the others, and for residuals that are printed.
+In a number field, balls are much cheaper than exact arithmetic, and show that most residuals of a failing
+order are not zero. Exact arithmetic is used for the others, and for residuals that are printed.
 """
 
 from __future__ import annotations

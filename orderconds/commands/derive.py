@@ -24,7 +24,7 @@ FORMATS = ("text", "latex", "sympy", "json")
     "--all",
     "every",
     is_flag=True,
-    help="The conditions of all trees. A dependent one shows its value in others, where <tree> is the left-hand side for a tree.",
+    help="The conditions of all trees; a dependent one also as a polynomial in others (<tree>).",
 )
 @click.option("--explain", is_flag=True, help="Draw each tree and name its elementary differential.")
 @click.option("--json", "as_json", is_flag=True, help="The same as --format json.")

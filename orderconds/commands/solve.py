@@ -113,7 +113,8 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 def _size(text: str | None) -> Fraction | None:
     if text is None:
         return None
-    number = r"\d{1,20}(/\d{1,20}|\.\d{0,20})?([eE][+-]?\d{1,2})?"  # an exponent would give numbers that fill the memory
+    # Long exponents would give numbers that fill the memory.
+    number = r"\d{1,20}(/\d{1,20}|\.\d{0,20})?([eE][+-]?\d{1,2})?"
     try:
         size = Fraction(text) if re.fullmatch(number, text, re.ASCII) else Fraction(0)
     except (ValueError, ZeroDivisionError):  # 1/0, 1/2e3

@@ -2,9 +2,9 @@
 
 The proof of rounded decimals is left out, because it refers to names in the file.
 ``rk`` gives A, b and embedded_b with embedded_order; ``prk`` A, b, A_hat, b_hat; ``composition`` gamma, or
-alpha and beta. ``cf`` gives the exponentials of all stages and of the update as rows of ``exponentials``;
-``count`` says how many belong to each stage and, last, to the update, ``start`` which stage each starts
-from, 0 for y0; with embedded_order the update is the last but one and the embedded update the last.
+alpha and beta. ``cf`` gives the exponentials of all stages and of the update as rows of ``exponentials``.
+``count`` has the number of exponentials of each stage and, last, of the update; ``start`` has the stage from
+which each starts, 0 for y0. With embedded_order the last product is the embedded update.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ from orderconds.tableau.write import without_names
 
 Row = list[str]
 Arrays = Data
-"""Name to text (name, family, ...), to a row, or to rows of one length."""
+"""Texts (name, family, ...), rows, and matrices, by name."""
 
 TABLES = ("numbers", "claims")
-"""Tables of a file that become JSON texts; ``numbers`` only where coefficients need their names."""
+"""Tables of a file that become JSON texts; ``numbers`` only if coefficients need names."""
 TEXTS = ("name", "family", "source", "bibtex", "base", "embedded_order", *TABLES)
 ROWS = ("b", "b_hat", "gamma", "alpha", "beta", "embedded_b", "count", "start", "c")
 MATRICES = ("A", "A_hat", "exponentials")
@@ -72,7 +72,7 @@ def to_arrays(data: Data, target: str) -> Arrays:
 
 
 def data_without_names(tableau: Tableau) -> Data:
-    """Return the keys of a tableau's file, no coefficient using a name other than that of a root.
+    """Return the keys of a tableau's file, without names in coefficients other than those of roots.
 
     Exact coefficients are in lowest terms; rounded ones keep the digits of the file.
 
@@ -141,7 +141,7 @@ def from_arrays(entries: Arrays, where: str) -> Data:
 
 
 def _verify_types(entries: Arrays, where: str) -> None:
-    """Refuse an array that is no row or matrix of texts, and a text that is none."""
+    """Raise an error for a value of the wrong type: texts, rows and matrices of texts are allowed."""
     for name, value in entries.items():
         depth = 0 if name in TEXTS else 2 if name in MATRICES else 1
         if not _has_depth(value, depth):

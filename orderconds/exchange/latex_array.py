@@ -1,6 +1,6 @@
 r"""LaTeX: a Butcher tableau as an ``array`` with rules, other methods as matrices by name.
 
-Read back are ``\begin{array}{c|cc}`` with c, A (blank cells are zeros), a rule and b, and
+The reader accepts ``\begin{array}{c|cc}`` with c, A (blank cells are zeros), a rule and b, and
 ``A = \begin{pmatrix} ... \end{pmatrix}``.
 """
 
@@ -71,7 +71,7 @@ def write(data: Data) -> bytes:
 
 
 def _node(tableau: Tableau, x: Element) -> str:
-    """Return an abscissa as text; a ball has few digits, as nothing depends on them."""
+    """Return an abscissa as text; a ball has few digits, since the reader does not use them."""
     return SHORT.text(SHORT.enclose(x.value) + 0) if isinstance(x, Ball) else tableau.ring.text(x)
 
 
@@ -114,7 +114,7 @@ def _texts(text: str) -> Arrays:
 
 
 def _environments(text: str, where: str) -> Iterator[tuple[str | None, str]]:
-    """Yield the body of each Butcher array with None, of each matrix with the name before it."""
+    """Yield (None, body) for each Butcher array, and (name, body) for each matrix."""
     opened: re.Match[str] | None = None
     for token in _ENVIRONMENT.finditer(text):
         if token[1] == "begin":

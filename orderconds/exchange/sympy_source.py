@@ -59,9 +59,9 @@ def write(data: Data) -> bytes:
 
 
 def _defined(entries: Arrays) -> Iterator[tuple[str, str | tuple[list[str], int]]]:
-    """Yield the named numbers, each after those that it refers to: the text of a number, or a root.
+    """Yield the named numbers, each after those to which it refers: the text of a number, or a root.
 
-    A root is given by descending coefficients and its place among the real roots, counted as by ``CRootOf``.
+    A root has descending coefficients and its index among the real roots, as in ``CRootOf``.
     """
     remaining = json_table(entries.get("numbers", "{}"), "numbers")
     while remaining:
@@ -143,7 +143,7 @@ def _closing(text: str, start: int, where: str) -> int:
 
 
 def _with_python_names(data: Data) -> Data:
-    """Return the keys with other names for numbers whose names Python, or the source written, uses."""
+    """Return the keys with new names for numbers whose names would conflict in Python source."""
     taken = {*keyword.kwlist, *keyword.softkwlist, *_NAME.findall(IMPORT), *MATRICES, *ROWS}
     numbers = data.get("numbers") or {}
     renamed = dict[str, str]()

@@ -1,4 +1,4 @@
-"""The registry of families: built in by module, registered by class, installed by entry point."""
+"""The registry of families: built-in modules, registered classes, and entry points of installed packages."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ BUILT_IN = {
     "fer": "orderconds.families.fer",
     "cayley": "orderconds.families.cayley",
 }
-"""Family name to the module that registers it, in the order of ``orderconds list families``."""
+"""The module of each built-in family, in the order of ``orderconds list families``."""
 
 ENTRY_POINT_GROUP = "orderconds.families"
 """The entry-point group in which other packages offer families: name = "module:Class"."""
@@ -51,10 +51,9 @@ FamilyClass = TypeVar("FamilyClass", bound=type[Family])
 def register(family: FamilyClass) -> FamilyClass:
     """Make a family known to every command and to claims in tableau files; return the class.
 
-    It may be used as a decorator. A package that is installed names its class in the entry-point group
-    ``orderconds.families`` instead, and ``orderconds`` on the command line finds it. Raises
-    :class:`~orderconds.errors.InputError` for a class without name, description or formats, and for a name
-    that is taken.
+    It may be used as a decorator. An installed package uses the entry-point group ``orderconds.families``
+    instead. Raises :class:`~orderconds.errors.InputError` for a class without name, description or formats,
+    and for a name that is taken.
 
     >>> from orderconds import check, derive
     >>> from orderconds.families.rk import RungeKuttaFamily

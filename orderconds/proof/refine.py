@@ -1,7 +1,7 @@
 """Newton's method in high precision, starting from the digits printed in a source.
 
-If there are more decimals than equations, elimination on the Jacobian with complete pivoting selects those that
-the equations determine best. The others are pinned: they keep their printed digits exactly.
+If there are more decimals than equations, elimination on the Jacobian with complete pivoting selects those
+that the equations determine best. The others are pinned: they keep their printed digits exactly.
 """
 
 from __future__ import annotations
