@@ -1,4 +1,4 @@
-"""Packages whose names load when they are first asked for: to import them costs nothing (PEP 562)."""
+"""Packages whose names load on first use, so that their import is fast (PEP 562)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A pytest plugin for tableau files: ``pytest --orderconds tableaux/`` makes each a test of its claims.
+"""A pytest plugin for tableau files: ``pytest --orderconds tableaux/`` makes each file a test of its claims.
 
 Without a flag the plugin does nothing. ``--orderconds-complete`` requires a claim for every family that a
 tableau can claim and ``--orderconds-certified`` a proof of every order, as ``orderconds check`` does. A
@@ -36,7 +36,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
-    """Collect a tableau file where the flag is given."""
+    """Collect a tableau file if the flag is given."""
     if file_path.suffix != ".toml" or not any(map(parent.config.getoption, FLAGS)):
         return None
     from orderconds.tableau.file import meant_as_tableau

@@ -115,7 +115,7 @@ def names() -> tuple[str, ...]:
 
 
 def installed_names() -> tuple[str, ...]:
-    """Return the same, then the names of families that installed packages offer.
+    """Return :func:`names`, then the names of families that installed packages offer.
 
     >>> set(names()) <= set(installed_names())
     True

@@ -1,4 +1,4 @@
-"""What action trees mean for one Hamiltonian: elementary velocities and covectors, and the local error.
+"""The elementary velocities and covectors of action trees for one Hamiltonian, and the local error.
 
 Derivatives are exact: a multilinear derivative of H is the coefficient of eps_1 ... eps_k where every eps
 squares to zero. So H may be any polynomial in the entries of q and the coordinates of mu, over any ring, and

@@ -1,4 +1,4 @@
-"""How many brackets arguments need at least, whatever the program: a bound by linear algebra.
+"""A lower bound of the number of brackets in any program for given arguments, by linear algebra.
 
 An argument u_i is there before the stage value it leads to, so that no letter of a bracket in it is newer
 than q_(i-1). Let N be the number of brackets, in any program for u_1, ..., u_i, that have a letter from q_m

@@ -1,7 +1,7 @@
 """Rows of a bracket program with fewer terms: brackets with equal left factors may share their right ones.
 
-If B = [x, y] and C = [x, z], then C + t B = [x, z + t y]: what one bracket lacks another may hold, and the
-rows that use C give back t B. The number of brackets stays.
+If B = [x, y] and C = [x, z], then C + t B = [x, z + t y]: a term moves from one bracket to another, and the
+rows that use C subtract t B. The number of brackets stays.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
 def _with(
     ring: Ring, program: BracketProgram, r: int, names: tuple[Name, Name], t: Element
 ) -> BracketProgram:
-    """Return the program with t B_q added to B_r and taken from what uses B_r."""
+    """Return the program with t B_q added to B_r and subtracted in all rows that use B_r."""
 
     def given_back(row: Row) -> Row:
         if names[1] not in row:

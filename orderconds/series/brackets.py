@@ -35,9 +35,9 @@ class BracketProgram:
     """The arguments u_1, ..., u_s of the stages and u of the step, with the brackets they share.
 
     Stage i is k_i = f(exp(u_i) y0), the step exp(u) y0. ``brackets[r]`` holds the rows of x and y in B_r =
-    [x, y], over stage values and earlier brackets; ``stages`` and ``update`` are rows alike, every k standing
-    for h k. ``least`` is a lower bound of the number of brackets with which these arguments can be written;
-    ``grades[j]`` is the grade of q_j.
+    [x, y], over stage values and earlier brackets; ``stages`` and ``update`` are rows of the same form, in
+    which k means h k. ``least`` is a lower bound of the number of brackets with which these arguments can be
+    written; ``grades[j]`` is the grade of q_j.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -66,7 +66,7 @@ def fewest_brackets(
 ) -> BracketProgram:
     """Return arguments with few brackets that keep ``order`` of an explicit tableau (A, b).
 
-    ``ring`` must decide zero and divide. The order is kept where the tableau has it. Coefficients that the
+    ``ring`` must decide zero and divide. The tableau must have this order. Coefficients that the
     order leaves free are zero at first, then, ``attempts`` times, small random values, always the same;
     if all take more than ``least`` brackets, one more is granted, and so on. Raises
     :class:`~orderconds.errors.InputError` for an implicit tableau.

@@ -21,7 +21,7 @@ Value = Callable[[bytes], Element]
 
 @dataclass(frozen=True)
 class TreeAlgebra:
-    """What trees are cut into, and the exact flow's value on them.
+    """The algebra of trees: their cuts, and the values of the exact flow.
 
     >>> str(ROOTED.exact(bytes((0, 1, 1)))), len(ORDERED.cuts(bytes((0, 1, 1))))
     ('1/3', 4)

@@ -1,9 +1,9 @@
 """Substitution: the series of a step when the field f is replaced by another one that is a series itself.
 
-For B-series a tree is parted in connected components, which the field values, and the tree that remains when
-each component shrinks to a vertex, which the step values (Chartier, Hairer and Vilmart, Found. Comput. Math.
-10 (2010) 407, Theorem 3.2). For Lie-Butcher series f -> f~ extends to forests by concatenation and left
-grafting (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
+For B-series a tree is divided into connected components, to which the field applies, and the quotient tree,
+in which each component is a vertex and to which the step applies (Chartier, Hairer and Vilmart, Found.
+Comput. Math. 10 (2010) 407, Theorem 3.2). For Lie-Butcher series f -> f~ extends to forests by concatenation
+and left grafting (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
 """
 
 from __future__ import annotations
@@ -134,7 +134,7 @@ def _tree(below: list[Tree]) -> Tree:
 
 
 class _Images:
-    """What words of trees become, up to a number of vertices, when every vertex becomes the field."""
+    """The substitution of the field for every vertex in words of trees, up to a number of vertices."""
 
     def __init__(self, field: VectorField) -> None:
         self._field = field

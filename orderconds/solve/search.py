@@ -144,7 +144,7 @@ class Checkpoint:
             raise InputError(
                 f"a checkpoint that cannot be used: {reason(problem)}",
                 where=str(self.path),
-                expected="a file of yours that an interrupted search left",
+                expected="a checkpoint file that you own",
                 hint="delete it, or name another file",
             ) from None
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
