@@ -15,7 +15,7 @@ from orderconds.series.brackets import BracketProgram, Name, Row
 
 
 def with_fewer_terms(ring: Ring, program: BracketProgram) -> BracketProgram:
-    """Return the same arguments, written with as few terms as moving multiples of brackets can reach.
+    """Return the same arguments with fewer terms, by moving multiples of brackets.
 
     ``ring`` must decide zero and divide.
 
@@ -46,7 +46,7 @@ def _terms(program: BracketProgram) -> int:
 
 
 def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
-    """Yield the programs in which some term of a later bracket, or of a row with both, has gone."""
+    """Yield the programs without some term of a later bracket, or of a row with both brackets."""
     for q, r in combinations(range(len(program.brackets)), 2):
         (x, y), (other, z) = program.brackets[q], program.brackets[r]
         same = x.keys() == other.keys() and all(ring.is_zero(x[n] - other[n]) is True for n in x)
