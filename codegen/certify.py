@@ -5,15 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from flint import fmpq
-
 from codegen.errors import MethodError
 from codegen.lower import lowering, names
 from codegen.method import Method
 from codegen.scene.problem import Problem
-from orderconds.ring import Balls
-from orderconds.ring.balls import Ball
-from orderconds.ring.decimals import endpoints, rational_decimal
+from orderconds.tableau.uncertainty import uncertainty
 
 if TYPE_CHECKING:
     from orderconds.checking import FamilyOrder
@@ -72,37 +68,19 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
 
     classical = method.kind.abelian if scene is not None and scene.group.abelian else None
     if classical is not None:
-        (found,) = check(method.tableau, family=classical).orders
-        if found.decided:
-            return _certified(method, found, classical)
-    found = lowering(method.family).order(method, scene)
-    if not found.decided:
+        (order,) = check(method.tableau, family=classical).orders
+        if order.decided:
+            return _certified(method, order, classical)
+    order = lowering(method.family).order(method, scene)
+    if not order.decided:
         raise MethodError(
-            f"the order of {method.label} is undecided beyond {found.order}",
+            f"the order of {method.label} is undecided beyond {order.order}",
             expected="coefficients with more digits",
         )
-    return _certified(method, found)
+    return _certified(method, order)
 
 
-def _certified(method: Method, found: FamilyOrder, classical: str = "") -> CertifiedOrder:
-    radius = _uncertainty(method)
-    certificate = "none" if radius else found.certificate
-    return CertifiedOrder(found.order, certificate, found.limit is not None, found.failing, classical, radius)
-
-
-def _uncertainty(method: Method) -> str:
-    """Return the largest radius of a coefficient wider than the rounding of a double, or an empty text."""
-    ring = method.ring
-    if not isinstance(ring, Balls):
-        return ""
-    widest = fmpq(0)
-
-    def visit(x: Ball) -> Ball:
-        nonlocal widest
-        low, high = endpoints(x.value)
-        if high - low > abs(low + high) / 2**DOUBLE_BITS:
-            widest = max(widest, (high - low) / 2)
-        return x
-
-    method.tableau.method.map(visit)
-    return rational_decimal(widest, 2) if widest else ""
+def _certified(method: Method, order: FamilyOrder, classical: str = "") -> CertifiedOrder:
+    radius = uncertainty(method.tableau, DOUBLE_BITS)
+    certificate = "none" if radius else order.certificate
+    return CertifiedOrder(order.order, certificate, order.limit is not None, order.failing, classical, radius)

@@ -27,7 +27,7 @@ from codegen.kernel.translate import to_kernel
 from codegen.kernel.variations import Variations
 from codegen.lower import families_for, lower, lower_composed, problem_for
 from codegen.method import Method, parse
-from codegen.passes import Optimiser, PassReport, optimise
+from codegen.passes import Optimiser, PassReport, optimise, summaries
 from codegen.printers import target as printer_of
 from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
@@ -322,11 +322,7 @@ def start_of(scene: Problem) -> tuple[float, ...]:
 def left_out(compiled: Compiled) -> tuple[str, ...]:
     """Say what the emitted step does not hold because this scene and method do not need it."""
     kernel, scene = compiled.kernel, compiled.scene
-    lines: list[str] = []
-    for report in compiled.trace:
-        removed = [f"{n} {name}" for name, n in report.removed.items() if n > 0]
-        if removed:
-            lines.append(f"{', '.join(removed)} ({report.name})")
+    lines = [*summaries(compiled.trace)]
     folded = [f"{name} = {x.text()}" for name, x in scene.parameters.items() if name not in scene.runtime]
     if folded:
         lines.append(f"parameters, folded: {', '.join(folded)}")

@@ -18,7 +18,7 @@ from orderconds.tableau import CommutatorFree, RungeKutta, Tableau, find
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-SPELLING = re.compile(r"(?:(?P<family>[a-z_]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<tableau>.+)")
+PATTERN = re.compile(r"(?:(?P<family>[a-z_]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<tableau>.+)")
 
 
 @dataclass(frozen=True)
@@ -150,34 +150,35 @@ def with_estimate() -> tuple[str, ...]:
     return tuple(name for name in names() if family_class(name).fixed_stages)
 
 
-def parse(spelling: str, families: Sequence[str]) -> Method:
-    """Return the method of that spelling; ``families`` are those the scene can take.
+def parse(text: str, families: Sequence[str]) -> Method:
+    """Return the method that a text names; ``families`` are those the scene can take.
 
     Without a family the tableau's claims decide: the highest order wins, and among equals the family named
     first in ``families``. ``rkmk`` without a cut-off is written with the fewest brackets where the tableau is
     explicit and exact; elsewhere, and for ``vrkmk``, the least cut-off with the highest claimed order is
     taken. :class:`MethodError` for what cannot be read, and where nothing is claimed that decides.
     """
-    match = SPELLING.fullmatch(spelling.strip())
+    match = PATTERN.fullmatch(text.strip())
     if match is None:
         raise MethodError(
-            f"the method {spelling!r}", expected="TABLEAU or FAMILY:TABLEAU", hint="as vcg:triple_jump"
+            f"the method {text!r}", expected="TABLEAU or FAMILY:TABLEAU", hint="as vcg:triple_jump"
         )
     tableau = _enclosed(Tableau.load(_file(match["tableau"])))
     family, cutoff = match["family"], match["cutoff"]
     if family is not None and family not in families:
         raise MethodError(
-            f"family {family} on this scene", where=spelling, expected=f"one of {', '.join(families)}"
+            f"family {family} on this scene", where=text, expected=f"one of {', '.join(families)}"
         )
     if cutoff is not None and family is not None and not family_class(family).takes_cutoff:
         cutting = [f for f in families if family_class(f).takes_cutoff]
         raise MethodError(
             f"a cut-off for family {family}",
-            where=spelling,
+            where=text,
             expected=f"one for {' or '.join(cutting)} only, as rkmk(2):rk4",
         )
     # A tableau of exponentials has no A and b to read, even where it claims the order of its sums as rk.
-    readable = [f for f in families if tableau.family != "cf" or "cf" in family_class(f).formats]
+    exponentials = isinstance(tableau.method, CommutatorFree)
+    readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     claims = [replace(c, family=c.family.partition("(")[0]) for c in tableau.claims.orders]  # splitting(3)
     wanted = [c for c in claims if c.family == (family or c.family) and c.family in readable]
     if family is not None and cutoff is not None:
@@ -187,7 +188,7 @@ def parse(spelling: str, families: Sequence[str]) -> Method:
     if not wanted:
         raise MethodError(
             f"the tableau {tableau.name} claims no order under {family or ', '.join(families)}",
-            where=spelling,
+            where=text,
             expected="a cut-off in the method's name" if family else "a family in the method's name",
             hint=f"write {family}(2):{match['tableau']}"
             if family

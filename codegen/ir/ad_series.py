@@ -56,11 +56,12 @@ def simplified(word: Word) -> Word:
             key = (f.function, f.scale, f.order)
             powers[key] = powers.get(key, 0) + f.power
     for (function, scale, order), n in list(powers.items()):
+        # exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t): one function in place of two.
         if function == "dexp" and n > 0 and rate == -scale:
             powers[function, scale, order] -= 1
             powers[function, -scale, order] = powers.get((function, -scale, order), 0) + 1
             rate = Fraction(0)
-    found = [Factor("exp", rate)] if rate else []
+    factors = [Factor("exp", rate)] if rate else []
     for (function, scale, order), n in sorted(powers.items()):
-        found += [Factor(function, scale, order, 1 if n > 0 else -1)] * abs(n)
-    return tuple(found)
+        factors += [Factor(function, scale, order, 1 if n > 0 else -1)] * abs(n)
+    return tuple(factors)

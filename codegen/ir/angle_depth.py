@@ -35,10 +35,10 @@ def chain(kernel: Kernel) -> int:
 
 def _depth(root: Expr, depths: Mapping[str, int]) -> int:
     """Return the longest chain in an expression whose symbols have those of ``depths``."""
-    found: dict[int, int] = {}
+    by_node: dict[int, int] = {}
     for node in walk([root]):
-        below = max((found[a.id] for a in node.args), default=0)
+        below = max((by_node[a.id] for a in node.args), default=0)
         if node.op == "sym":
             below = depths.get(node.payload, 0)
-        found[node.id] = below + (node.op == "call" and "stumpff" in node.payload)
-    return found[root.id]
+        by_node[node.id] = below + (node.op == "call" and "stumpff" in node.payload)
+    return by_node[root.id]

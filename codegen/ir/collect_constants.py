@@ -1,9 +1,8 @@
-"""Numbers gathered: 1 + 3/2 (3/2 - 2 x) becomes 13/4 - 3 x, and 3/2 a - 3/2 b becomes 3/2 (a - b).
+"""Constants collected: 1 + 3/2 (3/2 - 2 x) becomes 13/4 - 3 x, and 3/2 a - 3/2 b becomes 3/2 (a - b).
 
-Exact. Each expression is a combination, with rational coefficients, of others that are none; numbers are
-taken out of products and powers, and put into numerators: 3/2 (1/sqrt x)^3 becomes (3/2)/(x sqrt x), whose
-value is there two or three products earlier. What is flat may share less: the result is taken where it is
-shorter.
+Exact. Each expression becomes a linear combination of expressions that are no combinations. Numbers move out
+of products and powers, and into numerators: 3/2 (1/sqrt x)^3 becomes (3/2)/(x sqrt x), which is ready two or
+three products earlier. Expanded sums may share less, so the result is kept where it has fewer operations.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ Sum = dict[int, tuple[Number, Expr]]
 def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ...]:
     """Return the roots with numbers gathered, or as they are where that takes no fewer operations.
 
-    What is ``kept``, or a number times that, stays as it is where it stands in them.
+    What is ``kept``, or a number times that, is not expanded.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -36,10 +35,10 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     work = _Gathering(_powers(roots, bare))
     for node in bare:
         if node.args:
-            work.sums[node.id], work.spelled[node.id] = {node.id: (Number.rational(1), node)}, node
+            work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
     still = set(work.sums)
-    found = tuple(work.whole(root) for root in roots)
-    return found if _operations(found, still) < _operations(roots, still) else tuple(roots)
+    collected = tuple(work.whole(root) for root in roots)
+    return collected if _operations(collected, still) < _operations(roots, still) else tuple(roots)
 
 
 def _bare(node: Expr) -> Expr:
@@ -62,20 +61,20 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
     is part of anything ``kept``.
     """
     still = {node.id for node in walk(kept)}
-    found: dict[int, tuple[int, int]] = {}
+    ranks: dict[int, tuple[int, int]] = {}
     used: list[tuple[Expr, Expr | None]] = [(root, None) for root in roots]
     for node in walk(roots):
         used += [(a, node) for a in node.args]
-        inside = [found[a.id] for a in node.args if a.id in found]
+        inside = [ranks[a.id] for a in node.args if a.id in ranks]
         root = _is_inverse(node) and node.args[1].op == "call" and node.args[1].payload == "sqrt"
         if root and node.id not in still:
-            found[node.id] = (node.id, 1)
+            ranks[node.id] = (node.id, 1)
         elif _is_power(node, inside):
             exponent = sum(n for _, n in inside)
-            found[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    read = {found[x.id] for x, by in used if x.id in found and (by is None or by.id not in found)}
+            ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
+    read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
-    return {key: pair for key, pair in found.items() if pair[0] not in bases}
+    return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 
 
 def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
@@ -92,11 +91,11 @@ def _is_inverse(node: Expr) -> bool:
 class _Gathering:
     powers: dict[int, tuple[int, int]]
     sums: dict[int, Sum] = field(default_factory=dict)
-    spelled: dict[int, Expr] = field(default_factory=dict)
+    written: dict[int, Expr] = field(default_factory=dict)
     numerators: dict[int, Number] = field(default_factory=dict)
 
     def whole(self, root: Expr) -> Expr:
-        """Return one expression anew."""
+        """Return one expression with its constants collected."""
         for node in walk([root], stop=lambda n: n.id in self.sums):
             if node.id not in self.sums:
                 self.sums[node.id] = self._sum(node)
@@ -104,10 +103,10 @@ class _Gathering:
 
     def _spell(self, node: Expr) -> Expr:
         """Return a node as it is read by one that is no combination; the first reader sets numerators."""
-        if node.id not in self.spelled:
+        if node.id not in self.written:
             total = [self._inverse(c, atom) for c, atom in self.sums[node.id].values()]
-            self.spelled[node.id] = _spelled(total, node.space)
-        return self.spelled[node.id]
+            self.written[node.id] = _expression(total, node.space)
+        return self.written[node.id]
 
     def _inverse(self, c: Number, atom: Expr) -> tuple[Number, Expr]:
         """Return c 1/y as d (e/y), where e is the size of c for the first that is read."""
@@ -178,7 +177,7 @@ def _size(c: Number) -> Number:
     return -c if c.fraction() < 0 else c
 
 
-def _spelled(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
+def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
     """Return a combination as an expression: terms with coefficients c or -c are added first."""
     groups: dict[object, list[tuple[bool, Expr]]] = {}
     sizes: dict[object, Number] = {}

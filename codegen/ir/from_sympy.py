@@ -30,8 +30,8 @@ def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
     try:
         formula = sympy.sympify(expression, strict=True)  # strict: a string is no formula
     except sympy.SympifyError:
-        found = f"{type(expression).__name__} {expression!r}"
-        raise SceneError(found, where=where, expected="a sympy formula or a number") from None
+        what = f"{type(expression).__name__} {expression!r}"
+        raise SceneError(what, where=where, expected="a sympy formula or a number") from None
     return _Reader(space, where).node(formula)
 
 

@@ -53,8 +53,8 @@ def interpret(
     if program.frame == BODY:
         core, start = replace(program, frame=SPACE), {**inputs, "mu": inward(problem, domain, inputs)}
         options: State = {"limit": limit, "newton": newton, "solutions": solutions, "near": near}
-        found = interpret(core, problem, domain, start, **options)
-        return found | {"mu": outward(problem, domain, inputs, start, found)}
+        end = interpret(core, problem, domain, start, **options)
+        return end | {"mu": outward(problem, domain, inputs, start, end)}
     if program.substeps:
         return _composed(program, problem, domain, inputs, limit, newton, near)
     expected = {} if solutions is None else solutions
@@ -113,13 +113,13 @@ def _composed(
     near: list[list[Scalar]] | None,
 ) -> State:
     """Return the new state after all substeps."""
-    once, state = replace(program, substeps=()), dict(inputs)
+    substep, state = replace(program, substeps=()), dict(inputs)
     for step in program.substeps:
         shorter = copy(domain)
         shorter.h = domain.number(step.fraction) * domain.h
         if "t" in inputs:
             state["t"] = inputs["t"] + domain.number(step.offset) * domain.h
-        state |= interpret(once, problem, shorter, state, limit=limit, newton=newton, near=near)
+        state |= interpret(substep, problem, shorter, state, limit=limit, newton=newton, near=near)
     return {name: state[name] for name, _ in program.outputs}
 
 
@@ -183,13 +183,13 @@ def _correct(
     now = [x for s in block.starts for x in flatten(s.kind, env[s])] if near is None else list(near)
     size, sharp = None, False
     for _ in range(limit):
-        found = images(now)
-        residual = [g - u for g, u in zip(found, now, strict=True)]
+        values = images(now)
+        residual = [g - u for g, u in zip(values, now, strict=True)]
         columns = []
         for j, u in enumerate(now):
             step = domain.increment(u)
             moved = images([*now[:j], u + step, *now[j + 1 :]])
-            slopes = [(a - b) / step for a, b in zip(moved, found, strict=True)]
+            slopes = [(a - b) / step for a, b in zip(moved, values, strict=True)]
             columns.append([(i == j) - x for i, x in enumerate(slopes)])
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
@@ -216,10 +216,10 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
         for i in range(k + 1, n):
             factor = rows[i][k] / rows[k][k]
             rows[i] = [x - factor * y for x, y in zip(rows[i], rows[k], strict=True)]
-    found: list[Scalar] = []
+    solution: list[Scalar] = []
     for k in reversed(range(n)):
         total = rows[k][n]
-        for x, y in zip(rows[k][k + 1 : n], reversed(found), strict=True):
+        for x, y in zip(rows[k][k + 1 : n], reversed(solution), strict=True):
             total = total - x * y
-        found.append(total / rows[k][k])
-    return found[::-1]
+        solution.append(total / rows[k][k])
+    return solution[::-1]

@@ -19,7 +19,7 @@ from codegen.ir.expr import Expr, walk
 def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr, ...], ...]:
     """Return d roots[i] / d symbols[j], a row for each root, in the roots' space.
 
-    :class:`codegen.ir.differentiate.NotDifferentiable` where a function stands in the way.
+    :class:`codegen.ir.differentiate.NotDifferentiable` where a function has no derivative.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x, y = s.sym("x"), s.sym("y")
@@ -30,11 +30,11 @@ def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr,
     columns = {space.sym(name).id: j for j, name in enumerate(symbols)}
     graph = _Graph(roots, columns)
     graph.eliminate()
-    found = [[space.zero] * len(symbols) for _ in roots]
+    matrix = [[space.zero] * len(symbols) for _ in roots]
     for i in range(len(roots)):
         for source, factor in graph.before[-1 - i].items():
-            found[i][columns[source]] = factor
-    return tuple(tuple(row) for row in found)
+            matrix[i][columns[source]] = factor
+    return tuple(tuple(row) for row in matrix)
 
 
 class _Graph:

@@ -46,7 +46,7 @@ class FirstOrder:
 
     def __init__(self, unknowns: Sequence[str]) -> None:
         self.place = {name: k for k, name in enumerate(unknowns)}
-        self.found: dict[int, _Dual] = {}
+        self.duals: dict[int, _Dual] = {}
 
     def jacobian(self, roots: Sequence[Expr]) -> list[list[Expr]]:
         """Return the derivatives of roots, all of one space, a row a root.
@@ -55,14 +55,14 @@ class FirstOrder:
         """
         if not roots:
             return []
-        space, found = roots[0].space, self.found
-        for node in walk(roots, lambda n: n.id in found):
-            if node.id not in found:
-                found[node.id] = _visit(node, [found[a.id] for a in node.args], self.place, space)
+        space, duals = roots[0].space, self.duals
+        for node in walk(roots, lambda n: n.id in duals):
+            if node.id not in duals:
+                duals[node.id] = _visit(node, [duals[a.id] for a in node.args], self.place, space)
         h, none = space.sym(STEP), (space.zero, space.zero)
         rows = []
         for root in roots:
-            slopes = [found[root.id].slopes.get(k, none) for k in range(len(self.place))]
+            slopes = [duals[root.id].slopes.get(k, none) for k in range(len(self.place))]
             rows.append([h * high + low for low, high in slopes])
         return rows
 

@@ -61,11 +61,11 @@ class NormalForms:
 
     def polynomial(self, root: Expr) -> Polynomial:
         """Return root as a reduced polynomial; :class:`TooLong` where it has too many terms."""
-        found = self.known
-        for node in walk([root], lambda n: n.id in found):
-            if node.id in found:
+        known_forms = self.known
+        for node in walk([root], lambda n: n.id in known_forms):
+            if node.id in known_forms:
                 continue
-            args = [found[a.id] for a in node.args]
+            args = [known_forms[a.id] for a in node.args]
             value: Polynomial
             match node.op:
                 case "const":
@@ -90,8 +90,8 @@ class NormalForms:
                 case _:
                     inner = [self.expression(a) for a in args]
                     value = self._variable(self.space.call(node.payload, *inner))
-            found[node.id] = value
-        return found[root.id]
+            known_forms[node.id] = value
+        return known_forms[root.id]
 
     def expression(self, polynomial: Mapping[Monomial, Number]) -> Expr:
         """Return a polynomial as an expression, the most frequent factor taken out first."""

@@ -47,6 +47,9 @@ class Problem(Protocol):
 class Operation(ABC):
     """The right-hand side of an assignment, without its arguments."""
 
+    takes: ClassVar[Kinds] = NONE
+    gives: ClassVar[Kinds] = NONE
+    """The kinds of the arguments and of the results, where no parameter changes them."""
     linear_in_last: ClassVar[bool] = False
     """Whether the result is linear in the last argument."""
     evaluates_scene: ClassVar[bool] = False
@@ -54,14 +57,17 @@ class Operation(ABC):
     exponentials: ClassVar[int] = 0
     """How many exponentials, or flows, it computes."""
 
+    noun: ClassVar[str] = ""
+    """What a user calls it, with ``{s}`` for the plural; '' for an operation that costs nothing."""
+
     @property
     @abstractmethod
     def name(self) -> str:
-        """The name by which programs count their operations."""
+        """The name that is printed, and by which programs count their operations."""
 
-    @abstractmethod
     def signature(self) -> tuple[Kinds, Kinds]:
         """Return the kinds of the arguments and of the results."""
+        return self.takes, self.gives
 
     @abstractmethod
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
@@ -106,6 +112,7 @@ class Linear(Operation):
 
     coefficients: tuple[Coefficient, ...]
     name = "lin"
+    noun = "sum{s}"
 
     def signature(self) -> tuple[Kinds, Kinds]:
         """Return the kinds of a combination in the algebra; those in the dual are accepted too."""
@@ -124,6 +131,7 @@ class Linear(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the sum; terms with equal coefficients are added before they are scaled."""
+        # Emitted code inherits this order of operations: one product for each distinct coefficient.
         groups: dict[Coefficient, list[Value]] = {}
         for c, x in zip(self.coefficients, args, strict=True):
             groups.setdefault(c, []).append(x)
@@ -145,10 +153,8 @@ class Advance(Operation):
 
     coefficient: Coefficient
     name = "advance"
-
-    def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
-        return R, R
+    takes, gives = R, R
+    noun = "stage time{s}"
 
     def applied(self, args: Sequence[str]) -> str:
         """Return the text of the operation applied to arguments."""
@@ -160,11 +166,16 @@ class Advance(Operation):
 
 
 class OfGroup(Operation):
-    """An operation that the group, its action or the scene evaluates, under the operation's own name."""
+    """An operation that the group, its action or the scene evaluates."""
+
+    @property
+    def function(self) -> str:
+        """The name of the function of the group, the action or the scene (:meth:`Problem.apply`)."""
+        return self.name
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the results for arguments of a domain."""
-        return problem.apply(domain, self.name, None, args)
+        return problem.apply(domain, self.function, None, args)
 
 
 @dataclass(frozen=True)
@@ -172,10 +183,7 @@ class Identity(OfGroup):
     """The neutral element."""
 
     name = "identity"
-
-    def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
-        return NONE, G
+    takes, gives = NONE, G
 
 
 @dataclass(frozen=True)
@@ -184,10 +192,8 @@ class Exp(OfGroup):
 
     name = "exp"
     exponentials = 1
-
-    def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
-        return A, G
+    takes, gives = A, G
+    noun = "exponential{s}"
 
 
 @dataclass(frozen=True)
@@ -195,10 +201,8 @@ class Multiply(OfGroup):
     """g k; the right factor acts first."""
 
     name = "mul"
-
-    def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
-        return G + G, G
+    takes, gives = G + G, G
+    noun = "product{s}"
 
 
 @dataclass(frozen=True)
@@ -206,10 +210,8 @@ class MultiplyExp(OfGroup):
     """g exp(x), each row of its matrix computed separately."""
 
     name = "mulexp"
-
-    def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
-        return G + A, G
+    takes, gives = G + A, G
+    noun = "product{s}"
 
 
 @dataclass(frozen=True)
@@ -217,10 +219,8 @@ class Act(OfGroup):
     """g.y."""
 
     name = "act"
-
-    def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
-        return G + P, P
+    takes, gives = G + P, P
+    noun = "action{s}"
 
 
 @dataclass(frozen=True)
@@ -229,10 +229,8 @@ class ActExp(OfGroup):
 
     name = "actexp"
     exponentials = 1
-
-    def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
-        return A + P, P
+    takes, gives = A + P, P
+    noun = "action{s}"
 
 
 @dataclass(frozen=True)
@@ -242,10 +240,16 @@ class Adjoint(OfGroup):
     dual: bool = False
     inverse: bool = False
     linear_in_last = True
+    noun = "adjoint map{s}"
 
     @property
     def name(self) -> str:
         """The name by which programs count their operations."""
+        return f"Ad{'*' if self.dual else ''}{'^-1' if self.inverse else ''}"
+
+    @property
+    def function(self) -> str:
+        """The name of the function of the group."""
         return f"Ad{'t' if self.dual else ''}{'inv' if self.inverse else ''}"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -264,10 +268,16 @@ class Bracket(OfGroup):
 
     dual: bool = False
     linear_in_last = True
+    noun = "bracket{s}"
 
     @property
     def name(self) -> str:
         """The name by which programs count their operations."""
+        return "ad*" if self.dual else "ad"
+
+    @property
+    def function(self) -> str:
+        """The name of the function of the group."""
         return "adt" if self.dual else "ad"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -283,11 +293,12 @@ class InverseDexp(Operation):
     order: int
     dual: bool = False
     linear_in_last = True
+    noun = "evaluation{s} of dexpinv"
 
     @property
     def name(self) -> str:
         """The name by which programs count their operations."""
-        return "dexpinvt" if self.dual else "dexpinv"
+        return "dexpinv*" if self.dual else "dexpinv"
 
     @property
     def word(self) -> Word:
@@ -305,7 +316,7 @@ class InverseDexp(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the results for arguments of a domain."""
-        return problem.apply(domain, self.name, self.order, args)
+        return problem.apply(domain, "dexpinvt" if self.dual else "dexpinv", self.order, args)
 
 
 @dataclass(frozen=True)
@@ -317,19 +328,17 @@ class InverseDexpSlope(Operation):
 
     order: int
     linear_in_last = True
-    name = "P"
+    name = "P*"
+    takes, gives = A + A + D, D
+    noun = "derivative{s} of dexpinv"
 
     def text(self) -> str:
         """Return the name with the order."""
         return f"{self.name}({self.order})"
 
-    def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
-        return A + A + D, D
-
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the results for arguments of a domain."""
-        return problem.apply(domain, self.name, self.order, args)
+        return problem.apply(domain, "P", self.order, args)
 
 
 @dataclass(frozen=True)
@@ -337,16 +346,15 @@ class DualDexp(OfGroup):
     """dexp*_x mu."""
 
     linear_in_last = True
-    name = "dexpt"
+    name = "dexp*"
+    function = "dexpt"
+    takes, gives = A + D, D
+    noun = "evaluation{s} of dexp*"
 
     @property
     def word(self) -> Word:
         """The operation as a function of ad."""
         return (Factor("dexp", UNIT),)
-
-    def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
-        return A + D, D
 
 
 @dataclass(frozen=True)
@@ -356,11 +364,12 @@ class AdSeries(Operation):
     word: Word
     dual: bool = False
     linear_in_last = True
+    noun = "function{s} of ad"
 
     @property
     def name(self) -> str:
         """The name by which programs count their operations."""
-        return "seriest" if self.dual else "series"
+        return "series*" if self.dual else "series"
 
     def text(self) -> str:
         """Return the name with the word."""
@@ -378,187 +387,3 @@ class AdSeries(Operation):
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the results for arguments of a domain."""
         return (problem.series(domain, self.word, self.dual, *args),)
-
-
-@dataclass(frozen=True)
-class OfScene(OfGroup):
-    """An operation that evaluates the scene's formulas, at a time where ``timed``: the last argument."""
-
-    timed: bool = False
-    stem: ClassVar[str] = ""
-
-    @property
-    def name(self) -> str:
-        """The name by which programs count their operations."""
-        return f"{self.stem}{'t' if self.timed else ''}"
-
-    def at(self, arguments: Kinds) -> Kinds:
-        """Return the kinds of the arguments with that of the time."""
-        return arguments + R if self.timed else arguments
-
-
-@dataclass(frozen=True)
-class Field(OfScene):
-    """f(y), or f(y, t)."""
-
-    stem = "field"
-    evaluates_scene = True
-
-    def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
-        return self.at(P), A
-
-
-@dataclass(frozen=True)
-class HamiltonianDerivatives(OfScene):
-    """xi = D_2 H and n = -(D_1 H).q^-1 at (q, mu), or at (q, mu, t)."""
-
-    stem = "hamilton"
-    evaluates_scene = True
-
-    def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
-        return self.at(G + D), A + D
-
-
-@dataclass(frozen=True)
-class BodyVelocity(OfScene):
-    """W(q, P), the velocity in the body frame, where P = Ad*_q mu (:mod:`codegen.scene.body_frame`)."""
-
-    stem = "velocity"
-
-    def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
-        return self.at(G + D), A
-
-
-@dataclass(frozen=True)
-class BodyForce(OfScene):
-    """N(q, P), the force in the body frame; with :class:`BodyVelocity` it is one evaluation of the scene."""
-
-    stem = "force"
-    evaluates_scene = True
-
-    def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
-        return self.at(G + D), D
-
-
-@dataclass(frozen=True)
-class Legendre(OfGroup):
-    """The momentum P in the body frame from the velocity W."""
-
-    name = "legendre"
-
-    def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
-        return A, D
-
-
-@dataclass(frozen=True)
-class Energy(OfGroup):
-    """H(y)."""
-
-    name = "energy"
-
-    def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
-        return P, R
-
-
-@dataclass(frozen=True)
-class Differential(OfGroup):
-    """R*_y dH: its pairing with e is d/deps H(exp(eps e).y) at eps = 0."""
-
-    name = "differential"
-    evaluates_scene = True
-
-    def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
-        return P, D
-
-
-@dataclass(frozen=True)
-class Secant(OfGroup):
-    """The covector nearest to g whose pairing with x is H1 - H0; arguments g, x, H0, H1."""
-
-    name = "secant"
-
-    def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
-        return D + A + R + R, D
-
-
-@dataclass(frozen=True)
-class Bivector(OfGroup):
-    """omega_y(alpha, .); it is f(y) where alpha is the differential of H."""
-
-    name = "bivector"
-    linear_in_last = True
-
-    def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
-        return P + D, A
-
-
-@dataclass(frozen=True)
-class FlowOf(Operation):
-    """The exact flow of a part of the Hamiltonian for a fixed duration.
-
-    ``timed`` is for a part that depends on t: the time is the last argument, and constant during the flow.
-    """
-
-    part: str
-    duration: Coefficient
-    timed: bool = False
-    exponentials = 1
-
-    @property
-    def name(self) -> str:
-        """The name by which programs count their operations."""
-        return "flowt" if self.timed else "flow"
-
-    def text(self) -> str:
-        """Return the name with the part."""
-        return f"{self.name}[{self.part}]"
-
-    def applied(self, args: Sequence[str]) -> str:
-        """Return the text of the operation applied to arguments."""
-        return super().applied([*args, self.duration.text()])
-
-    def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
-        return G + D + (R if self.timed else NONE), G + D
-
-    def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for arguments of a domain."""
-        return problem.flow(domain, self.part, self.duration.evaluate(domain), args)
-
-
-@dataclass(frozen=True)
-class FlowFor(Operation):
-    """The exact flow of a part for a duration that is a value: the last argument."""
-
-    part: str
-    timed: bool = False
-    exponentials = 1
-
-    @property
-    def name(self) -> str:
-        """The name by which programs count their operations."""
-        return "flowtfor" if self.timed else "flowfor"
-
-    def text(self) -> str:
-        """Return the name with the part."""
-        return f"{self.name}[{self.part}]"
-
-    def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of the arguments and of the results."""
-        return G + D + (R if self.timed else NONE) + R, G + D
-
-    def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
-        """Return the results for arguments of a domain."""
-        return problem.flow(domain, self.part, args[-1], args[:-1])
-
-
-FLOWS = (FlowOf, FlowFor)

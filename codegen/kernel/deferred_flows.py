@@ -1,8 +1,8 @@
-"""What a run of many steps puts off: the first flow of each step, and flows that commute with all others.
+"""Flows deferred across steps: the leading flow of a step, and flows that commute with all others.
 
-Where a step of a splitting ends with the flow that the next one begins with, the two are one; only before the
-first step is the beginning made alone. A part that commutes with every other is not made in the steps at all
-but once for all of them. Both are exact: :class:`codegen.ir.kernel.Deferred` says what equals what.
+Where a step of a splitting ends with the flow that the next step begins with, the two are joined; the leading
+flow is applied once before the first step. A part that commutes with every other one is applied once for all
+steps. Both are exact; :class:`codegen.ir.kernel.Deferred` states the identities.
 """
 
 from __future__ import annotations
@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 
 from codegen.ir.kernel import ELAPSED, LEAD, Deferred, Kernel
 from codegen.ir.number import Number
-from codegen.ir.operations import Advance, FlowFor, FlowOf, Operation
+from codegen.ir.operations import Advance, Operation
 from codegen.ir.program import Assign, Program
+from codegen.ir.scene_operations import FlowFor, FlowOf
 from codegen.ir.values import Kind, Var
 from codegen.ir.verify import verify
 from codegen.kernel.translate import AS_WRITTEN, to_kernel
@@ -33,11 +34,12 @@ class Parted:
 
 
 def part(program: Program, scene: Problem) -> Parted | None:
-    """Return a splitting's program in parts, or None where nothing can be put off."""
+    """Return a splitting's program in parts, or None where no flow can be deferred."""
     letters = word(program)
     if letters is None:
         return None
     commute = commuting(scene)
+    # A flow for another time than h, or of a part with time, depends on its place in the step.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
     kept = [letter for letter in letters if letter.part not in free]
@@ -61,7 +63,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
 
 
 def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = AS_WRITTEN) -> Kernel:
-    """Return the kernel of a program's core with what it puts off."""
+    """Return the kernel of a program's core with its deferred flows."""
     begin, finish = (
         None if program is None else to_kernel(program, scene, chains=chains)
         for program in (parted.begin, parted.finish)
@@ -77,22 +79,25 @@ def _is_h(letter: Letter) -> bool:
 Timed = tuple[Letter, Var | None]
 """A flow with the variable for how long it lasts, where it is none of the program's own durations."""
 
-Joint = tuple[int, int, Number, Number]
+JoinedFlows = tuple[int, int, Number, Number]
 """Places of a flow at the beginning and of one at the end; how long the latter lasts alone, and with it."""
 
 
-def _joined(kept: Sequence[Letter], commute: Callable[[str, str], bool], program: Program) -> list[Joint]:
+def _joined(
+    kept: Sequence[Letter], commute: Callable[[str, str], bool], program: Program
+) -> list[JoinedFlows]:
     """Return which flows at the end take those of the same part at the next beginning with them."""
     last = _last_time(program)
     begin, end = _run(kept, commute), _run(kept[::-1], commute)
-    found: list[Joint] = []
+    pairs: list[JoinedFlows] = []
     for i, head in enumerate(kept[:begin]):
         for k, tail in enumerate(kept[::-1][:end]):
             j = len(kept) - 1 - k
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
             if head.part == tail.part and i < j and timely:
-                found.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
-    return [joint for joint in found if joint[2:] == found[0][2:]]
+                pairs.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
+    # One leading time serves all deferred flows, so their durations must be the same.
+    return [pair for pair in pairs if pair[2:] == pairs[0][2:]]
 
 
 def _run(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> int:

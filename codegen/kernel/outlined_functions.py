@@ -24,16 +24,16 @@ class _Inputs:
 
     def __init__(self, name: str, space: Space, fixed: Sequence[Expr | None]) -> None:
         self.name, self.space, self.fixed = name, space, fixed
-        self.made: list[Expr] = []
+        self.symbols: list[Expr] = []
 
     def take(self, words: Sequence[str]) -> Values:
         """Return the next inputs, named after their function and these words."""
-        first = len(self.made)
+        first = len(self.symbols)
         for word, constant in zip(words, self.fixed[first:], strict=False):
-            self.made.append(self.space.sym(f"{self.name}.{word}") if constant is None else constant)
-        return tuple(self.made[first:])
+            self.symbols.append(self.space.sym(f"{self.name}.{word}") if constant is None else constant)
+        return tuple(self.symbols[first:])
 
-    def spelled(self, x: Expr, c: Coefficient) -> str:
+    def text_of(self, x: Expr, c: Coefficient) -> str:
         """Spell the coefficient of a term: its symbol, or its value."""
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
         return (f"({value})" if " " in value else value) + " h" * c.power
@@ -41,7 +41,7 @@ class _Inputs:
     def read(self, outputs: Sequence[Expr]) -> list[int]:
         """Return the places of those symbols that the outputs read."""
         needed = {n.payload for n in walk(outputs) if n.op == "sym"}
-        return [p for p, s in enumerate(self.made) if s.op == "sym" and s.payload in needed]
+        return [p for p, s in enumerate(self.symbols) if s.op == "sym" and s.payload in needed]
 
 
 def function(
@@ -60,14 +60,14 @@ def function(
     for v, word in zip(given, words, strict=True):
         own = inputs.take([f"{word}_{k}" for k in range(trees.width(tree, v))])
         values.append(own[0] if v.kind is Kind.REAL else own)
-    coefficients = [c for i in tree.members for c in distinct(trees.made[i].assign)]
+    coefficients = [c for i in tree.members for c in distinct(trees.executions[i].assign)]
     numbers = inputs.take([f"c{k + 1}" for k in range(len(coefficients))])
     (step,) = inputs.take(["h"]) if any(c.power for c in coefficients) else (domain.h,)
     results: list[Value] = []
     texts: list[str] = []
     first = 0
     for i, places in zip(tree.members, wires, strict=True):
-        assign = trees.made[i].assign
+        assign = trees.executions[i].assign
         args = tuple(values[p] if p >= 0 else results[-p - 1] for p in places)
         names = [words[p] if p >= 0 else texts[-p - 1] for p in places]
         if assign.terms:
@@ -77,19 +77,19 @@ def function(
             scaled = {c: x * step**c.power if c.power else x for c, x in symbol.items()}
             results.append(_sum([c for c, _ in assign.terms], scaled, args))
             terms = [
-                x if c.is_one else f"{inputs.spelled(symbol[c], c)} {x}"
+                x if c.is_one else f"{inputs.text_of(symbol[c], c)} {x}"
                 for (c, _), x in zip(assign.terms, names, strict=True)
             ]
             texts.append(f"({' + '.join(terms)})" if len(terms) > 1 else terms[0])
         else:
-            made = assign.operation.evaluate(scene, domain, args)
-            results += made
-            texts += [f"{assign.operation.text()}({', '.join(names)})"] * len(made)
-    targets = trees.made[tree.root].assign.targets
+            own = assign.operation.evaluate(scene, domain, args)
+            results += own
+            texts += [f"{assign.operation.text()}({', '.join(names)})"] * len(own)
+    targets = trees.executions[tree.root].assign.targets
     ends = [x for v, y in zip(targets, results[-len(targets) :], strict=True) for x in flatten(v.kind, y)]
     outputs = tuple(ends[k] for k in read)
     taken = inputs.read(outputs)
-    return Function(name, tuple(inputs.made[p].payload for p in taken), (), outputs, texts[-1]), taken
+    return Function(name, tuple(inputs.symbols[p].payload for p in taken), (), outputs, texts[-1]), taken
 
 
 def _words(kinds: Sequence[Kind]) -> list[str]:
@@ -103,12 +103,12 @@ def _words(kinds: Sequence[Kind]) -> list[str]:
 
 def calls(kernel: Kernel) -> dict[str, int]:
     """Return in how many places a kernel calls each of its functions, in order."""
-    found = {made.name: dict[tuple[int, ...], None]() for made in kernel.outlined}
+    places = {function.name: dict[tuple[int, ...], None]() for function in kernel.outlined}
     for node in walk(kernel.expressions()):
         name = node.payload.partition(".")[0] if node.op == "call" else ""
-        if name in found:
-            found[name][tuple(a.id for a in node.args)] = None
-    return {name: len(places) for name, places in found.items()}
+        if name in places:
+            places[name][tuple(a.id for a in node.args)] = None
+    return {name: len(calls_of_it) for name, calls_of_it in places.items()}
 
 
 class WithFunctions:
@@ -172,16 +172,16 @@ def rewritten(
             elif all(a is b for a, b in zip(args, node.args, strict=True)):
                 new[node.id] = node
             else:
-                new[node.id] = _made(space, node, args)
+                new[node.id] = _rebuilt(space, node, args)
     return [new[root.id] for root in roots]
 
 
-def _made(space: Space, node: Expr, args: Values) -> Expr:
+def _rebuilt(space: Space, node: Expr, args: Values) -> Expr:
     match node.op:
         case "pow":
             return space.pow(args[0], node.payload)
         case "call":
             return space._make("call", args, node.payload)
         case op:
-            made: Expr = getattr(space, op)(*args)
-            return made
+            rebuilt: Expr = getattr(space, op)(*args)
+            return rebuilt

@@ -1,7 +1,8 @@
-"""Trees: assignments of a program that are computed together, for functions that several places call.
+"""Repeated trees: assignments that one outlined function computes together.
 
-The pair that saves most lines is joined first: a value that one operation alone uses is computed with it.
-Trees have one key where they do the same to other operands, with other coefficients in their sums.
+A value that a single operation reads can be computed with that operation. The pair that saves most lines is
+joined first. Trees with the same key apply the same operations to other operands, with other coefficients in
+their sums.
 """
 
 from __future__ import annotations
@@ -12,28 +13,29 @@ from dataclasses import dataclass, field
 from codegen.ir.domain import ExprDomain, Value
 from codegen.ir.expr import Expr, walk
 from codegen.ir.interpret import flatten
-from codegen.ir.operations import FLOWS, Advance, Identity, Linear, Zero
+from codegen.ir.operations import Advance, Identity, Linear, Zero
 from codegen.ir.program import Assign, Program
+from codegen.ir.scene_operations import FLOWS
 from codegen.ir.values import Coefficient, Var
 
 NEVER = (Advance, Zero, Identity, *FLOWS)
-"""Operations that are not outlined: hardly any work, or flows, whose steps are timed as a whole."""
+"""Operations that are not outlined: they cost next to nothing, or are flows, which are scheduled together."""
 
 NODES = 3
-"""About how many operations stand on a line."""
+"""Operations on a line of emitted code, on average over the gallery."""
 
 Values = tuple[Expr, ...]
 
 Key = Hashable
-"""What trees of one shape have in common."""
+"""A value that is equal for trees of one shape."""
 
 PairKey = tuple[Key, Key, Key]
 """The keys of two trees and of the tree that they are joined to."""
 
 
 @dataclass(frozen=True)
-class Made:
-    """An assignment as it was executed: values of its arguments, its results, and where it stands."""
+class Execution:
+    """An assignment as it was executed: values of its arguments, its results, and its block."""
 
     assign: Assign
     args: tuple[Values, ...]
@@ -65,7 +67,7 @@ class Trees:
 
     program: Program
     domain: ExprDomain
-    made: list[Made] = field(default_factory=list)
+    executions: list[Execution] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         self._users: dict[Var, list[int | None]] = {}
@@ -86,8 +88,8 @@ class Trees:
         ``joined`` with others.
         """
         assign, args = self._from_the_whole(assign, args)
-        self.made.append(
-            Made(
+        self.executions.append(
+            Execution(
                 assign,
                 tuple(flatten(v.kind, x) for v, x in zip(assign.args, args, strict=True)),
                 tuple(flatten(v.kind, x) for v, x in zip(assign.targets, results, strict=True)),
@@ -111,7 +113,7 @@ class Trees:
     def joined(self) -> list[Tree]:
         """Return the assignments joined into trees, as long as that saves lines."""
         self._find_users()
-        trees = {i: Tree([i]) for i, m in enumerate(self.made) if m.may_join}
+        trees = {i: Tree([i]) for i, m in enumerate(self.executions) if m.may_join}
         owner = {i: i for i in trees}
         while True:
             pairs: dict[PairKey, list[tuple[int, int]]] = {}
@@ -125,9 +127,10 @@ class Trees:
                     j = owner[user]
                     joined = self.key(self._join(trees[i], trees[j]))
                     pairs.setdefault((keys[i], keys[j], joined), []).append((i, j))
+            # Greedy: the pair of shapes that saves most lines is joined wherever it occurs.
             best, saved = None, 0
-            for key, found in pairs.items():
-                gain = self._gain(key, found, count)
+            for key, places in pairs.items():
+                gain = self._gain(key, places, count)
                 if gain > saved:
                     best, saved = key, gain
             if best is None:
@@ -141,22 +144,23 @@ class Trees:
                 for member in trees.pop(i).members:
                     owner[member] = j
 
-    def _gain(self, key: PairKey, found: list[tuple[int, int]], count: Mapping[Key, int]) -> int:
+    def _gain(self, key: PairKey, places: list[tuple[int, int]], count: Mapping[Key, int]) -> int:
         """Return about how many lines joining pairs of trees saves."""
         first, second, _ = key
-        k = len(found)
+        k = len(places)
         if k < 2:
             return 0
-        i, j = found[0]
+        i, j = places[0]
+        # Trees of a shape that also occur elsewhere stay functions of their own: their lines are copied.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
         return k * 3 - copies
 
     def _size(self, i: int) -> int:
         """Return about how many lines the operation that ends a tree takes."""
-        name = self.made[i].assign.operation.name
+        name = self.executions[i].assign.operation.name
         if name not in self._lines:
-            results = [x for value in self.made[i].results for x in value]
-            stop = {x.id for value in self.made[i].args for x in value}
+            results = [x for value in self.executions[i].results for x in value]
+            stop = {x.id for value in self.executions[i].args for x in value}
             nodes = sum(1 for n in walk(results, lambda n: n.id in stop) if n.args and n.id not in stop)
             self._lines[name] = 1 + nodes // NODES
         return self._lines[name]
@@ -165,7 +169,7 @@ class Trees:
         return Tree(sorted([*a.members, *b.members]))
 
     def _find_users(self) -> None:
-        for i, m in enumerate(self.made):
+        for i, m in enumerate(self.executions):
             for v in m.assign.args:
                 self._users.setdefault(v, []).append(i)
         for statement in self.program.body:
@@ -176,12 +180,12 @@ class Trees:
             self._users.setdefault(v, []).append(None)
 
     def _only_user(self, i: int) -> int | None:
-        """Return the one assignment that uses what the assignment makes, if it stands in the same place."""
-        users = {u for v in self.made[i].assign.targets for u in self._users.get(v, [])}
+        """Return the one assignment that uses what the assignment makes, if it is in the same block."""
+        users = {u for v in self.executions[i].assign.targets for u in self._users.get(v, [])}
         if len(users) != 1:
             return None
         (user,) = users
-        return user if user is not None and self.made[user].place == self.made[i].place else None
+        return user if user is not None and self.executions[user].place == self.executions[i].place else None
 
     def wiring(self, tree: Tree) -> tuple[list[Var], list[tuple[int, ...]]]:
         """Return the variables that a tree is given, in order, and for each member where its arguments are.
@@ -193,13 +197,13 @@ class Trees:
         wires = []
         for i in tree.members:
             places = []
-            for v in self.made[i].assign.args:
+            for v in self.executions[i].assign.args:
                 if v in targets:
                     places.append(-targets[v])
                 else:
                     places.append(given.setdefault(v, len(given)))
             wires.append(tuple(places))
-            for v in self.made[i].assign.targets:
+            for v in self.executions[i].assign.targets:
                 targets[v] = 1 + len(targets)
         return list(given), wires
 
@@ -208,7 +212,7 @@ class Trees:
         _, wires = self.wiring(tree)
         shape = []
         for i, places in zip(tree.members, wires, strict=True):
-            assign = self.made[i].assign
+            assign = self.executions[i].assign
             # Sums of one shape may have other coefficients: they are arguments of the function.
             operation = None if isinstance(assign.operation, Linear) else assign.operation
             shape.append((operation, _pattern([c for c, _ in assign.terms]), places, assign.targets[0].kind))
@@ -223,24 +227,24 @@ class Trees:
 
     def results(self, tree: Tree) -> Values:
         """Return the numbers that a tree computes."""
-        return tuple(x for value in self.made[tree.root].results for x in value)
+        return tuple(x for value in self.executions[tree.root].results for x in value)
 
     def inputs(self, tree: Tree) -> list[Expr]:
         """Return all numbers that a tree is given: values of variables, then coefficients of its sums."""
         given, _ = self.wiring(tree)
-        found: dict[Var, Values] = {}
+        values: dict[Var, Values] = {}
         for i in tree.members:
-            made = self.made[i]
-            found |= {v: x for v, x in zip(made.assign.args, made.args, strict=True) if v in given}
-        flat = [x for v in given for x in found[v]]
-        scales = [c for i in tree.members for c in distinct(self.made[i].assign)]
+            execution = self.executions[i]
+            values |= {v: x for v, x in zip(execution.assign.args, execution.args, strict=True) if v in given}
+        flat = [x for v in given for x in values[v]]
+        scales = [c for i in tree.members for c in distinct(self.executions[i].assign)]
         flat += [self.domain.number(c.value) for c in scales]
         return [*flat, self.domain.h] if any(c.power for c in scales) else flat
 
     def width(self, tree: Tree, var: Var) -> int:
         """Return of how many numbers a variable consists that a tree is given."""
         for i in tree.members:
-            for v, x in zip(self.made[i].assign.args, self.made[i].args, strict=True):
+            for v, x in zip(self.executions[i].assign.args, self.executions[i].args, strict=True):
                 if v == var:
                     return len(x)
         raise AssertionError(var.name)

@@ -32,8 +32,8 @@ from codegen.ir.kernel import (
     Sample,
     Start,
 )
-from codegen.ir.operations import BodyForce
 from codegen.ir.program import EMBEDDED, Assign, Program, Solve
+from codegen.ir.scene_operations import BodyForce
 from codegen.ir.tangent import tangents
 from codegen.ir.values import Kind, Var
 from codegen.kernel import critical_path

@@ -53,23 +53,23 @@ class Variations:
     def seeds(self, domain: ExprDomain) -> dict[str, Expr]:
         """Return the rates of the state's symbols under the variation."""
         rest = tuple(domain.space.sym(name) for name in self.names)
-        found: dict[str, Expr] = {}
+        seeds: dict[str, Expr] = {}
         for group, symbols in self.parts:
             count = len(symbols) if group is None else group.dim
             own, rest = rest[:count], rest[count:]
             state = tuple(domain.space.sym(s) for s in symbols)
             rates = own if group is None else group.velocity(domain, own, state)
-            found |= dict(zip(symbols, rates, strict=True))
-        return found
+            seeds |= dict(zip(symbols, rates, strict=True))
+        return seeds
 
     def ends(self, domain: ExprDomain, state: tuple[Expr, ...], rates: tuple[Expr, ...]) -> tuple[Expr, ...]:
         """Return the variation of the new state from the rates of its coordinates."""
-        found: list[Expr] = []
+        rates_of_end: list[Expr] = []
         for group, symbols in self.parts:
             count = len(symbols)
             g, v, state, rates = state[:count], rates[:count], state[count:], rates[count:]
-            found += v if group is None else group.rate(domain, v, g)
-        return tuple(found)
+            rates_of_end += v if group is None else group.rate(domain, v, g)
+        return tuple(rates_of_end)
 
     def text(self) -> str:
         """Say what the numbers are."""

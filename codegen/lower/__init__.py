@@ -40,7 +40,7 @@ def problem_for(scene: Problem, method: Method) -> Problem:
     objection = own.objection(scene)
     if objection is not None:
         raise MethodError(
-            f"{method.family} on {scene.name}{objection.found}",
+            f"{method.family} on {scene.name}{objection.reason}",
             expected=objection.expected,
             hint=objection.hint or f"use one of {', '.join(families_for(scene))}",
         )
@@ -56,8 +56,8 @@ def lower_composed(scene: Problem, method: Method) -> Program | None:
     """Return the verified program of a step made of shorter ones that are alike, None where it is not."""
     if not lowering(method.family).repeats_substeps:
         return None
-    found = substeps(method)
-    if found is None:
+    repetition = substeps(method)
+    if repetition is None:
         return None
-    base, steps = found
+    base, steps = repetition
     return replace(lower(scene, base), substeps=steps)

@@ -22,13 +22,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Objection:
-    """Why a family does not take a scene: the property found, the one expected, and a hint.
+    """Why a family does not take a scene: the property that it has, the one expected, and a hint.
 
-    ``found`` continues the sentence "FAMILY on SCENE"; without a ``hint`` the message lists the families that
-    take the scene.
+    ``reason`` continues the sentence "FAMILY on SCENE"; without a ``hint`` the message names the families
+    that take the scene.
     """
 
-    found: str
+    reason: str
     expected: str
     hint: str = ""
 
@@ -79,7 +79,7 @@ class Lowering(ABC):
 
         By default this is so where T*G is a vector space and the tableau is symplectic.
         """
-        from orderconds.tableau.properties import symplectic
+        from orderconds.tableau.method_properties import symplectic
 
         tableau = method.tableau
         return bool(scene.group.abelian) and symplectic(tableau.abelian(), tableau.ring) is True
@@ -94,5 +94,5 @@ class Lowering(ABC):
         """Return the order of a method, computed from :meth:`conditions`; it may be undecided."""
         from orderconds.checking import check
 
-        (found,) = check(method.tableau, family=self.conditions(method, scene).label()).orders
-        return found
+        (order,) = check(method.tableau, family=self.conditions(method, scene).label()).orders
+        return order

@@ -81,10 +81,10 @@ def lowering(family: str) -> Lowering:
     >>> lowering("vcg").hamiltonian
     True
     """
-    found = _lowerings().get(family)
-    if found is None:
+    known = _lowerings().get(family)
+    if known is None:
         raise MethodError(f"family {family} cannot be lowered", expected=f"one of {', '.join(names())}")
-    return found
+    return known
 
 
 def families_for(scene: Problem) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""Symplectic Lie group integrators on T*G, the family of thesis section 2.5; one stage is the theta-method.
+"""Symplectic Lie group integrators on T*G, section 2.5 of Marthinsen's thesis; one stage is the theta-method.
 
 With X_i = h sum_j a_ij xi_j, Y = h sum_j b_j xi_j, Q_i = exp(X_i) q0, (xi_i, n_i) = f(Q_i, M_i) and nu_j =
 Ad*_{exp X_j} n_j,
@@ -53,11 +53,11 @@ def _program(scene: Problem, method: Method) -> Program:
         moved = build.dual_dexp("Lambda", minus, total)
         direct = [build.dual_dexp(f"d{j + 1}", X[j], n[j]) for j in range(s)]
         shared.update(g=build.exp("g", Y), mubar=total)
-        found = []
+        momenta = []
         for i in range(s):
             own = [(stages.times_h(-(b[j] * (A[j][i] / b[i]))), direct[j]) for j in range(s)]
-            found.append(build.lin(f"M{i + 1}", Kind.DUAL, [(ONE, moved), *own]))
-        return found
+            momenta.append(build.lin(f"M{i + 1}", Kind.DUAL, [(ONE, moved), *own]))
+        return momenta
 
     def one() -> list[Var]:
         """Append the momentum of the theta-method, for any b_1."""

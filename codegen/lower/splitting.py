@@ -105,9 +105,9 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
     durations = [x for _, x in joined]
     if len(durations) % 2 == 0:
         durations.append(zero)
-    found, carried = [], durations[0]
+    composed, carried = [], durations[0]
     for inner, outer in zip(durations[1::2], durations[2::2], strict=True):
         alpha = inner - carried
-        found.append((carried, alpha))
+        composed.append((carried, alpha))
         carried = outer - alpha
-    return found
+    return composed

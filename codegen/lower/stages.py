@@ -62,10 +62,11 @@ class Stages:
         update: Callable[[], dict[str, Var]],
     ) -> Program:
         """Assemble and verify: starts, one block with the images' body, the update; outputs by input name."""
+        # The order of appending is the order of the program: starts, body of the block, update.
         first = tuple(starts())
         before = self.builder.take()
-        found = tuple(images())
-        block = Solve("stages", tuple(unknowns), first, self.builder.take(), found)
+        last = tuple(images())
+        block = Solve("stages", tuple(unknowns), first, self.builder.take(), last)
         outputs = update()
         inputs = self.inputs + (() if self.time is None else (self.time,))
         body: tuple[Statement, ...] = (*before, block, *self.builder.take())

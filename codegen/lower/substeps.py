@@ -37,18 +37,23 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     if method.adaptive:
         return None
     tableau = method.tableau
-    found: tuple[RungeKutta, tuple[Number, ...]] | None
+    repetition: tuple[RungeKutta, tuple[Number, ...]] | None
     if isinstance(tableau.method, Composition):
         half = tableau.ring.rational(1, 2)
-        found = RungeKutta(((half,),), (tableau.ring.one,)), tuple(map(method.number, tableau.method.gamma))
+        repetition = (
+            RungeKutta(((half,),), (tableau.ring.one,)),
+            tuple(map(method.number, tableau.method.gamma)),
+        )
     elif isinstance(tableau.method, RungeKutta):
-        found = _repeated(method, tableau.method)
+        repetition = _repeated(method, tableau.method)
     else:
         return None
-    if found is None or len(found[1]) < 2:
+    if repetition is None or len(repetition[1]) < 2:
         return None
-    once = replace(tableau, family="rk", method=found[0], embedded=None, proof=None, file=None, path=None)
-    return replace(method, tableau=once), tuple(_timed(found[1]))
+    tableau_of_one = replace(
+        tableau, family="rk", method=repetition[0], embedded=None, proof=None, file=None, path=None
+    )
+    return replace(method, tableau=tableau_of_one), tuple(_timed(repetition[1]))
 
 
 def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
@@ -64,10 +69,12 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
+    # From one group to half of them: the narrowest repeated method gives the most substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
         ends = cuts[::wide]
         groups = [range(i, j) for i, j in pairwise(ends)]
         sums = [_sum([b[j] for j in group]) for group in groups]
+        # A group whose weights add to zero is no step of any length.
         if any(x.is_zero for x in sums):
             continue
         scaled = [

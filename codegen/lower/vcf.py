@@ -102,14 +102,16 @@ def _program(scene: Problem, method: Method) -> Program:
         e = _Product.of(stages, "e", update, xi)
         E = [_Product.of(stages, f"E{i + 1}_", r, xi) for i, r in enumerate(rows)]
         nu = [build.adjoint(f"nu{j + 1}", E[j].partial[-1], n[j]) for j in range(s)]
-        found = []
+        evaluations = []
         c = method.abscissae()
         for i in range(s):
             Q = build.mul(f"Q{i + 1}", E[i].partial[-1], q)
-            found.append(build.hamilton(f"f{i + 1}", f"r{i + 1}", Q, momentum(i, e, E, nu), *stages.at(c[i])))
+            evaluations.append(
+                build.hamilton(f"f{i + 1}", f"r{i + 1}", Q, momentum(i, e, E, nu), *stages.at(c[i]))
+            )
         terms = [(ONE, mu)] + [(stages.times_h(b[j]), nu[j]) for j in range(s)]
         shared.update(e=e.partial[-1], mubar=build.lin("mubar", Kind.DUAL, terms))
-        return [x for x, _ in found] + [r for _, r in found]
+        return [x for x, _ in evaluations] + [r for _, r in evaluations]
 
     def starts() -> list[Var]:
         x, r = build.hamilton("xi0", "n0", q, mu, *stages.at(None))

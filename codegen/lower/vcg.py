@@ -1,4 +1,4 @@
-"""Variational Crouch-Grossman methods on T*G, thesis eq. (3.18) with the momentum in the form (3.19).
+"""Variational Crouch-Grossman methods on T*G, equation (3.18) of Marthinsen's thesis, momenta by (3.19).
 
 Everything is taken relative to q0, where the coadjoint action of q0 drops out: with e^j = exp(h b_j xi_j)
 e^{j-1}, E_i^j = exp(h a_ij xi_j) E_i^{j-1}, e^0 = E_i^0 = 1, E_i = E_i^s, Q_i = E_i q0, nu_j = Ad*_{E_j} n_j,
@@ -61,7 +61,7 @@ def _program(scene: Problem, method: Method) -> Program:
         for j in range(s):
             terms.append((stages.times_h(b[j]), carried(nu[j])))
             a = A[j][i]
-            if a.is_zero:
+            if a.is_zero:  # stage j does not depend on xi_i
                 continue
             x = build.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-a), xi[i])])
             moved = build.adjoint(f"m{i + 1}", E[j][i], nu[j], inverse=True)
@@ -73,13 +73,13 @@ def _program(scene: Problem, method: Method) -> Program:
         e = partial_products(tableau.b, "e")
         E = [partial_products(row, f"E{i + 1}_") for i, row in enumerate(tableau.A)]
         nu = [build.adjoint(f"nu{j + 1}", E[j][s], n[j]) for j in range(s)]
-        found = []
+        evaluations = []
         for i in range(s):
             Q = build.mul(f"Q{i + 1}", E[i][s], q)
             M = momentum(i, e, E, nu)
-            found.append(build.hamilton(f"f{i + 1}", f"r{i + 1}", Q, M, *stages.at(tableau.c[i])))
+            evaluations.append(build.hamilton(f"f{i + 1}", f"r{i + 1}", Q, M, *stages.at(tableau.c[i])))
         shared.update(e=e, nu=nu)
-        return [x for x, _ in found] + [r for _, r in found]
+        return [x for x, _ in evaluations] + [r for _, r in evaluations]
 
     def starts() -> list[Var]:
         x, r = build.hamilton("xi0", "n0", q, mu, *stages.at(None))

@@ -1,4 +1,4 @@
-"""VRKMK with dexp^{-1} replaced by the inverse of dexp cut off: thesis section 3.4.1, alternative approach.
+"""VRKMK with dexp^{-1} replaced by the inverse of dexp cut off: section 3.4.1 of Marthinsen's thesis.
 
 The unknowns v_i satisfy dexp_{(r),X_i} v_i = xi_i, where dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)! and X_i =
 h sum_j a_ij v_j; so no multipliers are needed. With R*_(r)(x, v) the dual of the derivative of dexp_{(r),x} v
@@ -76,10 +76,10 @@ class _Step(ExpandedStep):
 
     def _powers(self, x: Var, first: Var) -> list[Var]:
         """Append ad_x^k first, or its dual, for k = 0..r."""
-        found = [first]
+        powers = [first]
         for k in range(self.r):
-            found.append(self.build.bracket(f"{first.name}_{k + 1}", x, found[-1]))
-        return found
+            powers.append(self.build.bracket(f"{first.name}_{k + 1}", x, powers[-1]))
+        return powers
 
     def _slope(self, name: str, brackets: list[Var], momenta: list[Var]) -> Var:
         """Append R*_(r) M, the sum over i < r of ad*_z (ad*_x)^i M, z = -sum_k ad_x^{k-1-i} v/(k+1)!."""

@@ -6,8 +6,7 @@ interpretation at points where the program must agree with the lowered one to ro
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from codegen.ir.program import Program
 from codegen.ir.verify import IllFormed, verify
@@ -31,28 +30,15 @@ from codegen.passes import (
     value_numbering,
 )
 from codegen.passes.equivalence import Reference
+from codegen.passes.reports import Pass
+from codegen.passes.reports import PassReport as PassReport
+from codegen.passes.reports import summaries as summaries
 from codegen.scene.problem import Problem
 
-
-@dataclass(frozen=True)
-class PassReport:
-    """What a pass did: operation counts before and after, and the program after it."""
-
-    name: str
-    before: dict[str, int]
-    after: dict[str, int]
-    program: Program
-
-    @property
-    def removed(self) -> dict[str, int]:
-        """How many of each operation the pass took out (negative: put in)."""
-        names = sorted({*self.before, *self.after})
-        change = {n: self.before.get(n, 0) - self.after.get(n, 0) for n in names}
-        return {n: k for n, k in change.items() if k}
-
-
-Step = tuple[str, Callable[[Program], Program]]
-"""A pass: its name and what it does."""
+ZERO = "coefficients are zero, or terms cancel"
+SHARED = "equal values are computed once"
+UNUSED = "no result depends on them"
+FACTORED = "a linear map is applied to a sum, not to each term"
 
 
 def optimise(
@@ -81,10 +67,10 @@ class Optimiser:
         self.program, self.meaning = program, Reference(program, scene)
         if composed is not None:
             whole: Program = composed
-            self._run("substeps", lambda _: whole)
+            self._run(Pass("substeps", "the step repeats a shorter one", lambda _: whole))
             self.meaning = Reference(_part(composed), scene)
-        for name, step in plain_passes(scene):
-            self._run(name, step)
+        for each in plain_passes(scene):
+            self._run(each)
 
     def plain(self) -> tuple[Program, tuple[PassReport, ...]]:
         """Return the program after the passes that serve every scene."""
@@ -96,20 +82,20 @@ class Optimiser:
         Counting operations shows whether it is worth while.
         """
         plain, reports = self.program, list(self.reports)
-        for name, step in framed_passes(self.scene):
-            self._run(name, step)
-        found = self.program, tuple(self.reports)
+        for each in body_frame_passes(self.scene):
+            self._run(each)
+        outcome = self.program, tuple(self.reports)
         self.program, self.reports = plain, reports
-        return found
+        return outcome
 
-    def _run(self, name: str, step: Callable[[Program], Program]) -> None:
-        old, new = self.program, verify(step(self.program))
+    def _run(self, each: Pass) -> None:
+        old, new = self.program, verify(each.run(self.program))
         if new == old:
             return
         account = self.meaning.differs(new if old.substeps == () else _part(new))
         if account:
-            raise IllFormed(f"the pass {name} changed the meaning of {old.name}: {account}")
-        self.reports.append(PassReport(name, old.counts(), new.counts(), new))
+            raise IllFormed(f"the pass {each.name} changed the meaning of {old.name}: {account}")
+        self.reports.append(PassReport(each.name, each.because, old, new))
         self.program = new
 
 
@@ -118,52 +104,58 @@ def _part(program: Program) -> Program:
     return replace(program, substeps=())
 
 
-def plain_passes(scene: Problem) -> list[Step]:
+def plain_passes(scene: Problem) -> list[Pass]:
     """Return the passes that serve every scene, in order."""
+    abelian_group = scene.group.abelian
+    joined = "flows of one part are joined across flows that commute"
+    vanish = "the group is abelian" if abelian_group else "dexpinv is cut off before its first bracket"
     return [
-        ("abelian", lambda p: abelian.run(p, scene.group.abelian)),
-        ("zeros", fold_zeros.run),
-        ("sharing", value_numbering.run),
-        ("merging", equal_unknowns.run),
-        ("cancellation", fold_zeros.run),
-        ("flows", lambda p: flows.run(p, scene)),
-        ("dead code", dead.run),
-        ("blocks", blocks.run),
-        ("dead code", dead.run),
-        ("factors", factor_linear.run),
-        ("common sums", shared_sums.run),
-        ("cancellation", fold_zeros.run),
-        ("sharing", value_numbering.run),
-        ("fusion", fuse.run),
-        ("dead code", dead.run),
-        ("blocks", blocks.run),  # what factoring made independent of a block's unknowns leaves it
+        Pass("brackets that vanish", vanish, lambda p: abelian.run(p, abelian_group)),
+        Pass("zeros", ZERO, fold_zeros.run),
+        Pass("shared values", SHARED, value_numbering.run),
+        Pass("equal unknowns", "equal stages are solved once", equal_unknowns.run),
+        Pass("zeros", ZERO, fold_zeros.run),
+        Pass("joined flows", joined, lambda p: flows.run(p, scene)),
+        Pass("unused values", UNUSED, dead.run),
+        Pass("blocks", "stages are solved one after the other", blocks.run),
+        Pass("unused values", UNUSED, dead.run),
+        Pass("factored maps", FACTORED, factor_linear.run),
+        Pass("maps of shared sums", FACTORED, shared_sums.run),
+        Pass("zeros", ZERO, fold_zeros.run),
+        Pass("shared values", SHARED, value_numbering.run),
+        Pass("fused exponentials", "exp(x).y is computed without exp(x)", lambda p: dead.run(fuse.run(p))),
+        Pass("unused values", UNUSED, dead.run),
+        # Factoring makes values independent of a block's unknowns; they leave the block now.
+        Pass("blocks", "stages are solved one after the other", blocks.run),
     ]
 
 
-def framed_passes(scene: Problem) -> list[Step]:
-    """Return the passes that follow where there is a body frame, in order."""
+def body_frame_passes(scene: Problem) -> list[Pass]:
+    """Return the passes that follow where the scene has a body frame, in order."""
+    inverse = "adjoint maps undo each other"
+    one_ad = "functions of one ad are one function"
     return [
-        ("body frame", lambda p: body_frame.run(p, scene)),
-        ("cancellation", fold_zeros.run),
-        ("sharing", value_numbering.run),
-        ("Legendre transform", lambda p: legendre.run(p, scene)),
-        ("opposites", opposites.run),
-        ("tearing", tearing.run),
-        ("opposites", opposites.run),
-        ("dead code", dead.run),
-        ("sharing", value_numbering.run),
-        ("factors", factor_linear.run),
-        ("common sums", shared_sums.run),
-        ("rows", lambda p: functions.rows(p, scene)),
-        ("functions", lambda p: functions.run(p, scene)),
-        ("residuals", lambda p: legendre.residuals(p, scene)),
-        ("opposites", opposites.run),
-        ("functions", lambda p: functions.run(p, scene)),
-        ("sharing", value_numbering.run),
-        ("factors", factor_linear.run),
-        ("dead code", dead.run),
-        ("scalars", hoist_scalars.run),
-        ("sharing", value_numbering.run),
-        ("dead code", dead.run),
-        ("signs", shared_negatives.run),
+        Pass("body frame", "the equations are those of the body", lambda p: body_frame.run(p, scene)),
+        Pass("zeros", ZERO, fold_zeros.run),
+        Pass("shared values", SHARED, value_numbering.run),
+        Pass("Legendre transform", "momenta follow from velocities", lambda p: legendre.run(p, scene)),
+        Pass("inverse maps", inverse, opposites.run),
+        Pass("fewer unknowns", "the other unknowns determine them", tearing.run),
+        Pass("inverse maps", inverse, opposites.run),
+        Pass("unused values", UNUSED, dead.run),
+        Pass("shared values", SHARED, value_numbering.run),
+        Pass("factored maps", FACTORED, factor_linear.run),
+        Pass("maps of shared sums", FACTORED, shared_sums.run),
+        Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
+        Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
+        Pass("residuals", "momenta are compared", lambda p: legendre.residuals(p, scene)),
+        Pass("inverse maps", inverse, opposites.run),
+        Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
+        Pass("shared values", SHARED, value_numbering.run),
+        Pass("factored maps", FACTORED, factor_linear.run),
+        Pass("unused values", UNUSED, dead.run),
+        Pass("numbers outside maps", "numbers are multiplied into sums", hoist_scalars.run),
+        Pass("shared values", SHARED, value_numbering.run),
+        Pass("unused values", UNUSED, dead.run),
+        Pass("negatives of sums", "a sum is the negative of another", shared_negatives.run),
     ]

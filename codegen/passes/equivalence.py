@@ -43,13 +43,13 @@ class _Point:
 
     def __init__(self, more: Iterator[Result]) -> None:
         self._more = more
-        self.made = list(islice(more, 1))
+        self.computed = list(islice(more, 1))
 
     def results(self) -> Iterator[Result]:
         """Yield the results, the largest step first."""
-        yield from self.made
+        yield from self.computed
         for result in self._more:
-            self.made.append(result)
+            self.computed.append(result)
             yield result
 
 
@@ -66,7 +66,7 @@ class Reference:
         self.scene = scene
         self.kinds = {v.name: v.kind for v in program.inputs}
         points = [_Point(self._some(program, state)) for state in _states(scene)]
-        self.points = [point for point in points if point.made]
+        self.points = [point for point in points if point.computed]
         if not self.points:
             raise SceneError(
                 "no step can be computed from the initial state, nor from one nearby",
@@ -82,19 +82,20 @@ class Reference:
         if not math.isfinite(speed):
             return
         excess = math.frexp(speed * STEPS[0] / REACH)[1]  # a power of two above it
-        found, last = 0, math.inf
+        count, last = 0, math.inf
         for moderate in STEPS:
             step = math.ldexp(moderate, -max(excess, 0))
-            if found and step > last / APART:
+            if count and step > last / APART:
                 continue
             solutions: dict[Var, Value] = {}
+            # A step that does not settle is too long; a shorter one is tried.
             try:
                 after = self._run(program, step, inputs, SWEEPS, solutions)
             except FAILURES:
                 continue
             yield step, inputs, after, solutions
-            found, last = found + 1, step
-            if found == TRIES:
+            count, last = count + 1, step
+            if count == TRIES:
                 break
 
     def _run(

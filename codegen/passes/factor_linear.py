@@ -26,9 +26,9 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         return rewriter.emit(assign)
     groups: dict[object, list[tuple[Coefficient, Var]]] = {}
     for k, (c, arg) in enumerate(assign.terms):
-        made = rewriter.definitions.get(arg)
-        single = made is not None and rewriter.uses.get(arg) == 1 and made.operation.linear_in_last
-        key = (made.operation, made.args[:-1]) if made is not None and single else k
+        source = rewriter.definitions.get(arg)
+        single = source is not None and rewriter.uses.get(arg) == 1 and source.operation.linear_in_last
+        key = (source.operation, source.args[:-1]) if source is not None and single else k
         groups.setdefault(key, []).append((c, arg))
     if all(len(terms) == 1 for terms in groups.values()):
         return rewriter.emit(assign)
@@ -37,11 +37,11 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         if len(terms) == 1:
             result += terms
             continue
-        made = rewriter.definitions[terms[0][1]]
+        source = rewriter.definitions[terms[0][1]]
         inner = [(c, rewriter.definitions[v].args[-1]) for c, v in terms]
         total = _lin(rewriter, inner)
         target = rewriter.builder.fresh(terms[0][1].name, terms[0][1].kind)
-        moved = Assign((target,), made.operation, (*made.args[:-1], total))
+        moved = Assign((target,), source.operation, (*source.args[:-1], total))
         result.append((ONE, rewriter.emit(moved)[0]))
     return rewriter.emit(Assign.of_terms(assign.targets[0], result))
 

@@ -13,8 +13,9 @@ from functools import cache
 from itertools import combinations
 
 from codegen.ir.domain import Value
-from codegen.ir.operations import Advance, FlowOf
+from codegen.ir.operations import Advance
 from codegen.ir.program import Assign, Program
+from codegen.ir.scene_operations import FlowOf
 from codegen.ir.values import Coefficient, Kind, Var
 from codegen.scene.orbit import orbit_of
 from codegen.scene.problem import Problem
@@ -36,6 +37,7 @@ def run(program: Program, scene: Problem) -> Program:
         return program
     commute = commuting(scene)
     kept: list[Letter] = []
+    # Each flow moves back as far as it commutes with the flows that it passes.
     for letter in letters:
         at = _before(kept, letter, commute)
         if at is not None:
@@ -43,7 +45,7 @@ def run(program: Program, scene: Problem) -> Program:
             letter = replace(letter, duration=Coefficient(duration, letter.duration.power))
         if not letter.duration.is_zero:
             kept.append(letter)
-    return program if len(kept) == len(letters) else spelled(program, kept)
+    return program if len(kept) == len(letters) else with_flows(program, kept)
 
 
 def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str], bool]) -> int | None:
@@ -73,7 +75,7 @@ def word(program: Program) -> list[Letter] | None:
     return letters if state == tuple(var for _, var in program.outputs) else None
 
 
-def spelled(program: Program, letters: Sequence[Letter]) -> Program:
+def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
     """Return the program that makes these flows, with the times of the old one."""
     body = [a for a in program.assigns() if isinstance(a.operation, Advance)]
     first = state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)

@@ -15,18 +15,9 @@ from codegen.groups.capabilities import ClosedFormSeries
 from codegen.ir.ad_series import UNIT, Factor, Word, simplified
 from codegen.ir.expr import walk
 from codegen.ir.number import Number
-from codegen.ir.operations import (
-    Adjoint,
-    AdSeries,
-    BodyForce,
-    BodyVelocity,
-    DualDexp,
-    Exp,
-    InverseDexp,
-    Multiply,
-    MultiplyExp,
-)
+from codegen.ir.operations import Adjoint, AdSeries, DualDexp, Exp, InverseDexp, Multiply, MultiplyExp
 from codegen.ir.program import Assign, Program
+from codegen.ir.scene_operations import BodyForce, BodyVelocity
 from codegen.ir.values import Kind, Var
 from codegen.passes.rewrite import Rewriter, rewrite
 from codegen.scene.problem import Problem
@@ -47,39 +38,41 @@ def rows(program: Program, scene: Problem) -> Program:
     names = scene.state[0].symbols
     read = {n.payload for n in walk([*scene.body.velocity, *scene.body.force]) if n.op == "sym"}
     side = round(len(names) ** 0.5)
+    # Rows of q exp(x) are separate only if all numbers that are read are in one row.
     if len({k // side for k, name in enumerate(names) if name in read}) > 1:
         return program
     fields = {a.args[0] for a in program.assigns() if isinstance(a.operation, BodyVelocity | BodyForce)}
     kept = {var for _, var in program.outputs}
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-        made = rewriter.definitions.get(assign.args[-1]) if isinstance(assign.operation, Multiply) else None
+        source = rewriter.definitions.get(assign.args[-1]) if isinstance(assign.operation, Multiply) else None
         own = assign.targets[0] in fields and assign.targets[0] not in kept
-        if made is None or not isinstance(made.operation, Exp) or not own:
+        if source is None or not isinstance(source.operation, Exp) or not own:
             return rewriter.emit(assign)
-        return rewriter.emit(replace(assign, operation=MultiplyExp(), args=(assign.args[0], made.args[0])))
+        return rewriter.emit(replace(assign, operation=MultiplyExp(), args=(assign.args[0], source.args[0])))
 
     return rewrite(program, rule)
 
 
 def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-    found = _function(rewriter, assign)
-    if found is None:
+    function = _function(rewriter, assign)
+    if function is None:
         return rewriter.emit(assign)
-    x, word = found
+    x, word = function
     v = assign.args[-1]
-    made = rewriter.definitions.get(v)
-    inner = _function(rewriter, made) if made is not None else None
-    if made is not None and inner is not None:
+    source = rewriter.definitions.get(v)
+    inner = _function(rewriter, source) if source is not None else None
+    if source is not None and inner is not None:
         scale = ratio(rewriter.definitions, x, inner[0])
         if scale is not None:
             joined = (*inner[1], *(f.scaled(scale) for f in word))
-            return _emit(rewriter, assign, inner[0], joined, made.args[-1])
+            return _emit(rewriter, assign, inner[0], joined, source.args[-1])
     adjoint = isinstance(assign.operation, Adjoint)
-    if adjoint and made is not None and made.terms:
-        parts = [_function_of(rewriter, arg, x) for arg in made.args]
+    if adjoint and source is not None and source.terms:
+        parts = [_function_of(rewriter, arg, x) for arg in source.args]
         if len(parts) > 1 and all(part is not None for part in parts):
-            return _distributed(rewriter, made, [p for p in parts if p is not None], word)
+            return _distributed(rewriter, source, [p for p in parts if p is not None], word)
+    # Where other operations use the group element, the exponential is computed anyway.
     if adjoint and rewriter.uses.get(assign.args[0], 0) > 1:
         return rewriter.emit(assign)
     return _emit(rewriter, assign, x, word, v)
@@ -98,11 +91,11 @@ Part = tuple[Var, Word, Var]
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
     """Return s and the function of y that var is, where x = s y and var has no other use."""
-    made = rewriter.definitions.get(var)
-    if made is None or not isinstance(made.operation, AdSeries) or rewriter.uses.get(var, 0) > 1:
+    source = rewriter.definitions.get(var)
+    if source is None or not isinstance(source.operation, AdSeries) or rewriter.uses.get(var, 0) > 1:
         return None
-    scale = ratio(rewriter.definitions, x, made.args[0])
-    return None if scale is None else (scale, (made.args[0], made.operation.word, made.args[1]))
+    scale = ratio(rewriter.definitions, x, source.args[0])
+    return None if scale is None else (scale, (source.args[0], source.operation.word, source.args[1]))
 
 
 def _distributed(
@@ -113,8 +106,8 @@ def _distributed(
     for scale, (y, inner, v) in parts:
         joined = simplified((*inner, *(f.scaled(scale) for f in word)))
         target = rewriter.builder.fresh(v.name, v.kind)
-        made = Assign((target,), AdSeries(joined, v.kind is Kind.DUAL), (y, v))
-        terms.append(rewriter.emit(made)[0] if joined else v)
+        applied = Assign((target,), AdSeries(joined, v.kind is Kind.DUAL), (y, v))
+        terms.append(rewriter.emit(applied)[0] if joined else v)
     target = rewriter.builder.fresh(total.targets[0].name, total.targets[0].kind)
     return rewriter.emit(Assign((target,), total.operation, tuple(terms)))
 
@@ -123,11 +116,11 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
     """Return x and the function of ad_x that an assignment applies to its last argument."""
     operation, args = assign.operation, assign.args
     if isinstance(operation, Adjoint):
-        made = rewriter.definitions.get(args[0])
-        if made is None or not isinstance(made.operation, Exp):
+        source = rewriter.definitions.get(args[0])
+        if source is None or not isinstance(source.operation, Exp):
             return None
         # Ad_{exp x} = exp(ad_x), and its inverse is exp(-ad_x); the same holds on the dual.
-        return made.args[0], (Factor("exp", -UNIT if operation.inverse else UNIT),)
+        return source.args[0], (Factor("exp", -UNIT if operation.inverse else UNIT),)
     if isinstance(operation, InverseDexp | DualDexp | AdSeries):
         return args[0], operation.word
     return None
@@ -149,9 +142,9 @@ def _terms(definitions: Mapping[Var, Assign], x: Var) -> dict[tuple[str, int], N
     waiting = [(Number.rational(1), 0, x)]
     while waiting:
         c, power, var = waiting.pop()
-        made = definitions.get(var)
-        if made is not None and made.terms:
-            for k, arg in made.terms:
+        source = definitions.get(var)
+        if source is not None and source.terms:
+            for k, arg in source.terms:
                 waiting.append((c * k.value, power + k.power, arg))
             continue
         old = total.get((var.name, power))

@@ -16,9 +16,13 @@ def run(program: Program) -> Program:
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         if isinstance(assign.operation, Act):
-            made = rewriter.definitions.get(assign.args[0])
-            if made is not None and isinstance(made.operation, Exp) and rewriter.uses[assign.args[0]] == 1:
-                fused = Assign(assign.targets, ActExp(), (made.args[0], assign.args[1]))
+            source = rewriter.definitions.get(assign.args[0])
+            if (
+                source is not None
+                and isinstance(source.operation, Exp)
+                and rewriter.uses[assign.args[0]] == 1
+            ):
+                fused = Assign(assign.targets, ActExp(), (source.args[0], assign.args[1]))
                 return rewriter.emit(fused)
         return rewriter.emit(assign)
 

@@ -1,7 +1,7 @@
 """Numbers taken out of linear maps and sums of sums: L(c x) = c L(x), and a sum inside a sum is one sum.
 
-Exact. A map is left with the value that other operations share, the number joins the coefficients of the sum
-that reads the map. Terms that stand in several sums in one proportion are added first, once for all of them.
+Exact. The map is applied to the value that other operations share; the number joins the coefficients of the
+sum that reads the map. Terms that several sums contain in one proportion are added once for all of them.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
 
 Pattern = tuple[tuple[int, Coefficient], ...]
-"""In which sums a value stands, and with what coefficient relative to the first."""
+"""The sums that a value is a term of, and its coefficient relative to the first."""
 
 
 def run(program: Program) -> Program:
@@ -31,23 +31,23 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     operation = assign.operation
     if assign.terms:
         return _flat(rewriter, assign)
-    made = rewriter.definitions.get(assign.args[-1]) if assign.args else None
-    if not operation.linear_in_last or made is None or not made.is_multiple:
+    source = rewriter.definitions.get(assign.args[-1]) if assign.args else None
+    if not operation.linear_in_last or source is None or not source.is_multiple:
         return rewriter.emit(assign)
     (target,) = assign.targets
     mapped = rewriter.builder.fresh(target.name, target.kind)
-    rewriter.emit(replace(assign, targets=(mapped,), args=(*assign.args[:-1], made.args[0])))
-    return rewriter.emit(Assign((target,), made.operation, (mapped,)))
+    rewriter.emit(replace(assign, targets=(mapped,), args=(*assign.args[:-1], source.args[0])))
+    return rewriter.emit(Assign((target,), source.operation, (mapped,)))
 
 
 def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     """Append a sum with single multiples, and sums that nothing else reads, replaced by their terms."""
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
-        made = rewriter.definitions.get(arg)
+        source = rewriter.definitions.get(arg)
         terms = [(c, arg)]
-        if made is not None and made.terms and (made.is_multiple or rewriter.uses.get(arg) == 1):
-            terms = [(Coefficient(c.value * k.value, c.power + k.power), v) for k, v in made.terms]
+        if source is not None and source.terms and (source.is_multiple or rewriter.uses.get(arg) == 1):
+            terms = [(Coefficient(c.value * k.value, c.power + k.power), v) for k, v in source.terms]
         for k, v in terms:
             old = total.get((v, k.power))
             total[v, k.power] = k if old is None else Coefficient(old.value + k.value, k.power)
@@ -68,27 +68,29 @@ def _added(program: Program) -> Program:
 
 def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     sums = {k: a for k, a in enumerate(body) if len(a.terms) > 1}
+    # Values with the same pattern of sums and relative coefficients can be added once.
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
-        found = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
-        unit = found[0][1]
-        relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in found)
-        once = len({k for k, _ in found}) == len(found)
-        if len(found) > 1 and once and all(c.power >= 0 for _, c in relative):
+        places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
+        unit = places[0][1]
+        relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
+        # A value twice in one sum would have to be removed twice.
+        distinct = len({k for k, _ in places}) == len(places)
+        if len(places) > 1 and distinct and all(c.power >= 0 for _, c in relative):
             groups.setdefault((v.kind.value, relative), []).append((v, unit))
-    made: list[Assign] = []
+    totals: list[Assign] = []
     for (_, relative), members in groups.items():
         _, unit = members[0]
         if len(members) < 2 or any(c.power != unit.power for _, c in members):
             continue
         terms = [(Coefficient(c.value / unit.value), v) for c, v in ((c, v) for v, c in members)]
         total = builder.lin(f"sum_{members[0][0].name}", members[0][0].kind, terms)
-        made += builder.take()
+        totals += builder.take()
         gone = {v for v, _ in members}
         for k, share in relative:
             kept = [(c, v) for c, v in sums[k].terms if v not in gone]
             kept.append((Coefficient(share.value * unit.value, share.power + unit.power), total))
             sums[k] = Assign.of_terms(sums[k].targets[0], kept)
-    result = ordered((*(sums.get(k, a) for k, a in enumerate(body)), *made))
+    result = ordered((*(sums.get(k, a) for k, a in enumerate(body)), *totals))
     assert result is not None
     return result

@@ -12,8 +12,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from codegen.ir.number import Number
-from codegen.ir.operations import Adjoint, AdSeries, BodyVelocity, Exp, InverseDexp, Legendre
+from codegen.ir.operations import Adjoint, AdSeries, Exp, InverseDexp
 from codegen.ir.program import Assign, Builder, Program, Solve, Statement
+from codegen.ir.scene_operations import BodyVelocity, Legendre
 from codegen.ir.values import MINUS_ONE, ONE, Coefficient, Kind, Var
 from codegen.passes.functions import ratio
 from codegen.passes.rewrite import defined
@@ -55,8 +56,8 @@ def run(program: Program, scene: Problem) -> Program:
             continue
         block = replace(statement, starts=tuple(names.get(a, a) for a in statement.starts))
         paths = [p for p in (path(block, u) for u in block.unknowns) if p is not None]
-        for found in paths:
-            block = _turned(block, found, build)
+        for route in paths:
+            block = _turned(block, route, build)
         image = dict(zip(block.unknowns, block.images, strict=True))
         names |= {image[p.unknown]: p.unknown for p in paths}
         body.append(block)
@@ -74,8 +75,10 @@ def residuals(program: Program, scene: Problem) -> Program:
         if isinstance(statement, Solve):
             paths = [path(statement, u) for u in statement.unknowns]
             if all(p is not None for p in paths):
-                found = [_residual(statement, p, build) for p in paths if p is not None]
-                statement = replace(statement, body=(*statement.body, *build.take()), residuals=tuple(found))
+                compared = [_residual(statement, p, build) for p in paths if p is not None]
+                statement = replace(
+                    statement, body=(*statement.body, *build.take()), residuals=tuple(compared)
+                )
         body.append(statement)
     return replace(program, body=tuple(body))
 
@@ -95,11 +98,11 @@ def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assi
     """Return the invertible linear maps that end in var, the first first, and what made their start."""
     maps: list[Assign] = []
     while True:
-        made = maker.get(var)
-        if made is None or not _invertible(made):
-            return tuple(reversed(maps)), made
-        maps.append(made)
-        var = made.args[-1]
+        source = maker.get(var)
+        if source is None or not _invertible(source):
+            return tuple(reversed(maps)), source
+        maps.append(source)
+        var = source.args[-1]
 
 
 def _invertible(assign: Assign) -> bool:
@@ -119,39 +122,40 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
     return build.lin("s", value.kind, [(Coefficient(Number.rational(1) / c.value), value)])
 
 
-def _values(build: Builder, found: Path) -> tuple[dict[Var, Var], Var]:
-    """Append everything on a path computed from its unknown: what stands for each value, and for the base."""
-    stands: dict[Var, Var] = {}
-    value = found.unknown
-    stands[(found.outward[-1] if found.outward else found.velocity).targets[0]] = value
-    for assign in reversed(found.outward):
+def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
+    """Append everything on a path computed from its unknown: each value, and the base."""
+    replaced: dict[Var, Var] = {}
+    value = route.unknown
+    replaced[(route.outward[-1] if route.outward else route.velocity).targets[0]] = value
+    for assign in reversed(route.outward):
         value = _undone(build, assign, value)
-        stands[assign.args[-1]] = value
+        replaced[assign.args[-1]] = value
     value = build.add(Legendre(), "p", value)
-    stands[found.velocity.args[1]] = value
-    for assign in reversed(found.inward):
+    replaced[route.velocity.args[1]] = value
+    for assign in reversed(route.inward):
         value = _undone(build, assign, value)
-        stands[assign.args[-1]] = value
-    return stands, value
+        replaced[assign.args[-1]] = value
+    return replaced, value
 
 
-def _residual(block: Solve, found: Path, build: Builder) -> Var:
+def _residual(block: Solve, route: Path, build: Builder) -> Var:
     """Append what the momentum from the unknown exceeds the other by, in the frame where that costs less."""
-    stands, computed = _values(build, found)
-    given = found.base
-    if _function_of_one(block, found):
-        given = found.velocity.args[1]
-    elif found.inward and found.inward[0].terms:
-        given = found.inward[0].targets[0]
-    return build.lin("residual", Kind.DUAL, [(ONE, given), (MINUS_ONE, stands.get(given, computed))])
+    replaced, computed = _values(build, route)
+    given = route.base
+    # P is then a sum of functions of one ad, which costs less than the momentum before the adjoint map.
+    if _function_of_one(block, route):
+        given = route.velocity.args[1]
+    elif route.inward and route.inward[0].terms:
+        given = route.inward[0].targets[0]
+    return build.lin("residual", Kind.DUAL, [(ONE, given), (MINUS_ONE, replaced.get(given, computed))])
 
 
-def _function_of_one(block: Solve, found: Path) -> bool:
+def _function_of_one(block: Solve, route: Path) -> bool:
     """Whether P is Ad*_{exp x} of a sum of functions of multiples of ad*_x."""
     maker = {target: assign for assign in block.body for target in assign.targets}
-    if len(found.inward) != 1 or found.inward[0].operation != Adjoint(dual=True):
+    if len(route.inward) != 1 or route.inward[0].operation != Adjoint(dual=True):
         return False
-    element, total = (maker.get(v) for v in found.inward[0].args)
+    element, total = (maker.get(v) for v in route.inward[0].args)
     if element is None or total is None or not (isinstance(element.operation, Exp) and total.terms):
         return False
     terms = [maker.get(v) for v in total.args]
@@ -162,15 +166,16 @@ def _function_of_one(block: Solve, found: Path) -> bool:
     )
 
 
-def _turned(block: Solve, found: Path, build: Builder) -> Solve:
+def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     """Return the block with the values on a path taken from its unknown wherever else they are used."""
-    stands, _ = _values(build, found)
+    replaced, _ = _values(build, route)
     fresh = build.take()
-    if found.inward and found.base not in block.unknowns:
-        del stands[found.base]  # a sum of many terms, which no other operation needs from the velocity
-    own = {a.targets[0] for a in (*found.outward, found.velocity, *found.inward)}
+    # The base is computed from other stages; replacing it would add operations and save none.
+    if route.inward and route.base not in block.unknowns:
+        del replaced[route.base]  # a sum of many terms, which no other operation needs from the velocity
+    own = {a.targets[0] for a in (*route.outward, route.velocity, *route.inward)}
     body = [
-        a if a.targets[0] in own else replace(a, args=tuple(stands.get(x, x) for x in a.args))
+        a if a.targets[0] in own else replace(a, args=tuple(replaced.get(x, x) for x in a.args))
         for a in block.body
     ]
     sorted_body = ordered((*body, *fresh))

@@ -20,9 +20,10 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     operation = assign.operation
     if isinstance(operation, Adjoint):
         g, x = assign.args
-        made, element = rewriter.definitions.get(x), rewriter.definitions.get(g)
-        if made is not None and made.operation == operation.opposite() and made.args[0] == g:
-            return (made.args[1],)
+        source, element = rewriter.definitions.get(x), rewriter.definitions.get(g)
+        if source is not None and source.operation == operation.opposite() and source.args[0] == g:
+            return (source.args[1],)
+        # Ad_{exp x} y = y if x and y are multiples of one value, because [x, x] = 0.
         own = element is not None and isinstance(element.operation, Exp) and not operation.dual
         if own and element is not None and _line(rewriter, element.args[0]) == _line(rewriter, x):
             return (x,)
@@ -31,5 +32,5 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 def _line(rewriter: Rewriter, x: Var) -> Var:
     """Return the value that x is a multiple of."""
-    made = rewriter.definitions.get(x)
-    return made.args[0] if made is not None and made.is_multiple else x
+    source = rewriter.definitions.get(x)
+    return source.args[0] if source is not None and source.is_multiple else x

@@ -73,10 +73,10 @@ class SeriesSums:
         """Return the terms that are functions of ad of multiples of one x, where there are two or more."""
         groups: list[list[Term]] = []
         for c, v in assign.terms:
-            made = self.definitions.get(v)
-            if made is None or not isinstance(made.operation, AdSeries) or self.uses.get(v) != 1:
+            source = self.definitions.get(v)
+            if source is None or not isinstance(source.operation, AdSeries) or self.uses.get(v) != 1:
                 continue
-            term = Term(v, c, made.operation, *made.args)
+            term = Term(v, c, source.operation, *source.args)
             for group in groups:
                 if ratio(self.definitions, term.x, group[0].x) is not None:
                     group.append(term)
@@ -107,10 +107,10 @@ class SeriesSums:
         """Return a sum in terms of what its terms are sums of, where that is no longer."""
         total: dict[tuple[Var, int], Number] = {}
         for c, v in terms:
-            made = self.definitions.get(v)
+            source = self.definitions.get(v)
             inner = [(ONE, v)]
-            if made is not None and made.terms:
-                inner = list(made.terms)
+            if source is not None and source.terms:
+                inner = list(source.terms)
             for d, u in inner:
                 key, more = (u, c.power + d.power), c.value * d.value
                 total[key] = total[key] + more if key in total else more

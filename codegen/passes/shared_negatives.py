@@ -25,7 +25,7 @@ def run(program: Program) -> Program:
 
 
 def _signed(body: tuple[Assign, ...], known: dict[Terms, Var]) -> tuple[Assign, ...]:
-    found = []
+    result = []
     for assign in body:
         if assign.terms:
             opposite = frozenset((Coefficient(-c.value, c.power), v) for c, v in assign.terms)
@@ -33,5 +33,5 @@ def _signed(body: tuple[Assign, ...], known: dict[Terms, Var]) -> tuple[Assign, 
                 assign = Assign.of_terms(assign.targets[0], [(MINUS_ONE, known[opposite])])
             else:
                 known.setdefault(frozenset(assign.terms), assign.targets[0])
-        found.append(assign)
-    return tuple(found)
+        result.append(assign)
+    return tuple(result)

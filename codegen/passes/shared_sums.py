@@ -27,17 +27,19 @@ def run(program: Program) -> Program:
         wanted = _worthwhile(program)
         if not wanted:
             return program
-        made: dict[Share, Var] = {}
+        values: dict[Share, Var] = {}
 
         def rule(
-            rewriter: Rewriter, assign: Assign, wanted: set[Share] = wanted, made: dict[Share, Var] = made
+            rewriter: Rewriter, assign: Assign, wanted: set[Share] = wanted, values: dict[Share, Var] = values
         ) -> tuple[Var, ...]:
-            return _rule(rewriter, assign, wanted, made)
+            return _rule(rewriter, assign, wanted, values)
 
         program = dead.run(rewrite(program, rule))
 
 
-def _rule(rewriter: Rewriter, assign: Assign, wanted: set[Share], made: dict[Share, Var]) -> tuple[Var, ...]:
+def _rule(
+    rewriter: Rewriter, assign: Assign, wanted: set[Share], values: dict[Share, Var]
+) -> tuple[Var, ...]:
     if not assign.terms:
         return rewriter.emit(assign)
     pairs = list(assign.terms)
@@ -45,20 +47,20 @@ def _rule(rewriter: Rewriter, assign: Assign, wanted: set[Share], made: dict[Sha
         if share not in wanted:
             continue
         members = dict(share)
-        if share not in made:
+        if share not in values:
             first = rewriter.definitions[share[0][0]]
             inner = [(c, rewriter.definitions[v].args[-1]) for v, c in share]
             total = rewriter.builder.fresh(f"s_{first.targets[0].name}", share[0][0].kind)
             rewriter.emit(Assign.of_terms(total, inner))
             target = rewriter.builder.fresh(first.targets[0].name, share[0][0].kind)
-            made[share] = rewriter.emit(Assign((target,), first.operation, (*first.args[:-1], total)))[0]
-        pairs = [(c, v) for c, v in pairs if v not in members] + [(factor, made[share])]
+            values[share] = rewriter.emit(Assign((target,), first.operation, (*first.args[:-1], total)))[0]
+        pairs = [(c, v) for c, v in pairs if v not in members] + [(factor, values[share])]
     return rewriter.emit(Assign.of_terms(assign.targets[0], pairs))
 
 
 def _worthwhile(program: Program) -> set[Share]:
     """Return the combinations of maps that have fewer combinations than values."""
-    found: set[Share] = set()
+    worthwhile: set[Share] = set()
     for statement in program.body:
         body = statement.body if isinstance(statement, Solve) else ()
         definitions = {target: a for a in body for target in a.targets}
@@ -69,24 +71,26 @@ def _worthwhile(program: Program) -> set[Share]:
                 shares.setdefault((first.operation, first.args[:-1]), {})[share] = None
         for combinations in shares.values():
             values = {v for share in combinations for v, _ in share}
+            # One map a combination replaces one map a value: worth it if there are fewer combinations.
             if len(combinations) < len(values):
-                found |= {share for share in combinations if len(share) > 1}
-    return found
+                worthwhile |= {share for share in combinations if len(share) > 1}
+    return worthwhile
 
 
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
     """Return the combination of each map's values in a sum, and the factor that it has there."""
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:
-        made = definitions.get(arg)
-        if made is not None and made.operation.linear_in_last:
-            groups.setdefault((made.operation, made.args[:-1]), []).append((arg, c))
-    found: dict[Share, Coefficient] = {}
+        source = definitions.get(arg)
+        if source is not None and source.operation.linear_in_last:
+            groups.setdefault((source.operation, source.args[:-1]), []).append((arg, c))
+    shares: dict[Share, Coefficient] = {}
     for terms in groups.values():
         if len({v for v, _ in terms}) < len(terms):
             continue
+        # Normalised by its first term, a combination is recognised in any multiple.
         _, unit = min(terms, key=lambda term: (term[1].power, term[0].name))
         ordered = sorted(terms, key=lambda term: (term[1].power, term[0].name))
         share = tuple((v, Coefficient(c.value / unit.value, c.power - unit.power)) for v, c in ordered)
-        found[share] = unit
-    return found
+        shares[share] = unit
+    return shares

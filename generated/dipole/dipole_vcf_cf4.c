@@ -12,21 +12,14 @@
  *             of the example)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
- * left out:   1 Adt, 23 Adtinv, 5 mul (zeros)
- *             16 Adtinv, 31 dexpt, 1 exp, 4 identity, 2 lin (sharing)
- *             1 identity (dead code)
- *             1 dexpt (factors)
- *             4 Adtinv, 8 dexpt (common sums)
- *             1 lin (cancellation)
- *             1 lin (sharing)
- *             5 hamilton (body frame)
- *             1 Adt (opposites)
- *             3 Adt (opposites)
- *             7 Adtinv, 1 force (dead code)
- *             1 lin (sharing)
- *             2 mul (rows)
- *             5 dexpt (functions)
- *             3 Adinv, 4 legendre (sharing)
+ * left out:   24 adjoint maps, 5 products, 1 sum: coefficients are zero, or terms cancel
+ *             4 Legendre transforms, 19 adjoint maps, 31 evaluations of dexp*, 1 exponential, 4
+ *             sums: equal values are computed once
+ *             7 adjoint maps, 1 evaluation of the derivatives of H: no result depends on them
+ *             4 adjoint maps, 9 evaluations of dexp*: a linear map is applied to a sum, not to
+ *             each term
+ *             4 adjoint maps: adjoint maps undo each other
+ *             5 evaluations of dexp*: functions of one ad are one function
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 116 add, 179 mul, 2 sqrt, 2 div, 2 stumpff_12 a step

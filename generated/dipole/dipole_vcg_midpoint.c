@@ -11,21 +11,13 @@
  *             matrices of 61; counted over the first 20 steps of the example)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
- * left out:   3 Adtinv, 2 mul (zeros)
- *             1 identity (sharing)
- *             1 identity (dead code)
- *             1 dexpt (factors)
- *             1 lin (sharing)
- *             2 hamilton (body frame)
- *             1 Adinv, 1 Adt (opposites)
- *             1 Adt (opposites)
- *             3 Adtinv, 1 force (dead code)
- *             1 mul (rows)
- *             1 Adt, 2 dexpt (functions)
- *             1 Adinv (opposites)
- *             1 Ad (functions)
- *             1 legendre (sharing)
- *             1 exp, 1 lin, 2 seriest (factors)
+ * left out:   3 adjoint maps, 2 products: coefficients are zero, or terms cancel
+ *             1 Legendre transform, 1 sum: equal values are computed once
+ *             3 adjoint maps, 1 evaluation of the derivatives of H: no result depends on them
+ *             1 evaluation of dexp*, 1 exponential, 2 functions of ad, 1 sum: a linear map is
+ *             applied to a sum, not to each term
+ *             4 adjoint maps: adjoint maps undo each other
+ *             2 adjoint maps, 2 evaluations of dexp*: functions of one ad are one function
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 38 add, 58 mul, 1 stumpff_12 a step

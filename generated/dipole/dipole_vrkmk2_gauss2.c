@@ -12,18 +12,16 @@
  *             operations and 1.00 matrices of 667; counted over the first 20 steps of the example)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
- * left out:   7 dexpt, 1 lin (sharing)
- *             1 dexpt, 2 lin (dead code)
- *             2 dexpt (common sums)
- *             1 lin (sharing)
- *             3 hamilton (body frame)
- *             3 Adt (opposites)
- *             1 Adtinv, 1 force, 1 lin (dead code)
- *             2 mul (rows)
- *             2 Adinv, 2 Adt, 2 dexpinv, 2 dexpinvt, 3 dexpt (functions)
- *             2 legendre, 2 lin, 2 series, 2 seriest (sharing)
- *             2 Ad, 4 Adtinv, 2 exp, 2 seriest (factors)
- *             2 lin (scalars)
+ * left out:   2 Legendre transforms, 7 evaluations of dexp*, 4 functions of ad, 4 sums: equal
+ *             values are computed once
+ *             1 adjoint map, 1 evaluation of dexp*, 1 evaluation of the derivatives of H, 3 sums:
+ *             no result depends on them
+ *             6 adjoint maps, 2 evaluations of dexp*, 2 exponentials, 2 functions of ad: a linear
+ *             map is applied to a sum, not to each term
+ *             3 adjoint maps: adjoint maps undo each other
+ *             4 adjoint maps, 3 evaluations of dexp*, 4 evaluations of dexpinv: functions of one
+ *             ad are one function
+ *             2 sums: numbers are multiplied into sums
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 47 add, 80 mul, 1 stumpff_12 a step

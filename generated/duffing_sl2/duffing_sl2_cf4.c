@@ -6,9 +6,8 @@
  * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Duffing's equation, SL(2) acting linearly (thesis section 2.2), group SL(2)
  * state:      [0..1] y: point that SL(2) acts on by linear maps
- * left out:   1 field (sharing)
- *             5 act (fusion)
- *             5 exp (dead code)
+ * left out:   1 evaluation of the field: equal values are computed once
+ *             5 exponentials: exp(x).y is computed without exp(x)
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit here
  * operations: 23 add, 48 mul, 5 signed_stumpff0, 5 signed_stumpff1 a step

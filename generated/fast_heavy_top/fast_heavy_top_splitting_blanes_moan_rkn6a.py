@@ -11,7 +11,7 @@ flows:      T.mean, rotation about the momentum; T.turn, turn about the axis (0,
             0) fixed in the body; V, kick
 state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
-left out:   14 flow (flows)
+left out:   14 flows: flows of one part are joined across flows that commute
             the time: the scene does not depend on it
             equation solving: every stage is explicit here
 operations: 473 add, 786 mul, 14 stumpff_12 a step

@@ -7,9 +7,8 @@ order:      4, certificate: exact (every order condition up to it is zero in exa
             arithmetic)
 scene:      Free rigid body on the sphere (thesis section 2.8), group SO(3)
 state:      [0..2] y: point that SO(3) acts on by rotation
-left out:   1 field (sharing)
-            5 act (fusion)
-            5 exp (dead code)
+left out:   1 evaluation of the field: equal values are computed once
+            5 exponentials: exp(x).y is computed without exp(x)
             parameters, folded: alpha = 0
             the time: the scene does not depend on it
             equation solving: every stage is explicit here

@@ -7,11 +7,9 @@ order:      4, certificate: exact (every order condition up to it is zero in exa
             arithmetic)
 scene:      Free rigid body on the sphere (thesis section 2.8), group SO(3)
 state:      [0..2] y: point that SO(3) acts on by rotation
-left out:   1 act, 1 exp (zeros)
-            1 field, 1 lin (sharing)
-            1 identity, 1 zero (dead code)
-            4 act (fusion)
-            4 exp (dead code)
+left out:   1 action, 1 exponential: coefficients are zero, or terms cancel
+            1 evaluation of the field, 1 sum: equal values are computed once
+            4 exponentials: exp(x).y is computed without exp(x)
             parameters, folded: alpha = 0
             the time: the scene does not depend on it
             equation solving: every stage is explicit here

@@ -10,10 +10,9 @@
  *             long; Newton's method with the matrix to first order in h: takes 22 sweeps with
  *             steps 8 times as long; counted over the first 20 steps of the example)
  * state:      [0..3] y: element of S^3, real part first
- * left out:   1 lin (zeros)
- *             1 act, 1 exp, 2 lin (sharing)
- *             3 act (fusion)
- *             3 exp (dead code)
+ * left out:   1 sum: coefficients are zero, or terms cancel
+ *             1 action, 1 exponential, 2 sums: equal values are computed once
+ *             3 exponentials: exp(x).y is computed without exp(x)
  *             the time: the scene does not depend on it
  * operations: 34 add, 59 mul, 1 stumpff_01 a step
  *             21 add, 42 mul a start, in steps that follow no other

@@ -14,7 +14,6 @@ from orderconds.checking.order import FamilyOrder, family_order, first_failing
 from orderconds.checking.report import EmbeddedOrder, Report
 from orderconds.errors import InputError
 from orderconds.families import Family
-from orderconds.families.base import TABLEAU_FORMAT
 from orderconds.tableau import Tableau, find
 from orderconds.tableau.properties import properties, undecided
 
@@ -92,7 +91,8 @@ def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | Non
         return None
     claimed, own = tableau.embedded.order, lower.family
     asked = {family.label(): family for family in wanted if family.fixed_stages}
-    asked = {name: families.get(name) for name in (TABLEAU_FORMAT, own)} | asked
+    always = (families.get("rk"), families.get(own))
+    asked = {family.label(): family for family in always} | asked
     found: dict[str, FamilyOrder] = {}
     for label, family in asked.items():
         known = list(found.values())

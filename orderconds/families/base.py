@@ -26,14 +26,12 @@ from orderconds.tableau.products import Method
 if TYPE_CHECKING:
     from typing import Self
 
-    from orderconds.tableau.record import OrderClaim, Tableau
+    from orderconds.tableau.claims import OrderClaim
+    from orderconds.tableau.record import Tableau
     from orderconds.tableau.work import Work
 
 Key = Hashable
 """A family's own encoding of a tree, a forest or a word: the ``key`` of a condition."""
-
-TABLEAU_FORMAT = "rk"
-"""The file format of Butcher tableaux (A, b)."""
 
 Kind = TypeVar("Kind")
 
@@ -218,7 +216,7 @@ class Family(ABC):
 
     def claim(self, order: int) -> OrderClaim:
         """Return the claim that the family has this order, as files spell it."""
-        from orderconds.tableau.record import OrderClaim
+        from orderconds.tableau.claims import OrderClaim
 
         return OrderClaim(self.label(), None, order)
 
@@ -241,7 +239,9 @@ class Family(ABC):
         Raises :class:`~orderconds.errors.InputError` for a family whose coefficients are not numbered by
         stages alone.
         """
-        if self.formats[0] == TABLEAU_FORMAT:
+        from orderconds.tableau.formats import FORMATS, RungeKuttaFile
+
+        if FORMATS.get(self.formats[0]) is RungeKuttaFile:
             return tableau_form(stages, explicit, self.needs_nonzero_weights)
         raise InputError(
             f"family {self.label()} is not written out by a number of stages alone",

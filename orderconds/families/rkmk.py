@@ -109,10 +109,12 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         if order < 3:
             return ""
         counts = ", ".join(str(len(lyndon_forests(n))) for n in range(1, min(order, RANKED) + 1))
-        beyond = f" Beyond order {RANKED} all conditions of Lyndon words are listed." if order > RANKED else ""
+        beyond = (
+            f" Beyond order {RANKED} all conditions of Lyndon words are listed." if order > RANKED else ""
+        )
         return (
-            f"Lyndon words over ordered trees give {counts} conditions of order 1, 2, ...: a generating set for "
-            f"every method on a group. For {self.label()} those listed imply the others.{beyond}"
+            f"Lyndon words over ordered trees give {counts} conditions of order 1, 2, ...: a generating set "
+            f"for every method on a group. For {self.label()} those listed imply the others.{beyond}"
         )
 
     def highest_order(self, limit: int) -> int:

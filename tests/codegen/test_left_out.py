@@ -88,7 +88,7 @@ def test_implicit_ones_do(scene, method):
     assert "sweep += 1" in module
 
 
-BRACKETS = {"ad", "adt", "dexpinv", "dexpinvt", "P", "Ad", "Adt", "Adtinv", "dexpt"}
+BRACKETS = {"ad", "ad*", "dexpinv", "dexpinv*", "P*", "Ad", "Ad*", "Ad*^-1", "dexp*"}
 ON_VECTOR_SPACES = {
     "rk": "rk:rk4",
     "rkmk": "rkmk:rk4",

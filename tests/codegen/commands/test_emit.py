@@ -79,7 +79,7 @@ def test_the_header_s_command_quotes_a_file_s_name_and_keeps_the_default_of_an_i
 
 def test_explain_tells_every_pass_and_writes_nothing():
     told = run(emit, "free_rigid_body", "-m", "cg:cg3", "--explain")
-    for word in ("# lowered:", "# sharing: removed", "# left out", "the scene does not depend on it"):
+    for word in ("# lowered:", "# shared values: took out", "# left out", "the scene does not depend on it"):
         assert word in told
 
 
@@ -88,7 +88,7 @@ def test_json_is_the_manifest_and_nothing_else(tmp_path):
     (record,) = json.loads(told)
     assert record["order"] == 4
     assert record["certificate"] == "exact"
-    assert record["passes"][0]["name"] == "sharing"
+    assert record["passes"][0]["name"] == "shared values"
     assert record["functions"] == []
     assert [Path(p).name for p in record["paths"]][-1] == "manifest.json"
 

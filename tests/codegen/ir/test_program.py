@@ -51,7 +51,7 @@ def test_the_text_of_a_program_is_what_people_write():
 def test_times_of_stages_are_advanced_from_t():
     text = lower(hamiltonian_scene("SO(3)", time=True), Method("vcg", shipped("midpoint"))).text()
     assert "t_stage = advance(t, 1/2 h)" in text
-    assert "hamiltont(q, mu, t)" in text
+    assert "hamilton(q, mu, t)" in text
 
 
 def test_counts_name_each_operation():

@@ -7,8 +7,9 @@ from dataclasses import replace
 import pytest
 
 from codegen.ir.number import Number
-from codegen.ir.operations import Act, ActExp, AdSeries, Bracket, Exp, Field, InverseDexp, Linear, Zero
+from codegen.ir.operations import Act, ActExp, AdSeries, Bracket, Exp, InverseDexp, Linear, Zero
 from codegen.ir.program import Assign, Program, Solve
+from codegen.ir.scene_operations import Field
 from codegen.ir.values import Coefficient, Kind, Var
 from codegen.ir.verify import IllFormed, verify
 

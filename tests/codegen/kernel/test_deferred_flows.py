@@ -12,7 +12,7 @@ from codegen.emitter import compile_method, emit_compiled
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.interpret import interpret
 from codegen.ir.kernel import ELAPSED, LEAD, LONGEST
-from codegen.ir.operations import FLOWS, FlowFor
+from codegen.ir.scene_operations import FLOWS, FlowFor
 from codegen.kernel.deferred_flows import part
 from codegen.loader import StepFailed, load
 from tests.strategies import top_scene
@@ -146,7 +146,7 @@ def test_a_step_makes_one_kick_less_and_no_spin():
     parted = part(made.program, made.view)
     assert made.lowered.counts() == {"flow": 19}
     assert made.program.counts() == {"flow": 14}
-    assert parted.core.counts() == {"flow": 11, "flowfor": 1}
+    assert parted.core.counts() == {"flow": 11, "flow_for": 1}
 
 
 def test_methods_that_solve_or_exponentiate_put_nothing_off():

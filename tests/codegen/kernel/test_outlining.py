@@ -161,7 +161,7 @@ def multiple(target, c, of):
 def test_a_multiple_of_a_multiple_is_one_of_the_whole():
     x, y, z = (Var(name, Kind.ALG) for name in "xyz")
     trees = noted(multiple(y, (1, 3), x), multiple(z, (-3, 2), y))
-    last = trees.made[-1].assign
+    last = trees.executions[-1].assign
     assert last.args == (x,)
     assert last.operation.coefficients == (Coefficient(Number.rational(-1, 2), 2),)
 
@@ -170,7 +170,7 @@ def test_what_was_made_otherwise_is_joined_with_nothing():
     x, y = Var("x", Kind.ALG), Var("y", Kind.ALG)
     trees = noted(multiple(y, (1, 3), x))
     assert [tree.members for tree in trees.joined()] == [[0]]
-    trees.made = [replace(made, joined=False) for made in trees.made]
+    trees.executions = [replace(made, joined=False) for made in trees.executions]
     assert trees.joined() == []
 
 

@@ -16,7 +16,7 @@ from codegen.errors import MethodError
 from codegen.groups import SO3, Rotation
 from codegen.ir.domain import FloatDomain, PreciseDomain
 from codegen.ir.interpret import interpret
-from codegen.ir.operations import Secant
+from codegen.ir.scene_operations import Secant
 from codegen.ir.values import Kind
 from codegen.kernel.translate import to_kernel
 from codegen.loader import load

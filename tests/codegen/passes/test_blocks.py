@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from codegen.ir.operations import ActExp, Field
+from codegen.ir.operations import ActExp
 from codegen.ir.program import Assign, Solve
+from codegen.ir.scene_operations import Field
 from codegen.ir.values import Kind, Var
 from codegen.ir.verify import verify
 from codegen.passes import blocks, dead, fold_zeros, optimise, value_numbering

@@ -30,7 +30,7 @@ def test_a_program_in_the_body_frame_is_the_same_step_exactly(family, tableau, c
 def test_a_scene_that_depends_on_time_is_framed_too():
     scene, before = lowered("vcg", "midpoint", hamiltonian_scene("SO(3)", time=True))
     after = verify(body_frame.run(before, scene))
-    assert {"velocityt", "forcet"} <= set(after.counts())
+    assert {"velocity", "force"} <= set(after.counts())
     assert same(scene, before, after, order=3)
 
 

@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from codegen.ir.operations import ActExp, Bracket, Exp, Field, HamiltonianDerivatives
+from codegen.ir.operations import ActExp, Bracket, Exp
 from codegen.ir.program import Assign, Solve
+from codegen.ir.scene_operations import Field, HamiltonianDerivatives
 from codegen.ir.values import Kind, Var
 from codegen.ir.verify import verify
 from codegen.passes import dead

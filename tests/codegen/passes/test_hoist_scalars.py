@@ -50,7 +50,7 @@ def test_a_sum_that_nothing_else_reads_becomes_part_of_its_reader():
 def test_terms_in_one_proportion_are_added_once_for_all_sums():
     scene, before = lowered("vrkmk", "gauss2", top_scene(diag(1, 2, 3)), 2)
     program, trace = optimise(before, scene, framed=True)
-    assert "scalars" in [report.name for report in trace]
+    assert "numbers outside maps" in [report.name for report in trace]
     (block,) = (s for s in program.body if isinstance(s, Solve))
     shared = [a.targets[0] for a in block.body if a.targets[0].name.startswith("sum_")]
     assert len(shared) == 2

@@ -1,0 +1,180 @@
+"""The operations of step programs that evaluate a scene: field, Hamiltonian, energy and exact flows."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from codegen.ir.domain import Domain, Values
+from codegen.ir.operations import NONE, A, D, G, Kinds, OfGroup, Operation, P, Problem, R
+from codegen.ir.values import Coefficient
+
+
+@dataclass(frozen=True)
+class OfScene(OfGroup):
+    """An operation that evaluates the scene's formulas, at a time where ``timed``: the last argument."""
+
+    timed: bool = False
+
+    @property
+    def function(self) -> str:
+        """The name of the function of the scene."""
+        return f"{self.name}t" if self.timed else self.name
+
+    def at(self, arguments: Kinds) -> Kinds:
+        """Return the kinds of the arguments with that of the time."""
+        return arguments + R if self.timed else arguments
+
+
+@dataclass(frozen=True)
+class Field(OfScene):
+    """f(y), or f(y, t)."""
+
+    name = "field"
+    evaluates_scene = True
+    noun = "evaluation{s} of the field"
+
+    def signature(self) -> tuple[Kinds, Kinds]:
+        """Return the kinds of the arguments and of the results."""
+        return self.at(P), A
+
+
+@dataclass(frozen=True)
+class HamiltonianDerivatives(OfScene):
+    """xi = D_2 H and n = -(D_1 H).q^-1 at (q, mu), or at (q, mu, t)."""
+
+    name = "hamilton"
+    evaluates_scene = True
+    noun = "evaluation{s} of the derivatives of H"
+
+    def signature(self) -> tuple[Kinds, Kinds]:
+        """Return the kinds of the arguments and of the results."""
+        return self.at(G + D), A + D
+
+
+@dataclass(frozen=True)
+class BodyVelocity(OfScene):
+    """W(q, P), the velocity in the body frame, where P = Ad*_q mu (:mod:`codegen.scene.body_frame`)."""
+
+    name = "velocity"
+
+    def signature(self) -> tuple[Kinds, Kinds]:
+        """Return the kinds of the arguments and of the results."""
+        return self.at(G + D), A
+
+
+@dataclass(frozen=True)
+class BodyForce(OfScene):
+    """N(q, P), the force in the body frame; with :class:`BodyVelocity` it is one evaluation of the scene."""
+
+    name = "force"
+    evaluates_scene = True
+    noun = "evaluation{s} of the derivatives of H"
+
+    def signature(self) -> tuple[Kinds, Kinds]:
+        """Return the kinds of the arguments and of the results."""
+        return self.at(G + D), D
+
+
+@dataclass(frozen=True)
+class Legendre(OfGroup):
+    """The momentum P in the body frame from the velocity W."""
+
+    name = "legendre"
+    takes, gives = A, D
+    noun = "Legendre transform{s}"
+
+
+@dataclass(frozen=True)
+class Energy(OfGroup):
+    """H(y)."""
+
+    name = "energy"
+    takes, gives = P, R
+    noun = "evaluation{s} of the energy"
+
+
+@dataclass(frozen=True)
+class Differential(OfGroup):
+    """R*_y dH: its pairing with e is d/deps H(exp(eps e).y) at eps = 0."""
+
+    name = "differential"
+    evaluates_scene = True
+    takes, gives = P, D
+    noun = "differential{s} of the energy"
+
+
+@dataclass(frozen=True)
+class Secant(OfGroup):
+    """The covector nearest to g whose pairing with x is H1 - H0; arguments g, x, H0, H1."""
+
+    name = "secant"
+    takes, gives = D + A + R + R, D
+    noun = "discrete differential{s}"
+
+
+@dataclass(frozen=True)
+class Bivector(OfGroup):
+    """omega_y(alpha, .); it is f(y) where alpha is the differential of H."""
+
+    name = "bivector"
+    linear_in_last = True
+    takes, gives = P + D, A
+    noun = "bivector{s}"
+
+
+@dataclass(frozen=True)
+class FlowOf(Operation):
+    """The exact flow of a part of the Hamiltonian for a fixed duration.
+
+    ``timed`` is for a part that depends on t: the time is the last argument, and constant during the flow.
+    """
+
+    part: str
+    duration: Coefficient
+    timed: bool = False
+    exponentials = 1
+    name = "flow"
+    noun = "flow{s}"
+
+    def text(self) -> str:
+        """Return the name with the part."""
+        return f"{self.name}[{self.part}]"
+
+    def applied(self, args: Sequence[str]) -> str:
+        """Return the text of the operation applied to arguments."""
+        return super().applied([*args, self.duration.text()])
+
+    def signature(self) -> tuple[Kinds, Kinds]:
+        """Return the kinds of the arguments and of the results."""
+        return G + D + (R if self.timed else NONE), G + D
+
+    def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
+        """Return the results for arguments of a domain."""
+        return problem.flow(domain, self.part, self.duration.evaluate(domain), args)
+
+
+@dataclass(frozen=True)
+class FlowFor(Operation):
+    """The exact flow of a part for a duration that is a value: the last argument."""
+
+    part: str
+    timed: bool = False
+    exponentials = 1
+    name = "flow_for"
+    noun = "flow{s}"
+
+    def text(self) -> str:
+        """Return the name with the part."""
+        return f"{self.name}[{self.part}]"
+
+    def signature(self) -> tuple[Kinds, Kinds]:
+        """Return the kinds of the arguments and of the results."""
+        return G + D + (R if self.timed else NONE) + R, G + D
+
+    def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
+        """Return the results for arguments of a domain."""
+        return problem.flow(domain, self.part, args[-1], args[:-1])
+
+
+FLOWS = (FlowOf, FlowFor)

@@ -1,0 +1,74 @@
+"""Reports of passes: what each changed, and sentences for the header of emitted code."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+from codegen.ir.program import Program
+
+
+@dataclass(frozen=True)
+class Pass:
+    """A pass over programs; ``because`` says why what it removes is not needed."""
+
+    name: str
+    because: str
+    run: Callable[[Program], Program]
+
+
+@dataclass(frozen=True)
+class PassReport:
+    """The programs before and after a pass."""
+
+    name: str
+    because: str
+    earlier: Program
+    program: Program
+
+    @property
+    def before(self) -> dict[str, int]:
+        """How often each operation occurs before the pass."""
+        return self.earlier.counts()
+
+    @property
+    def after(self) -> dict[str, int]:
+        """How often each operation occurs after the pass."""
+        return self.program.counts()
+
+    @property
+    def removed(self) -> dict[str, int]:
+        """How many of each operation the pass removed (negative: added)."""
+        before, after = self.before, self.after
+        change = {n: before.get(n, 0) - after.get(n, 0) for n in sorted({*before, *after})}
+        return {n: k for n, k in change.items() if k}
+
+    @property
+    def savings(self) -> Counter[str]:
+        """How many operations fewer there are, by noun."""
+        return _nouns(self.earlier) - _nouns(self.program)
+
+
+def summaries(reports: Iterable[PassReport]) -> tuple[str, ...]:
+    """Return a sentence for each reason why a step needs fewer operations, in the order of the passes.
+
+    The operations that several runs of a pass remove are added: ``2 brackets: the group is abelian``.
+    """
+    total: dict[str, Counter[str]] = {}
+    for report in reports:
+        total.setdefault(report.because, Counter()).update(report.savings)
+    return tuple(
+        f"{', '.join(_counted(noun, n) for noun, n in sorted(saved.items()))}: {because}"
+        for because, saved in total.items()
+        if saved
+    )
+
+
+def _counted(noun: str, n: int) -> str:
+    return f"{n} {noun.format(s='' if n == 1 else 's')}"
+
+
+def _nouns(program: Program) -> Counter[str]:
+    """Return how often each kind of operation occurs, by its noun, without those that cost nothing."""
+    return Counter(a.operation.noun for a in program.assigns() if a.operation.noun)
