@@ -88,7 +88,7 @@ class Machine:
 
     def number(self, x: float) -> Any:
         """Return a float as a scalar of the domain."""
-        if not math.isfinite(x):
+        if not math.isfinite(x):  # no ring has it; it only bounds comparisons
             return x
         fraction = Fraction(x)
         return self.domain.rational(fraction.numerator, fraction.denominator)
