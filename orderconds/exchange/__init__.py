@@ -14,18 +14,12 @@ from importlib import import_module
 from pathlib import Path
 from typing import Protocol, cast
 
-from flint import fmpq
-
 from orderconds.errors import InputError
-from orderconds.ring.decimals import endpoints
-from orderconds.ring.protocol import Element
 from orderconds.tableau import Tableau
+from orderconds.tableau.comparison import equal_coefficients
 from orderconds.tableau.file import MAX_NAME, bytes_of
 from orderconds.tableau.file_format import Data
 from orderconds.tableau.record import from_data
-
-COMPARED = 160
-"""Precision in bits of the comparison of an exported method with the method that is read back."""
 
 FORMATS = {
     "toml": ("orderconds.exchange.toml_file", ".toml"),
@@ -60,33 +54,12 @@ def _require_same(given: Tableau, back: Tableau, to: str) -> None:
     Balls are compared up to their common digits, because rounding may differ.
     """
     same = (given.family, given.source, given.bibtex) == (back.family, back.source, back.bibtex)
-    one, other = _coefficients(given), _coefficients(back)
-    if not same or len(one) != len(other) or not all(map(_agree, one, other)):
+    if not (same and equal_coefficients(given, back)):
         raise InputError(
             f"a tableau that does not read back as the same from {to}",
             where=given.name,
             expected="a format that holds it, as json",
         )
-
-
-def _coefficients(tableau: Tableau) -> list[tuple[fmpq, fmpq]]:
-    """Return enclosures of the coefficients, those of the embedded row last."""
-    intervals: list[tuple[fmpq, fmpq]] = []
-
-    def visit(x: Element) -> Element:
-        intervals.append(endpoints(tableau.ring.ball(x, COMPARED)))
-        return x
-
-    tableau.method.map(visit)
-    if (lower := tableau.lower()) is not None:
-        lower.method.map(visit)
-    return intervals
-
-
-def _agree(one: tuple[fmpq, fmpq], other: tuple[fmpq, fmpq]) -> bool:
-    """Whether two enclosures meet, and neither is much wider than the other."""
-    widths = sorted(high - low for low, high in (one, other))
-    return one[0] <= other[1] and other[0] <= one[1] and widths[1] <= 4 * widths[0] + fmpq(1, 2**100)
 
 
 def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Data:

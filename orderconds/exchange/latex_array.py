@@ -87,10 +87,11 @@ def read(content: bytes, where: str) -> Data:
         raise TableauError("bytes that are no UTF-8", where=where, expected="LaTeX") from None
     entries = _texts(text)
     environments = list(_environments(_COMMENT.sub("", text), where))
+    if (array := next((body for name, body in environments if name is None), None)) is not None:
+        return from_arrays({**entries, **_butcher(array, where)}, where)
     for name, body in environments:
         if name is None:
-            return from_arrays({**entries, **_butcher(body, where)}, where)
-    for name, body in environments:
+            continue
         if name in entries:
             raise TableauError(f"two matrices {name}", where=where, expected="one")
         rows = _rows(body, where)

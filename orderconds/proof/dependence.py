@@ -86,7 +86,7 @@ def dependences(
     >>> candidates = decisive_conditions(family, 3)
     >>> first = next(dependences(family, symbolic, candidates, Draws("example"), None))
     >>> [c.tree for c in first.pivots], len(list(first.combinations()))
-    ([], 0)
+    (['o', 'o(o o)'], 11)
     """
     everything = [c for of_order in candidates for c in of_order]
     avoided = [n for c in constants(symbolic) for n in (c.value.numerator, c.value.denominator)]

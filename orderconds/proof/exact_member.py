@@ -121,8 +121,8 @@ def exact_member(
     >>> candidates = decisive_conditions(family, 3)
     >>> conditions = [c for of_order in candidates for c in of_order]
     >>> member = exact_member(family, symbolic, conditions, Draws("example"), None)
-    >>> [c.tree for c in conditions if not member.holds(c)]
-    ['o(o o)']
+    >>> [c.tree for c in conditions if member.holds(c)][:3]
+    ['o', 'o(o)', 'o(|L(o))']
     """
     try:
         method, ring = _member(symbolic, draws, surd)

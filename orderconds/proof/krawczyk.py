@@ -83,7 +83,7 @@ def jets(system: System, point: Sequence[arb]) -> Sequence[Jet]:
 def inverse(matrix: arb_mat) -> arb_mat:
     """Return the midpoints of the inverse; raises :class:`NotProved` for a singular matrix.
 
-    >>> inverted(arb_mat(1, 1, [4]))[0, 0] == 0.25
+    >>> inverse(arb_mat(1, 1, [4]))[0, 0] == 0.25
     True
     """
     try:

@@ -30,8 +30,8 @@ def velocity_count(vertices: int) -> int:
 def class_count(vertices: int) -> int:
     """Return the number of classes of g-valued trees under root switching.
 
-    A class is an unrooted tree, with one vertex more than edges along which the root moves. Hence the number of
-    classes is that of rooted trees minus that of trees with a marked force.
+    A class is an unrooted tree, with one vertex more than edges along which the root moves. Hence the number
+    of classes is that of rooted trees minus that of trees with a marked force.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]

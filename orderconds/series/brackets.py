@@ -151,8 +151,8 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
     """Return for each stage i the combinations u_j + c u_i with a later stage j that need one bracket only.
 
-    The newest stage value q in brackets is the same for u_i and u_j. Each of them needs two brackets with q. Their
-    combination needs one, since its part ad_P q has a Lie element P. Then u_j follows from it and u_i.
+    The newest stage value q in brackets is the same for u_i and u_j. Each of them needs two brackets with q.
+    Their combination needs one, since its part ad_P q has a Lie element P. Then u_j follows from it and u_i.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -244,8 +244,8 @@ class _Search:
         """Return the row of an argument in this shape and add its new brackets to the pool; None if
         impossible.
 
-        The equations are linear, except for products of unknowns in x and in y. Each sweep takes either y from the
-        previous sweep, or the part of x that lower grades determine, until the equations of all grades hold.
+        The equations are linear, except for products of unknowns in x and in y. Each sweep takes either y
+        from the previous sweep, or the part of x that lower grades determine, until all equations hold.
         """
         if shape.leading and len(self.pool) < 3:
             return None

@@ -113,7 +113,7 @@ def parsed(text: str, where: str) -> Data:
         return parse_toml(text)
     except tomllib.TOMLDecodeError as problem:
         raise TableauError(
-            str(problem), where=where, expected="a TOML file in which no key occurs twice"
+            str(problem), where=where, expected="a TOML file in which each key occurs once"
         ) from None
     except RecursionError:
         raise TableauError("TOML nested too deep", where=where, expected="a table or list or two") from None

@@ -10,15 +10,12 @@ from orderconds.tableau.file_format import Data
 MAX_PARTS = 24
 """The most parts of a key; keys of tableau files have at most two."""
 
-_LONG_KEY = re.compile(
-    r"(?<![\w.'\"-])"
-    r"(?>(?:[A-Za-z0-9_-]{1,99}+|\"[^\"\n]{0,99}+\"|'[^'\n]{0,99}+')[ \t]{0,9}+\.[ \t]{0,9}+){24}"
-)
+_PART = r"(?:[A-Za-z0-9_-]{1,99}+|\"[^\"\n]{0,99}+\"|'[^'\n]{0,99}+')"
+_LONG_KEY = re.compile(rf"(?<![\w.'\"-])(?>{_PART}[ \t]{{0,9}}+\.[ \t]{{0,9}}+){{{MAX_PARTS}}}")
 
 
 def parse_toml(text: str) -> Data:
-    """Return the keys and values; ValueError for invalid TOML, or for keys with more than :data:`MAX_PARTS`
-    parts.
+    """Return the keys and values; ValueError for invalid TOML, or for a key of very many parts.
 
     >>> parse_toml('a.b = "1"')
     {'a': {'b': '1'}}

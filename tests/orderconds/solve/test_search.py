@@ -115,7 +115,7 @@ def test_a_scheduler_that_dies_is_one_error_and_the_checkpoint_stays(tmp_path: P
             scheduler.kill()
             _, err = search.communicate(timeout=60)
     assert search.returncode == 2
-    assert err.startswith(f"orderconds: --dask {address}: the scheduler went away; ")
+    assert err.startswith(f"orderconds: --dask {address}: the scheduler no longer answers; ")
     assert err.count("\n") == 1
     assert checkpoint.exists()
 
