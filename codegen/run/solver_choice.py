@@ -202,7 +202,7 @@ class _Tried:
         }
 
     def serves(self, solver: str) -> bool:
-        """Whether a solver was tried that compares momenta in every block, and settles."""
+        """Whether a solver was tried that works on residuals in every block, and converges."""
         return (
             solver in self.kernels
             and self.usual[solver].good
@@ -216,25 +216,25 @@ class _Tried:
         sure = [s for s in able if far[s].good and max(far[s].sweeps) <= SWEEPS] or able
         chosen, reasons = {}, {}
         for k, loop in enumerate(kernels[FIXED_POINT].loops):
-            cost, spelled = {}, {}
+            cost, texts = {}, {}
             for solver in kernels:
                 cost[solver] = usual[solver].sweeps[k] * _weight(self.work[solver][loop.label])
-                spelled[solver] = self._sweeps(solver, k)
+                texts[solver] = self._sweeps(solver, k)
                 if solver != FIXED_POINT:
                     matrix = _matrix(kernels[solver].loops[k], self.work[solver])
-                    made = usual[solver].matrices if solver == NEWTON else 1.0
-                    cost[solver] += made * matrix
-                    spelled[solver] += f" and {made:.2f} matrices of {matrix}"
+                    matrices = usual[solver].matrices if solver == NEWTON else 1.0
+                    cost[solver] += matrices * matrix
+                    texts[solver] += f" and {matrices:.2f} matrices of {matrix}"
                 if solver not in sure:
                     lasting = (
                         f"takes {max(far[solver].sweeps):.0f} sweeps"
                         if far[solver].good
-                        else "does not settle"
+                        else "does not converge"
                     )
-                    spelled[solver] = (
+                    texts[solver] = (
                         f"{lasting} with steps {LONGER} times as long"
                         if solver in able
-                        else "does not settle"
+                        else "does not converge"
                     )
             newton = kernels[NEWTON].loops[k].newton if NEWTON in kernels else None
             compared = newton is not None and newton.residuals and NEWTON in able
@@ -245,10 +245,10 @@ class _Tried:
                 if sure
                 else NEWTON
             )
-            others = [f"{METHODS[s]}: {text}" for s, text in spelled.items() if s != best]
+            others = [f"{METHODS[s]}: {text}" for s, text in texts.items() if s != best]
             chosen[loop.label] = best
             part = "substep" if kernels[FIXED_POINT].substeps else "step"
-            reasons[loop.label] = "; ".join([f"{spelled[best]} a {part}", *others, MEASURED])
+            reasons[loop.label] = "; ".join([f"{texts[best]} a {part}", *others, MEASURED])
         return chosen, reasons
 
     def _sweeps(self, solver: str, k: int) -> str:
@@ -271,7 +271,7 @@ def _weight(counts: Mapping[str, int]) -> int:
 class _Trials:
     """A kernel carried out from the initial state, with the sweeps and matrices that emitted code makes.
 
-    A step that does not settle is tried again without the solutions before it, and no more: one that needs
+    A step that does not converge is tried again without the solutions before it, and no more: one that needs
     continuation is too long for its solver.
     """
 
@@ -291,6 +291,6 @@ class _Trials:
         steps, h = STEPS if longer == 1 else 1, float(longer * (last - first) / PARTS)
         arguments = [state, *time, h, steps, *self.values, *signals, None, 0, counts, None]
         status = self.machine.call("run", *arguments)
-        made = steps * self.repeated
-        matrices = counts.matrices / made / blocks if self.plan.newton else 0.0
-        return _Trial(tuple(n / made for n in counts.sweeps), matrices, status == STATUSES.index(OK))
+        parts = steps * self.repeated
+        matrices = counts.matrices / parts / blocks if self.plan.newton else 0.0
+        return _Trial(tuple(n / parts for n in counts.sweeps), matrices, status == STATUSES.index(OK))

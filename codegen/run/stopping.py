@@ -86,11 +86,11 @@ class Stopping:
 
     def before(self) -> list[Statement]:
         """Return what stands before the first sweep."""
-        found: list[Statement] = [Assign(self.previous, number(0.0))]
+        sequence: list[Statement] = [Assign(self.previous, number(0.0))]
         if self.warm:
             known = self.plan.memory.field("known", Kind.COUNT) > 0
-            found.append(Assign(self.rate, select(known, self.kept_rate, 1.0)))
-        return found
+            sequence.append(Assign(self.rate, select(known, self.kept_rate, 1.0)))
+        return sequence
 
     def measured(self, changes: Sequence[Term], unknowns: Sequence[Term]) -> list[Statement]:
         """Return the statements that measure a sweep: the changes are absolute values."""

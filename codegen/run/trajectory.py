@@ -157,9 +157,9 @@ def run(plan: Plan) -> Function:
         row = rows.add(state)
         if carried:
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
-        made = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
+        advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
         later = exact_time(TIME, DONE, STEP)
-        inner = (*advanced(plan, now, arguments(plan, t=later)), If(STATUS.equals(code(OK)), made))
+        inner = (*advanced(plan, now, arguments(plan, t=later)), If(STATUS.equals(code(OK)), advance))
         body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
     if carried:
         ended = Term("name", (), STATUS.kind, "ended")

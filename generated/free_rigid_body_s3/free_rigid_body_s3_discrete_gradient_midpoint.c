@@ -6,7 +6,7 @@
  * order:      2, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Free rigid body with attitude, S^3 (thesis section 2.6), group S^3
  * solved by:  the equations of xi: Newton's method, 3 unknowns (6.2 sweeps of 463 operations and
- *             0.85 matrices of 1509 a step; fixed point: does not settle with steps 8 times as
+ *             0.85 matrices of 1509 a step; fixed point: does not converge with steps 8 times as
  *             long; Newton's method with the matrix to first order in h: takes 22 sweeps with
  *             steps 8 times as long; counted over the first 20 steps of the example)
  * state:      [0..3] y: element of S^3, real part first

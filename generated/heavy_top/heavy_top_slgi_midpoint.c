@@ -6,8 +6,8 @@
  * order:      2, certificate: exact (every order condition up to it is zero in exact arithmetic)
  * scene:      Heavy top as printed, T*SO(3) (thesis section 2.5), group SO(3)
  * solved by:  the equations of xi1, n1: Newton's method, 6 unknowns (4.8 sweeps of 214 operations
- *             and 1.00 matrices of 812 a step; fixed point: does not settle with steps 8 times as
- *             long; Newton's method with the matrix to first order in h: takes 29 sweeps with
+ *             and 1.00 matrices of 812 a step; fixed point: does not converge with steps 8 times
+ *             as long; Newton's method with the matrix to first order in h: takes 29 sweeps with
  *             steps 8 times as long; counted over the first 20 steps of the example)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)

@@ -1,6 +1,6 @@
 """Tableaux to and from the formats of other programs: JSON, CSV, NumPy, SymPy, LaTeX, C arrays.
 
-Every import and export passes through the keys of a tableau file (:func:`orderconds.tableau.file.from_data`).
+Every import and export uses the keys of a tableau file (:func:`orderconds.tableau.record.from_data`).
 So an imported tableau obeys the same grammar, and no input is ever executed. An exported method reads back as
 exactly the same method, rounded decimals with all their digits. TOML and JSON hold everything in a file; the
 other formats hold no proof (:func:`left_out`). Foreign decimals with 12 significant digits or more count as
@@ -12,7 +12,7 @@ from __future__ import annotations
 import re
 from importlib import import_module
 from pathlib import Path
-from typing import Protocol, cast
+from typing import TYPE_CHECKING, Protocol, cast
 
 from flint import fmpq
 
@@ -20,8 +20,13 @@ from orderconds.errors import InputError
 from orderconds.ring.decimals import endpoints
 from orderconds.ring.protocol import Element
 from orderconds.tableau import Tableau
-from orderconds.tableau.file import MAX_NAME, bytes_of, from_data
-from orderconds.tableau.write import Data
+from orderconds.tableau.file import MAX_NAME, bytes_of
+from orderconds.tableau.file_format import Data
+from orderconds.tableau.record import from_data
+
+if TYPE_CHECKING:
+    from orderconds.ring import Balls, NumberField
+    from orderconds.ring.rationals import Rationals
 
 COMPARED = 160
 """Bits to which an exported method is compared with what reads back."""
@@ -71,9 +76,10 @@ def _require_same(given: Tableau, back: Tableau, to: str) -> None:
 def _coefficients(tableau: Tableau) -> list[tuple[fmpq, fmpq]]:
     """Return enclosures of the coefficients, those of the embedded row last."""
     found: list[tuple[fmpq, fmpq]] = []
+    ring = cast("Rationals | NumberField | Balls", tableau.ring)
 
     def visit(x: Element) -> Element:
-        found.append(endpoints(tableau.ring.ball(x, COMPARED)))
+        found.append(endpoints(ring.ball(x, COMPARED)))
         return x
 
     tableau.method.map(visit)
@@ -85,7 +91,8 @@ def _coefficients(tableau: Tableau) -> list[tuple[fmpq, fmpq]]:
 def _agree(one: tuple[fmpq, fmpq], other: tuple[fmpq, fmpq]) -> bool:
     """Whether two enclosures meet, and neither is much wider than the other."""
     widths = sorted(high - low for low, high in (one, other))
-    return one[0] <= other[1] and other[0] <= one[1] and widths[1] <= 4 * widths[0] + fmpq(1, 2**100)
+    meet = one[0] <= other[1] and other[0] <= one[1]
+    return bool(meet and widths[1] <= 4 * widths[0] + fmpq(1, 2**100))
 
 
 def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Data:

@@ -19,7 +19,7 @@ def escaped(text: str) -> str:
     a\u000ab *\/ c\\d
     """
     plain = text.replace("\\", "\\\\").replace("*/", "*\\/").replace("/*", "\\/*")
-    return "".join(_spelled(c) if _is_control(c) else c for c in plain)
+    return "".join(_code_of(c) if _is_control(c) else c for c in plain)
 
 
 def unescaped(text: str) -> str:
@@ -36,6 +36,6 @@ def _is_control(character: str) -> bool:
     return unicodedata.category(character) in ("Cc", "Cf", "Cs", "Zl", "Zp")
 
 
-def _spelled(character: str) -> str:
+def _code_of(character: str) -> str:
     code = ord(character)
     return f"\\u{code:04x}" if code < 1 << 16 else f"\\U{code:08x}"

@@ -24,8 +24,8 @@ from orderconds.exchange.comments import escaped, unescaped
 from orderconds.exchange.notation import from_latex, to_latex
 from orderconds.ring import Ball, Balls, Element
 from orderconds.tableau import Tableau
-from orderconds.tableau.file import from_data
-from orderconds.tableau.write import Data
+from orderconds.tableau.file_format import Data
+from orderconds.tableau.record import from_data
 
 SHORT = Balls(64)
 _TEXT = re.compile(r"% (\w{1,64}): (.*)")
@@ -87,10 +87,11 @@ def read(content: bytes, where: str) -> Data:
         raise TableauError("bytes that are no UTF-8", where=where, expected="LaTeX") from None
     entries = _texts(text)
     found = list(_environments(_COMMENT.sub("", text), where))
+    if (array := next((body for name, body in found if name is None), None)) is not None:
+        return from_arrays({**entries, **_butcher(array, where)}, where)
     for name, body in found:
         if name is None:
-            return from_arrays({**entries, **_butcher(body, where)}, where)
-    for name, body in found:
+            continue
         if name in entries:
             raise TableauError(f"two matrices {name}", where=where, expected="one")
         rows = _rows(body, where)

@@ -20,13 +20,13 @@ def compiled(scene, method, solver="auto"):
 def test_a_stiff_scene_is_solved_by_newtons_method():
     (choice,) = compiled("stiff_driven_spin", "rkmk(0):gauss1").solvers
     assert choice.solver == NEWTON
-    assert "fixed point: does not settle" in choice.reason
+    assert "fixed point: does not converge" in choice.reason
 
 
 def test_a_scene_near_the_limit_of_fixed_points_is_solved_by_newtons_method():
     (choice,) = compiled("heavy_top", "vcg:midpoint").solvers
     assert (choice.solver, choice.unknowns) == (NEWTON, 6)
-    assert "fixed point: does not settle with steps 8 times as long" in choice.reason
+    assert "fixed point: does not converge with steps 8 times as long" in choice.reason
 
 
 def test_many_unknowns_that_change_slowly_are_iterated():
