@@ -122,7 +122,7 @@ def made(tmp_path):
 
 def test_regenerate_twice_changes_nothing(made):
     _, arguments = made
-    assert run(regenerate, *arguments, "--check").startswith("0 differences, 4 files belong there")
+    assert run(regenerate, *arguments, "--check").startswith("0 differences, 4 files expected")
     assert run(regenerate, *arguments).startswith("0 of 4 files rewritten")
 
 
@@ -139,7 +139,7 @@ def test_regenerate_check_names_what_differs_and_regenerate_mends_it(made, kind)
         run(emit, "dipole", "-m", "vcg:midpoint", "-t", "python", "-o", str(path.parent))
     told = run(regenerate, *arguments, "--check", status=1)
     assert f"{path}: {kind}" in told
-    assert "files belong there; type: orderconds regenerate" in told
+    assert "files expected; type: orderconds regenerate" in told
     record = json.loads(run(regenerate, *arguments, "--check", "--json", status=1))
     assert {"file": path.relative_to(folder).as_posix(), "kind": kind} in record["differences"]
     run(regenerate, *arguments)

@@ -72,7 +72,7 @@ def test_a_regeneration_that_is_killed_is_completed_by_the_next(rename: int, tmp
     kill_at(rename, "regenerate", *words)
     assert any(name.endswith(SUFFIX) for name in contents(tmp_path / "made"))
     told = run(regenerate, *words, "--check")
-    assert f"{4 - rename} differences, 4 files belong there; type: orderconds regenerate" in told
+    assert f"{4 - rename} differences, 4 files expected; type: orderconds regenerate" in told
     assert SUFFIX not in told
     run(regenerate, *words)
     assert run(regenerate, *words, "--check").startswith("0 differences")
