@@ -5,15 +5,23 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from flint import fmpq
+
 from codegen.errors import MethodError
 from codegen.lower import lowering, names
 from codegen.method import Method
 from codegen.scene.problem import Problem
+from orderconds.ring import Balls
+from orderconds.ring.balls import Ball
+from orderconds.ring.decimals import endpoints, rational_decimal
 
 if TYPE_CHECKING:
     from orderconds.checking import FamilyOrder
     from orderconds.checking.residuals import Failure
     from orderconds.families import Family
+
+DOUBLE_BITS = 53
+"""A double has this many bits: rounding moves a number by at most its 2^-53th part."""
 
 
 @dataclass(frozen=True)
@@ -21,7 +29,8 @@ class CertifiedOrder:
     """An order with how it is known, and the conditions of the next order that fail.
 
     ``bound`` says that the search ended before a condition failed; ``classical`` names the family that the
-    method is on an abelian group, where the order was found for that one.
+    method is on an abelian group, where the order was found for that one. ``radius`` says how far the
+    coefficients are known, where that is less than a double holds: then there is no certificate.
     """
 
     order: int
@@ -29,6 +38,7 @@ class CertifiedOrder:
     bound: bool = False
     failing: tuple[Failure, ...] = ()
     classical: str = ""
+    radius: str = ""
 
     def text(self) -> str:
         """Say it in words."""
@@ -36,6 +46,7 @@ class CertifiedOrder:
             "exact": "every order condition up to it is zero in exact arithmetic",
             "ball": "interval arithmetic proves a method of this order within the last digit of the decimals",
             "decimal": "what the printed digits of the coefficients support",
+            "none": f"the coefficients are known to {self.radius} only, less than double precision",
         }
         least = "at least " if self.bound else ""
         explained = f" ({how[self.certificate]})" if self.certificate in how else ""
@@ -63,15 +74,35 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
     if classical is not None:
         (found,) = check(method.tableau, family=classical).orders
         if found.decided:
-            return _certified(found, classical)
+            return _certified(method, found, classical)
     found = lowering(method.family).order(method, scene)
     if not found.decided:
         raise MethodError(
             f"the order of {method.label} is undecided beyond {found.order}",
             expected="coefficients with more digits",
         )
-    return _certified(found)
+    return _certified(method, found)
 
 
-def _certified(found: FamilyOrder, classical: str = "") -> CertifiedOrder:
-    return CertifiedOrder(found.order, found.certificate, found.limit is not None, found.failing, classical)
+def _certified(method: Method, found: FamilyOrder, classical: str = "") -> CertifiedOrder:
+    radius = _uncertainty(method)
+    certificate = "none" if radius else found.certificate
+    return CertifiedOrder(found.order, certificate, found.limit is not None, found.failing, classical, radius)
+
+
+def _uncertainty(method: Method) -> str:
+    """Return the largest radius of a coefficient wider than the rounding of a double, or an empty text."""
+    ring = method.ring
+    if not isinstance(ring, Balls):
+        return ""
+    widest = fmpq(0)
+
+    def visit(x: Ball) -> Ball:
+        nonlocal widest
+        low, high = endpoints(x.value)
+        if high - low > abs(low + high) / 2**DOUBLE_BITS:
+            widest = max(widest, (high - low) / 2)
+        return x
+
+    method.tableau.method.map(visit)
+    return rational_decimal(widest, 2) if widest else ""

@@ -126,6 +126,22 @@ def _file(name: str) -> Path:
     return path if path.suffix == ".toml" else find(name)
 
 
+def _enclosed(tableau: Tableau) -> Tableau:
+    """Return a tableau with the solution that its proof encloses, in place of the decimals of its file.
+
+    A certificate is about that solution, so that what is emitted must be it and not the digits.
+    """
+    if tableau.proof is None:
+        return tableau
+    from orderconds.proof.certificate import certify
+    from orderconds.proof.krawczyk import NotProved
+
+    try:
+        return certify(tableau).tableau
+    except NotProved:
+        return tableau
+
+
 _RATIONAL = re.compile(r"-?\d+(/\d+)?")
 
 
@@ -147,7 +163,7 @@ def parse(spelling: str, families: Sequence[str]) -> Method:
         raise MethodError(
             f"the method {spelling!r}", expected="TABLEAU or FAMILY:TABLEAU", hint="as vcg:triple_jump"
         )
-    tableau = Tableau.load(_file(match["tableau"]))
+    tableau = _enclosed(Tableau.load(_file(match["tableau"])))
     family, cutoff = match["family"], match["cutoff"]
     if family is not None and family not in families:
         raise MethodError(
@@ -161,7 +177,8 @@ def parse(spelling: str, families: Sequence[str]) -> Method:
             expected=f"one for {' or '.join(cutting)} only, as rkmk(2):rk4",
         )
     # A tableau of exponentials has no A and b to read, even where it claims the order of its sums as rk.
-    readable = [f for f in families if tableau.family != "cf" or "cf" in family_class(f).formats]
+    exponentials = isinstance(tableau.method, CommutatorFree)
+    readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     claims = [replace(c, family=c.family.partition("(")[0]) for c in tableau.claims.orders]  # splitting(3)
     wanted = [c for c in claims if c.family == (family or c.family) and c.family in readable]
     if family is not None and cutoff is not None:

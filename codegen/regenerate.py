@@ -69,10 +69,10 @@ def contents(listed: list[Entry]) -> dict[str, str]:
     files: dict[str, str] = {}
     manifests: dict[str, list[dict[str, object]]] = {}
     for entry in listed:
-        for emission in entry.emissions():
+        for artifact in entry.emissions():
             folder = Path(entry.scene).stem
-            manifests.setdefault(folder, []).append(dict(emission.manifest))
-            for name, text in emission.files.items():
+            manifests.setdefault(folder, []).append(dict(artifact.manifest))
+            for name, text in artifact.files.items():
                 if files.setdefault(f"{folder}/{name}", text) != text:
                     raise InputError(f"two modules emit the file {name}", where=str(LIST))
     for folder, manifest in manifests.items():
@@ -97,13 +97,13 @@ def compare(directory: Path, files: dict[str, str]) -> list[Difference]:
     there = {p.relative_to(directory).as_posix() for p in directory.rglob("*") if p.is_file()}
     ours = emitted(directory)
     extra = [path for path in sorted(there - files.keys()) if not ignored(path)]
-    found = [Difference(path, "stale" if path in ours else "unknown") for path in extra]
+    differences = [Difference(path, "stale" if path in ours else "unknown") for path in extra]
     for path, text in files.items():
         if path not in there:
-            found.append(Difference(path, "missing"))
+            differences.append(Difference(path, "missing"))
         elif not _holds(directory / path, text.encode()):
-            found.append(Difference(path, "different"))
-    return sorted(found, key=lambda d: d.path)
+            differences.append(Difference(path, "different"))
+    return sorted(differences, key=lambda d: d.path)
 
 
 def _holds(path: Path, content: bytes) -> bool:
@@ -115,12 +115,12 @@ def _holds(path: Path, content: bytes) -> bool:
 
 def emitted(directory: Path) -> set[str]:
     """Return the paths of emitted files according to the manifests, including the manifests."""
-    found: set[str] = set()
+    paths: set[str] = set()
     for manifest in directory.glob(f"*/{MANIFEST}"):
         folder = manifest.parent.name
         names = [name for entry in entries_of(manifest.parent) for name in entry["files"]]
-        found.update(f"{folder}/{name}" for name in (*names, MANIFEST))
-    return found
+        paths.update(f"{folder}/{name}" for name in (*names, MANIFEST))
+    return paths
 
 
 def ignored(path: str) -> bool:

@@ -20,6 +20,8 @@ class Derivation:
     family: str
     order: int
     by_order: tuple[tuple[OrderCondition, ...], ...]
+    remark: str = ""
+    """What a reader of these conditions should know."""
 
     @property
     def counts(self) -> tuple[int, ...]:
@@ -57,5 +59,6 @@ def derive(family: str, order: int, *, every: bool = False, **options: int | Non
     found = families.get(family, **options)
     if order < 1:
         raise InputError(f"order {order}", where="derive", expected="an order of at least 1")
-    conditions = found.all_conditions if every else found.conditions
-    return Derivation(found.label(), order, tuple(conditions(n) for n in range(1, order + 1)))
+    conditions = found.all_conditions if every else found.essential_conditions
+    by_order = tuple(conditions(n) for n in range(1, order + 1))
+    return Derivation(found.label(), order, by_order, "" if every else found.remark(order))

@@ -47,14 +47,14 @@ def command(
         raise click.UsageError(
             "--protocol strict uses its own steps and 50 digits; omit --target, --steps, --digits"
         )
-    found = (
+    results = (
         _by_protocol(methods, stated, as_json)
         if scene is None
         else _on_scene(scene, methods, target or "c", steps, digits or 16, stated, as_json)
     )
     if as_json:
-        print_json([result.as_json() for result in found])
-    return 0 if all(result.verdict == "holds" for result in found) else 1
+        print_json([result.as_json() for result in results])
+    return 0 if all(result.verdict == "holds" for result in results) else 1
 
 
 def _on_scene(
@@ -84,13 +84,13 @@ def _on_scene(
         runners = [(runner(problem, method, target, digits, order), order) for method, order in pairs]
         progress("reference solution")
         exact = cached_reference(problem)
-    found: list[Convergence] = []
+    results: list[Convergence] = []
     for run, order in runners:
         with working(f"running {run.compiled.method.label}"):
-            found.append(converge(run, order, exact, steps=prescribed))
+            results.append(converge(run, order, exact, steps=prescribed))
         if not as_json:
-            show(found[-1], first=len(found) == 1)
-    return found
+            show(results[-1], first=len(results) == 1)
+    return results
 
 
 def _by_protocol(methods: tuple[str, ...], stated: int | None, as_json: bool) -> list[Convergence]:
@@ -98,14 +98,14 @@ def _by_protocol(methods: tuple[str, ...], stated: int | None, as_json: bool) ->
     from codegen.lower import names
     from codegen.method import parse
 
-    found: list[Convergence] = []
+    results: list[Convergence] = []
     for method in [parse(name, names()) for name in methods]:
         with counting(f"{method.label}") as done:
             for result in strict(method, stated_order(method, stated), done):
-                found.append(result)
+                results.append(result)
                 if not as_json:
                     click.echo(f"{result.method} on {result.scene}: {result.sentence()}")
-    return found
+    return results
 
 
 def read_steps(texts: tuple[str, ...]) -> list[int]:

@@ -81,9 +81,9 @@ def command(
     if explain and not as_json:
         click.echo(explanation(compiled))
     for name in targets or ("c",):
-        emission = emit_compiled(compiled, name, prefix, named, precision=precision)
-        paths = [str(path) for path in emission.write(output)] if output is not None else []
-        records.append({**emission.manifest, "paths": paths})
+        artifact = emit_compiled(compiled, name, prefix, named, precision=precision)
+        paths = [str(path) for path in artifact.write(output)] if output is not None else []
+        records.append({**artifact.manifest, "paths": paths})
         if not as_json:
             for path in paths:
                 click.echo(path)

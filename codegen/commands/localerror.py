@@ -30,17 +30,17 @@ def command(scene: str, methods: tuple[str, ...], as_json: bool) -> int:
     from codegen.lab.orders.exact_order import exact_local_error
 
     problem = scenes.load(scene)
-    found = []
+    errors = []
     with working("local errors") as progress:
         for method in methods_for(problem, methods):
             progress(method.label)
-            found.append(exact_local_error(problem, method))
+            errors.append(exact_local_error(problem, method))
     if as_json:
-        print_json([result.as_json() for result in found])
+        print_json([result.as_json() for result in errors])
     else:
-        for number, result in enumerate(found):
+        for number, result in enumerate(errors):
             show(result, first=not number)
-    return 0 if all(result.verdict == "holds" for result in found) else 1
+    return 0 if all(result.verdict == "holds" for result in errors) else 1
 
 
 def show(result: ExactLocalError, first: bool) -> None:

@@ -61,21 +61,21 @@ def command(
         raise InputError(
             f"the step size {h:g}", where="--h", expected="a number between 1e-300 and 1e300 in size"
         )
-    found: list[LongRun] = []
+    runs: list[LongRun] = []
     with counting(f"{problem.name}: {steps} steps") as done:
         for method in methods_for(problem, methods):
             try:
-                made = compile_method(problem, method)
-                found.append(long_run(made, h, steps, back=not one_way, rounding=not no_rounding))
+                compiled = compile_method(problem, method)
+                runs.append(long_run(compiled, h, steps, back=not one_way, rounding=not no_rounding))
             except (InputError, ArithmeticError) as error:
-                found.append(LongRun(problem.name, method.label, h, 0, (), (), None, str(error)))
+                runs.append(LongRun(problem.name, method.label, h, 0, (), (), None, str(error)))
             done(method.label)
     if as_json:
-        print_json([run.as_json() for run in found])
+        print_json([run.as_json() for run in runs])
     else:
-        for run in found:
+        for run in runs:
             show(run)
-    return 1 if any(run.failure for run in found) else 0
+    return 1 if any(run.failure for run in runs) else 0
 
 
 def show(run: LongRun) -> None:

@@ -59,11 +59,11 @@ def command(
     with counting("reading scenes and methods") as progress:
         path, results = report(request, output, progress)
     if as_json:
-        print_json({"page": str(path), "scenes": [found.as_json() for found in results]})
+        print_json({"page": str(path), "scenes": [scene_results.as_json() for scene_results in results]})
     else:
-        for found in results:
-            for measured in found.measured:
+        for scene_results in results:
+            for measured in scene_results.measured:
                 for line in measured.lines():
                     click.echo(line)
         click.echo(f"the report: {path}")
-    return 0 if all(found.held for found in results) else 1
+    return 0 if all(scene_results.held for scene_results in results) else 1

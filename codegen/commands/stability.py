@@ -39,7 +39,7 @@ def command(scene: str | None, methods: tuple[str, ...], everything: bool, quick
     names = scenes.GALLERY if scene is None else (scene,)
     for name in names:
         methods_for(scenes.load(name), methods)  # InputError before the work begins
-    found: list[Stability] = []
+    all_results: list[Stability] = []
     with counting("stability") as done:
         work = _alone if len(names) > 1 else partial(_run, progress=done)
         for name, results in zip(
@@ -47,12 +47,12 @@ def command(scene: str | None, methods: tuple[str, ...], everything: bool, quick
         ):
             done(name)
             for result in results:
-                found.append(result)
+                all_results.append(result)
                 if not as_json:
                     show(result)
     if as_json:
-        print_json([result.as_json() for result in found])
-    return 0 if all(result.held for result in found) else 1
+        print_json([result.as_json() for result in all_results])
+    return 0 if all(result.held for result in all_results) else 1
 
 
 def _run(job: Job, progress: Callable[[str], object]) -> list[Stability]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from flint import arb
 
 from codegen.ir.number import Number
-from codegen.lab.scalars import Evaluate
+from codegen.lab.number_types import Evaluate
 from codegen.lab.straight_line_field import velocity
 from codegen.scene.problem import Problem
 from orderconds.ring.precision import precision, working_bits

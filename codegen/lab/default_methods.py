@@ -50,16 +50,16 @@ def methods_for(scene: Problem, names: Sequence[str] = ()) -> tuple[Method, ...]
 
 def report_methods(scene: Problem) -> tuple[tuple[Method, ...], tuple[Method, ...]]:
     """Return the default methods of the report on a scene: with equal steps, and with step-size control."""
-    families, found = families_for(scene), []
+    families, chosen = families_for(scene), []
     for name, order in (REPORT_HAMILTONIANS if scene.is_hamiltonian else REPORT_FIELDS).items():
         if name.partition(":")[0].partition("(")[0] not in families:
             continue
         try:
             method = parse(name, families)
             if certified_order(method, scene).order == order:
-                found.append(method)
+                chosen.append(method)
         except MethodError:
             continue
     count = 1 if scene.is_hamiltonian else len(REPORT_ADAPTIVE)
     adaptive = (replace(parse(name, families), adaptive=True) for name in REPORT_ADAPTIVE[:count])
-    return tuple(found), tuple(adaptive)
+    return tuple(chosen), tuple(adaptive)

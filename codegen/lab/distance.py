@@ -2,7 +2,7 @@
 
 Each field of the state adds its own norm: the spectral norm for group elements that are matrices, the
 Euclidean norm for everything else. For the dipole on a stick this is |mu - mu_ref|_2 + |g - g_ref|_2
-(H. Marthinsen, *Lie group integrators*, Fig. 3.2); for a point on the sphere it is the chord.
+(H. Marthinsen, *Lie group integrators*, Fig. 3.2); for a point on the sphere it is the straight distance.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from codegen.groups import LieGroup
 from codegen.groups.capabilities import DirectProduct, MatrixElements
 from codegen.ir.values import Kind
-from codegen.lab.scalars import Scalar
+from codegen.lab.number_types import Scalar
 from codegen.scene.problem import Problem
 
 

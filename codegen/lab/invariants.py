@@ -8,7 +8,7 @@ from codegen.groups import LeftMultiplication
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr
 from codegen.ir.values import Kind
-from codegen.lab.scalars import Evaluate, Vector
+from codegen.lab.number_types import Evaluate, Vector
 from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import Problem
 
@@ -44,11 +44,11 @@ def expressions(scene: Problem) -> dict[str, tuple[Expr, ...]]:
 def _laws(scene: Problem, domain: ExprDomain, state: Vector) -> Vector:
     """Return the expressions that vanish where every group element of the state is in the group."""
     start = 0
-    found: list[Expr] = []
+    laws: list[Expr] = []
     for block in scene.state:
         values = state[start : start + len(block.symbols)]
         start += len(values)
         acting = block.kind is Kind.POINT and isinstance(scene.action, LeftMultiplication)
         if block.kind is Kind.GROUP or acting:
-            found += [x for _, x in scene.group.laws(domain, values)]
-    return tuple(found)
+            laws += [x for _, x in scene.group.laws(domain, values)]
+    return tuple(laws)

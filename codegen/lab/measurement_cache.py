@@ -49,11 +49,11 @@ class MeasurementCache:
         values whose ``repr`` is the same in every process. A folder that cannot be used costs time and
         raises nothing; exceptions of ``measure`` are passed on, and nothing is stored.
         """
-        found = self.find(key, kind)
-        if found is None:
-            found = measure()
-            self.store(key, found)
-        return found
+        result = self.find(key, kind)
+        if result is None:
+            result = measure()
+            self.store(key, result)
+        return result
 
     def find(self, key: Sequence[object], kind: type[T]) -> T | None:
         """Return the stored result of ``key``; None if it is missing, damaged or not of type ``kind``."""

@@ -17,7 +17,7 @@ from codegen.errors import SceneError
 from codegen.ir.domain import PreciseDomain
 from codegen.lab.ambient_field import ambient_field
 from codegen.lab.measurement_cache import MeasurementCache, user_cache
-from codegen.lab.scalars import Evaluate, Scalar, Vector
+from codegen.lab.number_types import Evaluate, Scalar, Vector
 from codegen.lab.straight_line_field import velocity
 from codegen.scene.problem import Problem
 from orderconds.ring.precision import precision
@@ -75,8 +75,8 @@ def cached_reference(scene: Problem, cache: MeasurementCache | None = None) -> R
     """
 
     def compute() -> _Stored:
-        found = reference(scene)
-        return _Stored(found.digits(DIGITS), found.uncertainty)
+        computed = reference(scene)
+        return _Stored(computed.digits(DIGITS), computed.uncertainty)
 
     stored = (cache or user_cache()).get(_key(scene), _Stored, compute)
     context = PreciseDomain(0, DIGITS).context
@@ -123,8 +123,8 @@ def _end(scene: Problem, columns: int, exponent: int) -> Vector:
     with precision(BITS):
         field = ambient_field(scene)
         y = tuple(arb(context.context.nstr(x, DIGITS + 5)) for x in scene.initial(context))
-        found = _integrate(scene, field, tuple(x.mid() for x in y), columns, 10.0**exponent)
-        return tuple(context.context.mpf(x.str(DIGITS + 5, radius=False)) for x in found)
+        final = _integrate(scene, field, tuple(x.mid() for x in y), columns, 10.0**exponent)
+        return tuple(context.context.mpf(x.str(DIGITS + 5, radius=False)) for x in final)
 
 
 def _integrate(scene: Problem, field: Evaluate, y: Vector, columns: int, tolerance: float) -> Vector:

@@ -68,10 +68,10 @@ def report(
     cache = MeasurementCache(folder / FOLDER)
     results: list[SceneResults] = []
     for planned in subjects:
-        found = measure_scene(replace(planned, cache=cache, progress=progress), selected(request.parts))
-        results.append(found)
-        write_file(folder / page_name(found), render(found, request.command()))
-        for measured in found.measured:
+        page = measure_scene(replace(planned, cache=cache, progress=progress), selected(request.parts))
+        results.append(page)
+        write_file(folder / page_name(page), render(page, request.command()))
+        for measured in page.measured:
             for name, text in measured.files().items():
                 write_file(folder / name, text)
     overview = write_file(folder / OVERVIEW, render_overview(results, request.command()))
@@ -83,8 +83,8 @@ def write_file(path: Path, text: str | None) -> Path:
     """Write a text under a temporary name and move it into place; None only tests the folder."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=path.parent, prefix=".report-") as made:
-            whole = Path(made) / path.name
+        with tempfile.TemporaryDirectory(dir=path.parent, prefix=".report-") as temporary:
+            whole = Path(temporary) / path.name
             whole.write_text(text or "", encoding="utf-8", newline="\n")
             if text is not None:
                 os.replace(whole, path)

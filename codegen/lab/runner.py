@@ -16,7 +16,7 @@ from codegen.emitter import Compiled, Optimised, compile_method, emit_compiled
 from codegen.errors import MethodError
 from codegen.ir.domain import Domain, FloatDomain, NotConverged, PreciseDomain
 from codegen.ir.interpret import flatten, interpret
-from codegen.lab.scalars import Scalar, Vector
+from codegen.lab.number_types import Scalar, Vector
 from codegen.loader import Integrator, Statistics, StepFailed, load
 from codegen.lower import problem_for
 from codegen.method import Method
@@ -50,41 +50,41 @@ class Interpreted:
         return 1280 if self.digits <= DOUBLE else 320
 
     @cached_property
-    def view(self) -> Problem:
+    def problem(self) -> Problem:
         """The problem in which the method's family was lowered."""
         return problem_for(self.compiled.scene, self.compiled.method)
 
     def final(self, steps: int) -> Vector:
         """Return the state at the end of the span after ``steps`` equal steps; :class:`RunFailed`."""
-        start, end = self.view.span
+        start, end = self.problem.span
         h = (end - start) / steps if steps else end - start
         double = self.digits <= DOUBLE
         domain: Domain = FloatDomain(float(h)) if double else PreciseDomain(h, self.digits)
-        state, first = self.view.initial(domain), domain.rational(*start.as_integer_ratio())
+        state, first = self.problem.initial(domain), domain.rational(*start.as_integer_ratio())
         for k in range(steps):
             state = self._step(domain, state, first + k * domain.h)
         return state
 
     def _step(self, domain: Domain, state: Vector, t: Scalar) -> Vector:
-        values: dict[str, Scalar] = {"t": t, **split_state(self.view, state)}
+        values: dict[str, Scalar] = {"t": t, **split_state(self.problem, state)}
         program = self.compiled.program
         inputs = {v.name: values[v.name] for v in program.inputs}
         try:
-            found = interpret(program, self.view, domain, inputs)
+            outputs = interpret(program, self.problem, domain, inputs)
         except (NotConverged, ZeroDivisionError, OverflowError, ValueError) as error:
             raise RunFailed(str(error)) from error
-        return tuple(x for b in self.view.state for x in flatten(b.kind, found[b.name]))
+        return tuple(x for b in self.problem.state for x in flatten(b.kind, outputs[b.name]))
 
 
 def split_state(problem: Problem, state: Sequence[Scalar]) -> dict[str, Vector]:
     """Return the fields of a flat state by name."""
-    found: dict[str, Vector] = {}
+    fields: dict[str, Vector] = {}
     start = 0
     for field in problem.state:
         end = start + len(field.symbols)
-        found[field.name] = tuple(state[start:end])
+        fields[field.name] = tuple(state[start:end])
         start = end
-    return found
+    return fields
 
 
 @dataclass
@@ -102,14 +102,14 @@ class Emitted:
         return 81920 if self.target == "c" else 10240
 
     @cached_property
-    def emission(self) -> Artifact:
+    def artifact(self) -> Artifact:
         """The files and the manifest of the module."""
         return emit_compiled(self.compiled, self.target, order=self.order)
 
     @cached_property
     def integrator(self) -> Integrator:
         """The loaded module."""
-        return load(self.emission)
+        return load(self.artifact)
 
     @cached_property
     def python(self) -> Emitted:

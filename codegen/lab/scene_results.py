@@ -78,9 +78,9 @@ class SceneResults:
 
     def as_json(self) -> dict[str, object]:
         """Return plain data: one key a measurement, with an empty list if it was not selected."""
-        found = {m.name: m.as_json() for m in self.measured}
+        measured = {m.name: m.as_json() for m in self.measured}
         keys = {m.name: m.json_key or m.name for m in measurements()}
-        return {"scene": self.scene.name} | {key: found.get(name, []) for name, key in keys.items()}
+        return {"scene": self.scene.name} | {key: measured.get(name, []) for name, key in keys.items()}
 
 
 def measure_scene(subject: Subject, chosen: Sequence[AnyMeasurement]) -> SceneResults:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
-from codegen.lab.scalars import Evaluate, Scalar
+from codegen.lab.number_types import Evaluate, Scalar
 from codegen.printers.expression import number
 from codegen.scene.problem import TIME, Problem
 
@@ -39,10 +39,10 @@ class StraightLine:
         source = "\n".join(
             ["def field(y, t):", *body, f"    return ({''.join(f'{r}, ' for r in self.results)})"]
         )
-        found: dict[str, Scalar] = {f"c{k}": constant(x) for k, x in enumerate(self.constants)}
-        found |= {name: functions[name] for name in self.functions}
-        exec(compile(source, f"<{self.scene}>", "exec"), found)
-        field: Evaluate = found["field"]
+        names: dict[str, Scalar] = {f"c{k}": constant(x) for k, x in enumerate(self.constants)}
+        names |= {name: functions[name] for name in self.functions}
+        exec(compile(source, f"<{self.scene}>", "exec"), names)
+        field: Evaluate = names["field"]
         return field
 
     def c(self, target: str = "dy") -> list[str]:

@@ -54,7 +54,7 @@ class CompiledMethod:
 
     compiled: Compiled
     seconds: float
-    emission: Artifact
+    artifact: Artifact
 
     @property
     def label(self) -> str:
@@ -64,7 +64,7 @@ class CompiledMethod:
     @property
     def files(self) -> list[tuple[str, str]]:
         """The emitted files, sorted, as part of a cache key."""
-        return sorted(self.emission.files.items())
+        return sorted(self.artifact.files.items())
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,7 @@ class MethodFailure:
 class MethodResults(Generic[T]):
     """The results of the methods that could be measured, and the failures of the others."""
 
-    found: tuple[T, ...]
+    measured: tuple[T, ...]
     failures: tuple[MethodFailure, ...] = ()
 
 
@@ -114,29 +114,29 @@ class Subject:
     @cached_property
     def compiled(self) -> MethodResults[CompiledMethod]:
         """The compiled methods."""
-        found, failures = [], []
+        methods, failures = [], []
         for method in self.methods:
             self.progress(f"{self.scene.name}, {method.label}: compiling")
             start = time.perf_counter()
             try:
-                made = compile_method(self.scene, method)
+                compiled = compile_method(self.scene, method)
                 seconds = time.perf_counter() - start
-                emission = emit_compiled(made, "c", order=certified_order(method, self.scene))
+                artifact = emit_compiled(compiled, "c", order=certified_order(method, self.scene))
             except (InputError, ArithmeticError) as error:
                 failures.append(MethodFailure(method.label, str(error)))
                 continue
-            found.append(CompiledMethod(made, seconds, emission))
-        return MethodResults(tuple(found), tuple(failures))
+            methods.append(CompiledMethod(compiled, seconds, artifact))
+        return MethodResults(tuple(methods), tuple(failures))
 
     def each(self, measure: Callable[[CompiledMethod], T]) -> MethodResults[T]:
         """Return the results of ``measure`` by method; a failure does not affect other methods."""
-        found, failures = [], list(self.compiled.failures)
-        for method in self.compiled.found:
+        results, failures = [], list(self.compiled.failures)
+        for method in self.compiled.measured:
             try:
-                found.append(measure(method))
+                results.append(measure(method))
             except (InputError, ArithmeticError) as error:
                 failures.append(MethodFailure(method.label, str(error)))
-        return MethodResults(tuple(found), tuple(failures))
+        return MethodResults(tuple(results), tuple(failures))
 
     def report_command(self, part: str) -> str:
         """Return the command that measures one part of this page again."""

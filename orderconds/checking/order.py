@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from decimal import Context, Decimal
 from itertools import chain, islice
 
+from orderconds.checking.limits import Meter
 from orderconds.checking.residuals import Failure, judge
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
@@ -21,6 +22,9 @@ EXHAUSTIVE = 2000
 """An order with more conditions than this is evaluated in batches, the simplest trees first, up to the first
 batch in which one fails; those that fail in it are named, and the error norm is left out."""
 
+STOPPED = "stopped"
+"""The verdict on an order that a limit left open."""
+
 Tree = tuple[Key, Callable[[], OrderCondition]]
 """A family's own encoding of a tree, and a function that returns its condition."""
 
@@ -31,7 +35,8 @@ class FamilyOrder:
 
     ``failing`` are the conditions of order ``order + 1`` that fail, ``error_norm`` the 2-norm of their
     residuals. ``limit`` is the order at which the search stopped without a failing condition, None when
-    it found one. ``required`` is a lower bound that was asked for; without it ``claimed`` is an equality.
+    it found one; ``stopped`` how many conditions had been evaluated where a limit on work ended it.
+    ``required`` is a lower bound that was asked for; without it ``claimed`` is an equality.
     """
 
     family: str
@@ -43,14 +48,18 @@ class FamilyOrder:
     claimed: int | None = None
     required: int | None = None
     limit: int | None = None
+    stopped: int | None = None
 
     @property
     def verdict(self) -> str:
         """``holds``, ``fails`` or ``undecided``."""
         if self.required is not None:
             sound = self.order >= self.required
-            return "holds" if sound else "fails" if self.decided else "undecided"
+            unknown = not self.decided or self.stopped is not None
+            return "holds" if sound else "undecided" if unknown else "fails"
         if not self.decided:
+            return "undecided"
+        if self.stopped is not None and self.claimed is not None and self.claimed >= self.order:
             return "undecided"
         return "holds" if self.claimed in (None, self.order) else "fails"
 
@@ -65,7 +74,11 @@ class FamilyOrder:
             # JSON has no infinity
             "error_norm": None if self.error_norm == math.inf else self.error_norm,
         }
-        return record if self.limit is None else {**record, "limit": self.limit}
+        if self.limit is not None:
+            record["limit"] = self.limit
+        if self.stopped is not None:
+            record["stopped"] = self.stopped
+        return record
 
 
 def family_order(
@@ -76,13 +89,15 @@ def family_order(
     bound: FamilyOrder | None = None,
     proved: Mapping[str, int] | None = None,
     brief: bool = False,
+    meter: Meter | None = None,
 ) -> FamilyOrder:
     """Find the order of ``tableau`` in ``family``: evaluate orders 1, 2, ... until a condition fails.
 
     An order at the family's limit is not exceeded where ``bound``, the order in a family whose conditions
     are among its own, says so, and with ``brief`` no order is: the conditions that fail are then those of
     ``bound``. Conditions that follow from others, and from the orders ``proved`` in other
-    families, are not evaluated (:mod:`orderconds.families.reductions`).
+    families, are not evaluated (:mod:`orderconds.families.reductions`). The search ends where ``meter`` says
+    that a limit is reached.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -94,7 +109,24 @@ def family_order(
     method = _method(tableau, family)
     family.require(method, tableau.ring)
     spared = family.reductions(method, tableau.ring, proved or {})
-    return _Search(family, method, tableau.ring, spared).run(claimed, required, bound, brief)
+    return _Search(family, method, tableau.ring, spared, meter or Meter()).run(
+        claimed, required, bound, brief
+    )
+
+
+def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
+    """Return the one condition of this order that fails first in the family, where a method does not meet it.
+
+    >>> from orderconds.families import get
+    >>> from orderconds.tableau import find
+    >>> gauss3 = Tableau.load(find("gauss3"))
+    >>> [failure.condition.tree for failure in first_failing(gauss3, get("vrkmk(1)"), 4)]
+    ['o(o|L(o o))']
+    """
+    condition = family.first_unmet(order)
+    if condition is None:
+        return ()
+    return judge(family, _method(tableau, family), tableau.ring, [condition])[1]
 
 
 @dataclass(frozen=True)
@@ -105,6 +137,7 @@ class _Search:
     method: Method
     ring: Ring
     spared: Reductions
+    meter: Meter
 
     def run(
         self, claimed: int | None, required: int | None, bound: FamilyOrder | None, brief: bool
@@ -117,6 +150,9 @@ class _Search:
         certificate = "exact"
         for n in range(1, limit + 1):
             verdicts, failing, whole = self._judged(n, n > expected, certificate == "decimal")
+            if not failing and STOPPED in verdicts:
+                done = self.meter.total
+                return FamilyOrder(label, n - 1, certificate, True, (), None, claimed, required, n - 1, done)
             if failing or "undecided" in verdicts:
                 decided, norm = bool(failing), None
                 certificate = certificate if decided else "none"
@@ -139,12 +175,16 @@ class _Search:
             return verdicts, failing, whole
         # A theorem about balls may not say more than that their digits support an order.
         known = decimal or not isinstance(self.ring, Balls)
+        self.meter.next_order()
         for trees, every in _batches(self.family, n):
             whole = every
+            if self.meter.stops(len(trees)):
+                return {STOPPED}, failing, False
             batch = tuple(
                 condition() for key, condition in trees if not (known and self.spared.follows(n, key))
             )
             judged, failing = judge(self.family, self.method, self.ring, batch, unlikely)
+            self.meter.count(len(batch))
             verdicts |= judged
             if failing or (not every and judged == {"zero"} and self.spared.rest_follows(n)):
                 break

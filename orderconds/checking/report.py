@@ -18,18 +18,19 @@ if TYPE_CHECKING:
 class EmbeddedOrder(Struct, frozen=True):
     """The order that the embedded row was said to have in the family ``own``, and its orders by family.
 
-    ``own`` is ``rk`` for weights, ``cf`` for an update of exponentials; ``failing`` are the conditions of the
-    next order that fail in it.
+    ``certificates`` are those of the orders, by family. ``own`` is ``rk`` for weights, ``cf`` for an update
+    of exponentials; ``failing`` are the conditions of the next order that fail in it.
     """
 
     claimed: int
     orders: dict[str, int]
+    certificates: dict[str, str]
     own: str
     failing: tuple[Failure, ...] = ()
 
     def as_json(self) -> dict[str, object]:
         """Return the JSON object of an embedded row."""
-        return {"claimed": self.claimed, "orders": self.orders}
+        return {"claimed": self.claimed, "orders": self.orders, "certificates": self.certificates}
 
 
 @dataclass(frozen=True)

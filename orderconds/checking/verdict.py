@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orderconds import families
-from orderconds.checking.order import FamilyOrder, family_order
+from orderconds.checking.limits import Limits, Meter
+from orderconds.checking.order import FamilyOrder, family_order, first_failing
 from orderconds.checking.report import EmbeddedOrder, Report
 from orderconds.errors import InputError
 from orderconds.families import Family
-from orderconds.families.base import TABLEAU_FORMAT
 from orderconds.tableau import Tableau, find
 from orderconds.tableau.properties import properties, undecided
 
@@ -29,13 +29,15 @@ def check(
     *,
     complete: bool = False,
     certified: bool = False,
+    limits: Limits | None = None,
 ) -> Report:
     """Find the exact order of ``tableau`` (or of the file, or the library name) in each family it claims.
 
     With ``family`` (``"vcg"``, ``"rkmk(1)"``) that family alone, claimed or not. With ``order`` the order
     must be at least that, in place of the claims. With ``complete`` a claim is missing, and fails, for each
     family that the tableau can claim; with ``certified`` an order that rounded decimals support, and no more,
-    fails. A tableau without claims is checked in the family of its format.
+    fails. A tableau without claims is checked in the family of its format. ``limits`` bound the work; an
+    order that they leave open is a lower bound.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family,
     :class:`~orderconds.errors.ZeroWeight` where a family divides by some b_i = 0,
@@ -62,7 +64,7 @@ def check(
         from orderconds.checking.claimable import unclaimed
 
         broken += _missing_claims(enclosed, unclaimed(tableau))
-    orders = _orders(enclosed, wanted, facts, order)
+    orders = _orders(enclosed, wanted, facts, order, Meter(limits or Limits()))
     if certified:
         broken += [f"{f.family}: certificate decimal" for f in orders if f.certificate == "decimal"]
     return Report(
@@ -89,14 +91,16 @@ def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | Non
         return None
     claimed, own = tableau.embedded.order, lower.family
     asked = {family.label(): family for family in wanted if family.fixed_stages}
-    asked = {name: families.get(name) for name in (TABLEAU_FORMAT, own)} | asked
+    always = (families.get("rk"), families.get(own))
+    asked = {family.label(): family for family in always} | asked
     found: dict[str, FamilyOrder] = {}
     for label, family in asked.items():
         known = list(found.values())
         bound = None if label == own else _bound(family, known)
         found[label] = family_order(lower, family, claimed, None, bound, _proved(known), brief=True)
     orders = {label: family.order for label, family in found.items()}
-    return EmbeddedOrder(claimed, orders, own, found[own].failing)
+    certificates = {label: family.certificate for label, family in found.items()}
+    return EmbeddedOrder(claimed, orders, certificates, own, found[own].failing)
 
 
 def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
@@ -107,9 +111,11 @@ def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
     from orderconds.proof.krawczyk import NotProved
 
     try:
-        return certify(tableau), []
+        proof = certify(tableau)
     except NotProved as problem:
         return None, [f"no proof: {problem}"]
+    hint = "orderconds refine writes its digits"
+    return proof, [f"the decimal {misrounded}; {hint}" for misrounded in proof.misrounded]
 
 
 def _orders(
@@ -117,33 +123,70 @@ def _orders(
     wanted: Sequence[tuple[Family, int | None]],
     facts: tuple[Fact, ...],
     required: int | None,
+    meter: Meter,
 ) -> tuple[FamilyOrder, ...]:
     """Return the order in each family, from theorems where evaluating it goes beyond the family's limit."""
     beside = _beside(tableau, wanted, required or 0)
     found: list[FamilyOrder] = []
-    for family, claimed in (*beside, *wanted):
+    for read_as, family, claimed in (*beside, *((tableau, *each) for each in wanted)):
         known = _settled(tableau, family, found, facts)
         if known is None:
             bound = _bound(family, found)
-            order = family_order(tableau, family, claimed, required, bound, _proved(found))
+            order = family_order(read_as, family, claimed, required, bound, _proved(found), meter=meter)
             known = _certified(order, family, facts)
+            if known.limit is not None and not beside:
+                known = _beyond(tableau, family, known, facts, meter)
         else:
             known = replace(known, claimed=claimed, required=required)
         found.append(known)
     return tuple(found[len(beside) :])
 
 
-def _beside(
-    tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int
-) -> list[tuple[Family, int | None]]:
+Reading = tuple[Tableau, Family, int | None]
+"""A tableau in a form that a family reads, the family, and the order that is claimed."""
+
+
+def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
     """Return families, beside those wanted, from whose orders a claim beyond a family's limit may follow."""
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
-    labels = {family.label() for family, _ in wanted}
-    from orderconds.checking.claimable import claimable_families
+    return _bounding(tableau, {family.label() for family, _ in wanted})
 
-    bounding = (f for f in claimable_families(tableau) if f.bounds_others and f.label() not in labels)
-    return [(family, tableau.claims.order(family.name)) for family in bounding]
+
+def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
+    """Return the families that bound the orders of others, but for those named.
+
+    A plain array that is a composition of midpoints is read as one, too.
+    """
+    from orderconds.checking.claimable import claimable_families
+    from orderconds.tableau.recognise import as_composition
+
+    found: dict[str, Reading] = {}
+    for read_as in filter(None, (as_composition(tableau), tableau)):
+        for family in claimable_families(read_as):
+            if family.bounds_others and family.label() not in labels:
+                found.setdefault(family.label(), (read_as, family, tableau.claims.order(family.name)))
+    return list(found.values())
+
+
+def _beyond(
+    tableau: Tableau, family: Family, ended: FamilyOrder, facts: tuple[Fact, ...], meter: Meter
+) -> FamilyOrder:
+    """Return the order where theorems decide it beyond the end of the search, else ``ended``.
+
+    They bound it from below; from above, the order in another family does, or one condition that fails.
+    """
+    bounding = _bounding(tableau, [family.label()])
+    found = [family_order(read_as, other, claim, meter=meter) for read_as, other, claim in bounding]
+    known = _settled(tableau, family, found, facts)
+    if known is not None:
+        return replace(known, claimed=ended.claimed, required=ended.required)
+    from orderconds.proof.implications import least_order
+
+    orders = _decided(found) if ended.certificate == "decimal" else _proved(found)
+    least = least_order((*facts, *orders.items()), family)
+    failing = first_failing(tableau, family, least + 1) if least >= ended.order else ()
+    return replace(ended, order=least, failing=failing, limit=None, stopped=None) if failing else ended
 
 
 def _bound(family: Family, found: Sequence[FamilyOrder]) -> FamilyOrder | None:
@@ -157,9 +200,14 @@ def _bound(family: Family, found: Sequence[FamilyOrder]) -> FamilyOrder | None:
     return min(bounds, key=lambda f: f.order, default=None)
 
 
+def _decided(found: Sequence[FamilyOrder]) -> dict[str, int]:
+    """Return the orders by label, those that rounded decimals support among them."""
+    return {f.family: f.order for f in found if f.decided}
+
+
 def _proved(found: Sequence[FamilyOrder]) -> dict[str, int]:
     """Return the orders, by label, that are more than what rounded decimals support."""
-    return {f.family: f.order for f in found if f.decided and f.certificate != "decimal"}
+    return _decided([f for f in found if f.certificate != "decimal"])
 
 
 def _settled(
@@ -167,9 +215,21 @@ def _settled(
 ) -> FamilyOrder | None:
     """Return an order that follows from those found before, where it is at least the family's search limit.
 
-    The conditions that fail are those of the family that bounds it from above.
+    The conditions that fail are those of the family that bounds it from above. What follows from orders that
+    decimals support is supported by decimals.
     """
-    known = {f.family: f for f in found if f.decided and f.failing and f.certificate != "decimal"}
+    proved = [f for f in found if f.certificate != "decimal"]
+    settled = _settled_by(tableau, family, proved, facts)
+    if settled is None and len(found) > len(proved):
+        settled = _settled_by(tableau, family, found, facts)
+        return settled and _certified(replace(settled, certificate="decimal"), family, facts)
+    return settled
+
+
+def _settled_by(
+    tableau: Tableau, family: Family, found: Sequence[FamilyOrder], facts: tuple[Fact, ...]
+) -> FamilyOrder | None:
+    known = {f.family: f for f in found if f.decided and f.failing}
     beyond = family.search_limit
     if all(f.order < beyond for f in known.values()):
         return None
@@ -177,11 +237,11 @@ def _settled(
 
     orders = {label: f.order for label, f in known.items()}
     own = family.order_of_tableau(tableau.method, tableau.ring, orders)
-    order = settled((*facts, *orders.items(), (family.label(), own)), orders, family)
+    order = settled((*facts, *_decided(found).items(), (family.label(), own)), orders, family)
     if order is None or order < beyond:
         return None
     bound = min(known.values(), key=lambda f: (f.order != order, f.certificate != "exact"))
-    certificate = "ball" if any(f.certificate == "ball" for f in known.values()) else "exact"
+    certificate = "ball" if any(f.certificate == "ball" for f in found if f.decided) else "exact"
     return FamilyOrder(family.label(), order, certificate, True, bound.failing, None)
 
 

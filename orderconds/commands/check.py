@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import click
 from msgspec import Struct
 
+from orderconds.checking.limits import MAX_CONDITIONS, Limits
 from orderconds.commands import screen
 from orderconds.errors import InputError, TableauError
 from orderconds.input_file import read_text
@@ -21,6 +22,7 @@ from orderconds.processes import in_processes
 
 if TYPE_CHECKING:
     from orderconds.checking import FamilyOrder, Report
+    from orderconds.checking.report import EmbeddedOrder
     from orderconds.proof.certificate import Certificate
     from orderconds.tableau.work import Work
 
@@ -41,6 +43,17 @@ WIDTH = 200
     is_flag=True,
     help="Require an exact or ball certificate for every file not listed in DIR/DECIMAL.",
 )
+@click.option(
+    "--max-conditions",
+    type=click.IntRange(1),
+    help="Stop before more conditions of one order than this; 50000 where left out.",
+)
+@click.option(
+    "--max-seconds", type=click.FloatRange(0, min_open=True), help="Stop each tableau after this time."
+)
+@click.option(
+    "--max-memory", type=click.IntRange(1), help="Stop each tableau above this many megabytes of memory."
+)
 @click.option("--json", "as_json", is_flag=True, help="One list of records on stdout, nothing else.")
 def command(
     tableaux: Sequence[str],
@@ -48,10 +61,13 @@ def command(
     order: int | None,
     complete: bool,
     certified: bool,
+    max_conditions: int | None,
+    max_seconds: float | None,
+    max_memory: int | None,
     as_json: bool,
 ) -> int:
     """Find the exact order and the properties of each tableau: a file, every file below a directory, or a
-    name from the library. A claim is an equality.
+    name from the library. A claim is an equality. Where a limit ends the search the order is a lower bound.
 
     Exits with 0 if all holds, 1 if a claim fails or is undecided, 2 if something could not be read.
     """
@@ -60,6 +76,7 @@ def command(
     if family is not None:
         get(family)  # an unknown family is one error, not one a file
     excused = _excused(tableaux)
+    limits = Limits(max_conditions or MAX_CONDITIONS, max_seconds, max_memory)
     paths = list(_files(tableaux))
     detailed = len(tableaux) == 1 and not os.path.isdir(tableaux[0])
     jobs = [
@@ -69,6 +86,7 @@ def command(
             order=order,
             complete=complete,
             certified=certified and Path(path).stem not in excused,
+            limits=limits,
             as_json=as_json,
             detailed=detailed,
             one_of_many=len(paths) > 1,
@@ -117,6 +135,7 @@ class _Job(Struct, frozen=True):
     order: int | None
     complete: bool
     certified: bool
+    limits: Limits
     as_json: bool
     detailed: bool
     one_of_many: bool
@@ -135,7 +154,12 @@ def _checked(job: _Job) -> _Outcome:
 
     try:
         report = check(
-            job.path, family=job.family, order=job.order, complete=job.complete, certified=job.certified
+            job.path,
+            family=job.family,
+            order=job.order,
+            complete=job.complete,
+            certified=job.certified,
+            limits=job.limits,
         )
     except InputError as error:
         message = str(error)
@@ -197,8 +221,7 @@ def _print_report(report: Report, *, detailed: bool) -> None:
     for broken in report.broken_claims:
         click.echo(f"  claim fails: {broken}")
     if report.embedded is not None:
-        orders = ", ".join(f"{order} ({label})" for label, order in report.embedded.orders.items())
-        click.echo(f"  embedded row: order {orders}")
+        click.echo(f"  embedded row: order {_embedded(report.embedded)}")
     if report.proof is not None:
         click.echo(f"  proof: {_proof(report.proof)}")
     if report.work:
@@ -209,6 +232,14 @@ def _print_report(report: Report, *, detailed: bool) -> None:
         names = [name for name, why in report.undecided.items() if why == reason]
         click.echo(f"  undecided: {', '.join(names)} ({reason})")
     click.echo()
+
+
+def _embedded(embedded: EmbeddedOrder) -> str:
+    """Return the orders of an embedded row and their certificates, each certificate once."""
+    groups: dict[str, list[str]] = {}
+    for label, order in embedded.orders.items():
+        groups.setdefault(embedded.certificates[label], []).append(f"{order} ({label})")
+    return "; ".join(f"{', '.join(orders)}, certificate: {name}" for name, orders in groups.items())
 
 
 def _work(work: dict[str, Work]) -> str:
@@ -250,7 +281,11 @@ def _print_failing(family: FamilyOrder) -> None:
     """Name the conditions that end a family's order, with their residuals."""
     n = family.order + 1
     if family.limit is not None:
-        click.echo(f"  {family.family}: no condition fails up to order {family.limit}, the end of the search")
+        reached = f"{family.family}: no condition fails up to order {family.limit}"
+        if family.stopped is None:
+            click.echo(f"  {reached}, the end of the search")
+        else:
+            click.echo(f"  {reached}; stopped by a limit after {family.stopped} conditions")
         return
     if not family.decided:
         click.echo(f"  {family.family}: the coefficients have too few digits to decide order {n}")

@@ -78,6 +78,8 @@ def _print_text(derivation: Derivation, explain: bool) -> None:
             columns += ("equals",)
             rows = [(*row, c.relation or "") for row, c in zip(rows, conditions, strict=True)]
         screen.print_table(columns, rows, indent=2)
+    if derivation.remark:
+        click.echo(f"\n{derivation.remark}")
 
 
 def _print_entries(derivation: Derivation, order: int) -> None:

@@ -87,8 +87,8 @@ def sheet(entries: Iterable[tuple[Diagram, Sequence[str]]], width: float = 900.0
         y = ground + max(block.under for block in row) + 2 * MARGIN
     height = max(y - MARGIN, 0.0)
     size = f'width="{_number(widest)}" height="{_number(height)}"'
-    view = f'viewBox="0 0 {_number(widest)} {_number(height)}"'
-    head = f'<svg xmlns="http://www.w3.org/2000/svg" {size} {view} fill="none" stroke="currentColor">'
+    view_box = f'viewBox="0 0 {_number(widest)} {_number(height)}"'
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" {size} {view_box} fill="none" stroke="currentColor">'
     return "\n".join([head, *body, "</svg>", ""])
 
 

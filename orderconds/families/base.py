@@ -32,9 +32,6 @@ if TYPE_CHECKING:
 Key = Hashable
 """A family's own encoding of a tree, a forest or a word: the ``key`` of a condition."""
 
-TABLEAU_FORMAT = "rk"
-"""The file format of Butcher tableaux (A, b)."""
-
 Kind = TypeVar("Kind")
 
 
@@ -121,6 +118,18 @@ class Family(ABC):
 
         Raises :class:`~orderconds.errors.ZeroWeight` where the family divides by a weight that is zero.
         """
+
+    def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return those of :meth:`conditions` that follow neither from one another nor from lower ones.
+
+        By default all of them. A family overrides this where its conditions are a generating set that is
+        not independent, and explains the difference in :meth:`remark`.
+        """
+        return self.conditions(order)
+
+    def remark(self, order: int) -> str:
+        """Return what a reader of the conditions up to ``order`` should know; or an empty text."""
+        return ""
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of every tree or word of this order; by default the independent ones."""
@@ -229,7 +238,9 @@ class Family(ABC):
         Raises :class:`~orderconds.errors.InputError` for a family whose coefficients are not numbered by
         stages alone.
         """
-        if self.formats[0] == TABLEAU_FORMAT:
+        from orderconds.tableau.formats import FORMATS, RungeKuttaFile
+
+        if FORMATS.get(self.formats[0]) is RungeKuttaFile:
             return tableau_form(stages, explicit, self.needs_nonzero_weights)
         raise InputError(
             f"family {self.label()} is not written out by a number of stages alone",
@@ -257,6 +268,10 @@ class Family(ABC):
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
         """Return a family with fewer conditions that imply all of this one's for this method, or None."""
+        return None
+
+    def first_unmet(self, order: int) -> OrderCondition | None:
+        """Return the condition that fails first where no member of the family has this order, or None."""
         return None
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:

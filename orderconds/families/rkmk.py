@@ -46,6 +46,10 @@ if TYPE_CHECKING:
     from orderconds.ring.residues import Residues
 
 
+RANKED = 8
+"""The highest order whose essential conditions are computed: ranks take seconds there."""
+
+
 @register
 class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
     """Runge-Kutta-Munthe-Kaas methods, given by a Runge-Kutta tableau.
@@ -82,14 +86,36 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         assert isinstance(key, bytes)
         return longest_word(key)
 
+    def first_unmet(self, order: int) -> OrderCondition | None:
+        """Return the condition of the word ``[.] . ... .``, on which a cut of dexpinv shows first."""
+        if self.cutoff is None or order < 3:
+            return None
+        return self._of([b"\0\1" + b"\0" * (order - 2)])[0]
+
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return those of :meth:`conditions` that do not follow from the others and from lower ones.
 
         They are as many as rooted trees, 1, 1, 2, 4, 9 ..., for dexpinv turns the problem into one on a
         vector space; and at order R + 3 there is one more, which no tableau meets. Computed by ranks
-        (imports NumPy).
+        (imports NumPy) up to order :data:`RANKED`; beyond it all of :meth:`conditions`.
+
+        >>> [len(MuntheKaasFamily().essential_conditions(n)) for n in (1, 2, 3, 4, 5)]
+        [1, 1, 2, 4, 9]
         """
-        return self._of(_essential(self.cutoff, order)[-1])
+        return self.conditions(order) if order > RANKED else self._of(_essential(self.cutoff, order)[-1])
+
+    def remark(self, order: int) -> str:
+        """Return what the conditions of Lyndon words are beside the essential ones."""
+        if order < 3:
+            return ""
+        counts = ", ".join(str(len(lyndon_forests(n))) for n in range(1, min(order, RANKED) + 1))
+        beyond = (
+            f" Beyond order {RANKED} all conditions of Lyndon words are listed." if order > RANKED else ""
+        )
+        return (
+            f"Lyndon words over ordered trees give {counts} conditions of order 1, 2, ...: a generating set "
+            f"for every method on a group. For {self.label()} those listed imply the others.{beyond}"
+        )
 
     def highest_order(self, limit: int) -> int:
         """Return the order that this cut of dexpinv allows at most, or ``limit``: R + 2.

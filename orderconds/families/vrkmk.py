@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, ClassVar
 
+from orderconds.conditions import OrderCondition
 from orderconds.families.action_family import ActionFamily, longest_word
 from orderconds.families.action_formula import ActionFormula, MuntheKaasFormula
 from orderconds.families.base import Key, expect, require_nonzero_weights
@@ -18,7 +19,7 @@ from orderconds.families.registry import register
 from orderconds.ring.protocol import Ring
 from orderconds.series.action import ActionSeries
 from orderconds.series.action_lie import MuntheKaasActionSeries
-from orderconds.series.action_trees import Velocity
+from orderconds.series.action_trees import Velocity, transport, velocity
 from orderconds.tableau.methods import RungeKutta
 from orderconds.tableau.products import Method
 
@@ -55,6 +56,13 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         """Return the length of the longest word in an action tree."""
         assert isinstance(key, Velocity)
         return longest_word(key)
+
+    def first_unmet(self, order: int) -> OrderCondition | None:
+        """Return the condition of the tree ``o(o|L(o ... o))``, on which a cut of dexpinv shows first."""
+        if self.cutoff is None or order < 3:
+            return None
+        leaf = velocity()
+        return self.condition(velocity((leaf,), (transport((leaf,) * (order - 2)),)))
 
     def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
         """Return the series of random full tableaux."""

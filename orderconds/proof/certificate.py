@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from decimal import Decimal
 from fractions import Fraction
 from functools import lru_cache
 
@@ -21,12 +22,24 @@ from orderconds.tableau.unknowns import Proof
 
 
 @dataclass(frozen=True)
+class Misrounded:
+    """A decimal whose digits are not those of the solution: its name, the digits given, the right ones."""
+
+    name: str
+    given: str
+    solution: str
+
+    def __str__(self) -> str:
+        return f"{self.name} = {self.given}~ is not the solution, which rounds to {self.solution}~"
+
+
+@dataclass(frozen=True)
 class Certificate:
     """A proved solution near the decimals of a file.
 
     ``tableau`` has its coefficients, over balls; ``facts`` the orders that the equations imply. ``radius``
     bounds how far any decimal is from the solution; ``printed`` says the same of each number as its source
-    prints it.
+    prints it. ``misrounded`` names the decimals that are not the solution rounded to their last digit.
     """
 
     tableau: Tableau
@@ -34,6 +47,7 @@ class Certificate:
     equations: int
     radius: str
     printed: dict[str, str] = field(default_factory=dict)
+    misrounded: tuple[Misrounded, ...] = ()
 
     def as_json(self) -> dict[str, object]:
         """Return the JSON object of a proof."""
@@ -50,17 +64,18 @@ class Certificate:
         }
 
 
-def certify(tableau: Tableau) -> Certificate:
+def certify(tableau: Tableau, bits: int = 256) -> Certificate:
     """Prove that the decimals of ``tableau`` stand for a solution of its equations.
 
-    Raises :class:`~orderconds.proof.krawczyk.NotProved` with what is missing.
+    The solution is enclosed to ``bits`` binary digits, to more where the file has more. Raises
+    :class:`~orderconds.proof.krawczyk.NotProved` with what is missing.
 
     >>> from orderconds.tableau import find
     >>> found = certify(Tableau.load(find("cg4a")))
     >>> found.facts, found.equations
     ((('cg', 4),), 13)
     """
-    found = _certify(_Key(tableau))
+    found = _certify(_Key(tableau), bits)
     return replace(found, tableau=replace(found.tableau, path=tableau.path))
 
 
@@ -78,12 +93,16 @@ class _Key:
 
 
 @lru_cache(maxsize=8)
-def _certify(key: _Key) -> Certificate:
+def _certify(key: _Key, least: int) -> Certificate:
     tableau = key.tableau
     proof = tableau.proof
     if proof is None:
         raise NotProved("the file names no equations")
-    bits = max(256, 64 + 4 * max(len(str(u.constant.unit.denominator)) for u in proof.unknowns))
+    if not proof.unknowns:
+        raise NotProved(
+            'pins name every decimal, so that none is left as an unknown; pin fewer, or leave out "~"'
+        )
+    bits = max(least, 64 + 4 * max(len(str(u.constant.unit.denominator)) for u in proof.unknowns))
     system = equations(tableau)
     with precision(bits):
         box = [
@@ -130,7 +149,25 @@ def _certificate(
         equations=count,
         radius=rational_decimal(max(distances), 3),
         printed=printed,
+        misrounded=tuple(_misrounded(proof, solution)),
     )
+
+
+def _misrounded(proof: Proof, solution: Sequence[arb]) -> Iterator[Misrounded]:
+    """Yield the decimals that are more than half a unit of their last digit away from the solution."""
+    for unknown, x in zip(proof.unknowns, solution, strict=True):
+        given, unit = _fmpq(unknown.constant.value), _fmpq(unknown.constant.unit)
+        low, high = endpoints(x)
+        if low <= given + unit / 2 and high >= given - unit / 2:
+            continue
+        nearest = ((low + high) / 2 / unit + fmpq(1, 2)).floor() * unit
+        yield Misrounded(unknown.name, *(_decimal(value, unit) for value in (given, nearest)))
+
+
+def _decimal(value: fmpq, unit: fmpq) -> str:
+    """Return a multiple of ``unit``, a power of ten, with the digits down to it."""
+    places = len(str(unit.q)) - 1
+    return f"{Decimal(int((value / unit).p)).scaleb(-places):f}" if places else str(value)
 
 
 def _distance(x: arb, to: fmpq) -> fmpq:

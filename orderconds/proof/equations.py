@@ -78,13 +78,7 @@ class Equations:
         family = families.get(self.proof.conditions)
         if self.proof.reduction == "symmetric":
             family = families.get(self.tableau.family).symmetric_family(method) or family
-        read = family.read(replace(self.tableau, ring=ring, method=method))
-        if read is None:
-            raise InputError(
-                f"conditions = {self.proof.conditions!r}",
-                where=f"{self.tableau.path or self.tableau.name}: proof",
-                expected=f"a family that reads format {self.tableau.family}",
-            )
+        read = _read(family, replace(self.tableau, ring=ring, method=method), self.proof)
         conditions = self._conditions(family)
         wanted = conditions if places is None else [conditions[i] for i in places]
         return list(family.residuals(read, ring, wanted))
@@ -95,6 +89,17 @@ class Equations:
         return _up_to(
             family.label(), self.proof.order, 2 if self.proof.reduction == "symmetric" else 1, self.letters
         )
+
+
+def _read(family: Family, tableau: Tableau, proof: Proof) -> Method:
+    method = family.read(tableau)
+    if method is None:
+        raise InputError(
+            f"conditions = {proof.conditions!r}",
+            where=f"{tableau.path or tableau.name}: proof",
+            expected=f"a family that reads format {tableau.family}",
+        )
+    return method
 
 
 @lru_cache(maxsize=8)
@@ -154,7 +159,7 @@ def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
         return candidates
 
     def read(method: Method, ring: Ring) -> Method:
-        return replace(tableau, ring=ring, method=method).read_as(family.formats) or method
+        return _read(family, replace(tableau, ring=ring, method=method), proof)
 
     return independent_conditions(family, proof.spelled, proof.order, read)
 
@@ -205,8 +210,9 @@ def _reached(proof: Proof, order: int) -> int:
 def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
     """Return the places of the equations that are not satisfied identically, whatever the unknowns are.
 
-    Those that a box cannot tell from constants are evaluated as polynomials in the unknowns; one that is
-    the zero polynomial is left out. ``values`` are those over the box, as jets.
+    Those that a box cannot tell from constants are evaluated exactly with random numbers in place of the
+    unknowns (:mod:`orderconds.tableau.random_member`); one that is zero there is left out. ``values`` are
+    those over the box, as jets.
 
     >>> from flint import arb
     >>> from orderconds.ring.jets import Jets
@@ -220,12 +226,12 @@ def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
     flat = [i for i, f in enumerate(values) if f.value.contains(0) and all(g.contains(0) for g in f.gradient)]
     if not flat:
         return list(range(len(values)))
-    from orderconds.tableau.indeterminates import OUTSIDE, Indeterminates
+    from orderconds.tableau.random_member import OUTSIDE, RandomMember
 
-    R = Indeterminates(system.proof.spelled)
+    R = RandomMember(system.proof.spelled)
     try:
-        exact = system([R.variable(u) for u in system.proof.unknowns], R, flat)
+        exact = system([R.variable(u.constant) for u in system.proof.unknowns], R, flat)
     except OUTSIDE:
-        return list(range(len(values)))  # radicals or quotients of unknowns
+        return list(range(len(values)))
     identical = {i for i, x in zip(flat, exact, strict=True) if R.is_zero(x)}
     return [i for i in range(len(values)) if i not in identical]

@@ -1,6 +1,6 @@
 """Laurent polynomials over Q: polynomials in which monomials, as the weights b_i, may be divided by.
 
-Families that divide by b_i (SPRK, VCG) are written out for a fixed number of stages over this ring. An
+Families that divide by b_i (SPRK, VCG) are expanded for a fixed number of stages over this ring. An
 element is a flint polynomial over a monomial without common factor, so equal elements are equal pairs.
 """
 

@@ -1,4 +1,4 @@
-"""Polynomials over Q in named variables: conditions of a fixed number of stages, written out.
+"""Polynomials over Q in named variables: conditions expanded for a fixed number of stages.
 
 Elements are flint's fmpq_mpoly, unwrapped; variables and monomials are ordered as the names are given.
 """

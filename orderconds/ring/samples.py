@@ -140,19 +140,27 @@ def _plain(x: Element) -> Element:
     return x.polynomial if isinstance(x, Sample) else int(x)
 
 
-def pivots(columns: Sequence[Sequence[int]], prime: int) -> tuple[int, ...]:
-    """Return the places of the columns that are no combination of earlier ones modulo ``prime``.
+def echelon(
+    columns: Sequence[Sequence[int]], prime: int
+) -> tuple[tuple[int, ...], dict[int, dict[int, int]]]:
+    """Return the places of the columns that are no combination of earlier ones modulo ``prime``: pivots.
 
-    >>> pivots([[1, 1], [2, 2], [1, 3], [4, 6]], 101)
-    (0, 2)
+    With them every other column as a combination of pivots: column to {pivot: residue}.
+
+    >>> echelon([[1, 1], [2, 2], [1, 3], [4, 6]], 101)
+    ((0, 2), {1: {0: 2}, 3: {0: 3, 2: 1}})
     """
     if not columns:
-        return ()
+        return (), {}
     height = len(columns[0])
     matrix = nmod_mat(height, len(columns), [column[i] for i in range(height) for column in columns], prime)
     reduced, rank = matrix.rref()
-    places: list[int] = []
+    pivots: list[int] = []
+    dependent: dict[int, dict[int, int]] = {}
     for column in range(len(columns)):
-        if len(places) < rank and int(reduced[len(places), column]):
-            places.append(column)
-    return tuple(places)
+        if len(pivots) < rank and int(reduced[len(pivots), column]):
+            pivots.append(column)
+        else:
+            entries = ((pivot, int(reduced[row, column])) for row, pivot in enumerate(pivots))
+            dependent[column] = {pivot: value for pivot, value in entries if value}
+    return tuple(pivots), dependent

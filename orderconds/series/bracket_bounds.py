@@ -83,8 +83,8 @@ def _needed(algebra: GradedAlgebra, span: Sequence[Mapping[Word, Element]], firs
             {(*w, n): value for n, p in factors.items() for w, value in beyond_lie(algebra, p).items()}
         )
     nested = [{word: v for word, v in x.items() if len(word) > 1 and max(word) >= first} for x in span]
-    once = _rank(ring, parts)
-    return max(_rank(ring, nested), once + (0 < once == _rank(ring, beyond)))
+    single = _rank(ring, parts)
+    return max(_rank(ring, nested), single + (0 < single == _rank(ring, beyond)))
 
 
 def _rank(ring: Ring, columns: Sequence[Polynomial]) -> int:

@@ -1,8 +1,8 @@
 """The group of steps: composition, inverse and adjoint of B-series and of Lie-Butcher series.
 
-A step is a character: its value on several pieces is the product of its values on each, and on the empty one
-it is 1. It is a function of canonical rooted trees (B-series, a(t) = sum_i b_i tau_t(i), so that y1 = y0 +
-sum h^|t| a(t)/sigma(t) F(t)) or of ordered forests (Lie-Butcher, see :mod:`orderconds.series.lie_butcher`).
+A step is a character: its value on several components is the product of its values on each, and on the empty
+one it is 1. It is a function of canonical rooted trees (B-series, a(t) = sum_i b_i tau_t(i), so that y1 = y0
++ sum h^|t| a(t)/sigma(t) F(t)) or of ordered forests (Lie-Butcher, see :mod:`orderconds.series.lie_butcher`).
 """
 
 from __future__ import annotations
@@ -103,16 +103,16 @@ class Character:
         return Character(self.ring, self.algebra, value)
 
     def _sum(self, forest: bytes, other: Character, whole: bool) -> Element:
-        """Sum over cuts this step's values on the pieces times ``other``'s on the rest.
+        """Sum over cuts this step's values on the components times ``other``'s on the rest.
 
         Without ``whole`` the cut that cuts nothing off is left out.
         """
         result = self.ring.zero
-        for pieces, rest in self.algebra.cuts(forest):
-            if pieces or whole:
+        for components, rest in self.algebra.cuts(forest):
+            if components or whole:
                 term = other(rest)
-                for piece in pieces:
-                    term = term * self(piece)
+                for component in components:
+                    term = term * self(component)
                 result = result + term
         return result
 

@@ -1,9 +1,9 @@
 """Admissible cuts of trees and forests, over which the series of two steps in sequence is a sum.
 
-A cut of a tree or forest leaves a rest, which holds the roots, and pieces above it. Unordered trees may be
-cut at any edges of which no two lie on one path (Connes and Kreimer 1998; HLW III.1.4, ordered subtrees).
+A cut of a tree or forest leaves a rest, which holds the roots, and components above it. Unordered trees may
+be cut at any edges of which no two lie on one path (Connes and Kreimer 1998; HLW III.1.4, ordered subtrees).
 Ordered forests are cut so that at every vertex, and among the roots, the branches cut off are leftmost and
-form one piece (left admissible cuts: Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+form one component (left admissible cuts: Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from itertools import product
 from orderconds.trees.levels import Forest, Tree, branches, children, rooted_at_new_vertex, trees_of
 
 Cut = tuple[tuple[bytes, ...], bytes]
-"""The pieces and the rest, which is empty when everything is cut off."""
+"""The components and the rest, which is empty when everything is cut off."""
 
 Cuts = Callable[[bytes], tuple[Cut, ...]]
 
@@ -31,9 +31,9 @@ def tree_cuts(tree: Tree) -> tuple[Cut, ...]:
         return (((), b""),)
     cuts = []
     for choice in product(*map(tree_cuts, children(tree))):
-        pieces = tuple(piece for cut, _ in choice for piece in cut)
+        components = tuple(component for cut, _ in choice for component in cut)
         cuts.append(
-            (pieces, rooted_at_new_vertex(b"".join(sorted((rest for _, rest in choice), reverse=True))))
+            (components, rooted_at_new_vertex(b"".join(sorted((rest for _, rest in choice), reverse=True))))
         )
     return (*cuts, ((tree,), b""))
 
@@ -50,6 +50,6 @@ def left_cuts(forest: Forest) -> tuple[Cut, ...]:
     for cut in range(len(trees) + 1):
         off = (b"".join(trees[:cut]),) if cut else ()
         for choice in product(*(left_cuts(branches(tree)) for tree in trees[cut:])):
-            pieces = tuple(piece for above, _ in choice for piece in above)
-            cuts.append((off + pieces, b"".join(rooted_at_new_vertex(rest) for _, rest in choice)))
+            components = tuple(component for above, _ in choice for component in above)
+            cuts.append((off + components, b"".join(rooted_at_new_vertex(rest) for _, rest in choice)))
     return tuple(cuts)

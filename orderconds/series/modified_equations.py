@@ -1,7 +1,7 @@
 """Backward error analysis: the differential equation that a method solves exactly, and its Hamiltonian.
 
 A step with values a is the flow over h of a field f~ = f + h f_2 + ... with values b, where a = exp(b) in the
-sense of composition: a = sum_j (1/j!) L^(j-1) b, L acting by cuts with one piece (HLW IX.9.1; on ordered
+sense of composition: a = sum_j (1/j!) L^(j-1) b, L acting by cuts with one component (HLW IX.9.1; on ordered
 forests Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
 """
 
@@ -70,9 +70,9 @@ class VectorField:
             return self.ring.zero
         if (n, forest) not in self._powers:
             result = self.ring.zero
-            for pieces, rest in self.algebra.cuts(forest):
-                if len(pieces) == 1 and rest:
-                    result = result + self(pieces[0]) * self._power(n - 1, rest)
+            for components, rest in self.algebra.cuts(forest):
+                if len(components) == 1 and rest:
+                    result = result + self(components[0]) * self._power(n - 1, rest)
             self._powers[n, forest] = result
         return self._powers[n, forest]
 

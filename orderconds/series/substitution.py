@@ -1,9 +1,9 @@
 """Substitution: the series of a step when the field f is replaced by another one that is a series itself.
 
-For B-series a tree is parted in connected pieces, which the field values, and the tree that remains when each
-piece shrinks to a vertex, which the step values (Chartier, Hairer and Vilmart, Found. Comput. Math. 10 (2010)
-407, Theorem 3.2). For Lie-Butcher series f -> f~ extends to forests by concatenation and left grafting
-(Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
+For B-series a tree is parted in connected components, which the field values, and the tree that remains when
+each component shrinks to a vertex, which the step values (Chartier, Hairer and Vilmart, Found. Comput. Math.
+10 (2010) 407, Theorem 3.2). For Lie-Butcher series f -> f~ extends to forests by concatenation and left
+grafting (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ def modifying_field(step: Character) -> VectorField:
     field = VectorField(step.ring, ROOTED, lambda tree: step.ring.zero)
 
     def value(tree: Tree) -> Element:
-        # In the whole tree as one piece the step has the value 1, so that this term is the field's.
+        # In the whole tree as one component the step has the value 1, so that this term is the field's.
         return flow(tree) - _by_partitions(field, step, tree, whole=False)
 
     field.define(value)
@@ -85,48 +85,48 @@ def modifying_field(step: Character) -> VectorField:
 
 
 def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bool = True) -> Element:
-    """Sum over the partitions of a tree; without ``whole`` the tree as one piece is left out."""
+    """Sum over the partitions of a tree; without ``whole`` the tree as one component is left out."""
     result = field.ring.zero
-    for pieces, skeleton in partitions(tree):
-        if len(pieces) == 1 and not whole:
+    for components, skeleton in partitions(tree):
+        if len(components) == 1 and not whole:
             continue
         term = step(skeleton)
-        for piece in pieces:
-            term = term * field(piece)
+        for component in components:
+            term = term * field(component)
         result = result + term
     return result
 
 
 @lru_cache(maxsize=1 << 12)
 def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
-    r"""Return the pieces and the skeleton of a canonical tree for each set of edges that may be taken away.
+    r"""Return the components and the skeleton of a canonical tree for each set of cut edges.
 
     >>> partitions(b"\0\1")
     (((b'\x00\x01',), b'\x00'), ((b'\x00', b'\x00'), b'\x00\x01'))
     """
     parts = []
     for choice in product((False, True), repeat=len(tree) - 1):
-        root, pieces, skeleton, _ = _parted(tree, choice)
-        parts.append(((root, *pieces), skeleton))
+        root, components, skeleton, _ = _parted(tree, choice)
+        parts.append(((root, *components), skeleton))
     return tuple(parts)
 
 
 def _parted(tree: Tree, cut: tuple[bool, ...]) -> tuple[Tree, list[Tree], Tree, tuple[bool, ...]]:
-    """Return the root's piece, the others and the skeleton; one flag of ``cut`` for each edge in preorder."""
+    """Return the component of the root, the others and the skeleton; ``cut`` flags the edges in preorder."""
     attached: list[Tree] = []
-    pieces: list[Tree] = []
+    components: list[Tree] = []
     skeletons: list[Tree] = []
     for child in children(tree):
         taken, cut = cut[0], cut[1:]
         root, others, skeleton, cut = _parted(child, cut)
-        pieces += others
+        components += others
         if taken:
-            pieces.append(root)
+            components.append(root)
             skeletons.append(skeleton)
         else:
             attached.append(root)
             skeletons += children(skeleton)
-    return _tree(attached), pieces, _tree(skeletons), cut
+    return _tree(attached), components, _tree(skeletons), cut
 
 
 def _tree(below: list[Tree]) -> Tree:

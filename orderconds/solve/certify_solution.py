@@ -32,8 +32,8 @@ from orderconds.solve.search import CHEAP, POLISHED
 from orderconds.solve.tape import Floats
 from orderconds.tableau import CommutatorFree, Method, Stage, Tableau, dumps
 from orderconds.tableau.grammar import Constant
-from orderconds.tableau.indeterminates import radicals
 from orderconds.tableau.properties import properties
+from orderconds.tableau.random_member import radicals
 from orderconds.tableau.record import Claims, OrderClaim
 from orderconds.tableau.toml_text import toml_text
 from orderconds.tableau.write import written_out

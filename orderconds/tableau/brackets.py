@@ -9,20 +9,15 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping
 from functools import cache
-from typing import Union
 
 from msgspec import Struct
 
 from orderconds.errors import TableauError
 from orderconds.ring.protocol import Element, Ring
 
-Term = Union[int, str, "Bracket", "Product"]
-"""A node (counted from 0), a named element, a bracket or a product."""
 Nodes = tuple[int, ...]
 NodeSeries = dict[Nodes, Element]
 """Coefficients of words of nodes in the order of action: (i, j) is the product A_j A_i."""
-Combination = tuple[tuple[Term, Element], ...]
-"""Terms, each with its coefficient."""
 
 MAX_DEPTH = 12
 _TOKEN = re.compile(r"\s*(?:([0-9]{1,3})|([A-Za-z_]\w*)|([\[\],*]))", re.ASCII)
@@ -47,6 +42,12 @@ class Product(Struct, frozen=True):
     """
 
     factors: tuple[Term, ...]
+
+
+Term = int | str | Bracket | Product
+"""A node (counted from 0), a named element, a bracket or a product."""
+Combination = tuple[tuple[Term, Element], ...]
+"""Terms, each with its coefficient."""
 
 
 def parse(text: str, where: str) -> Term:

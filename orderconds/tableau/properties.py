@@ -64,9 +64,9 @@ def _symmetric_by_spelling(tableau: Tableau) -> Verdict:
     """Say whether a product is symmetric whatever its decimals stand for; None where that does not tell."""
     if tableau.proof is None:
         return None
-    from orderconds.tableau.indeterminates import OUTSIDE, Indeterminates
+    from orderconds.tableau.random_member import OUTSIDE, RandomMember
 
-    ring = Indeterminates(tableau.proof.spelled)
+    ring = RandomMember(tableau.proof.spelled)
     try:
         method = ring.method()
     except OUTSIDE:

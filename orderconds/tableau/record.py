@@ -136,10 +136,8 @@ class Tableau:
         for wanted in formats:
             if wanted == self.family:
                 return method
-            if wanted == "rk" and isinstance(method, Composition | AdjointComposition):
-                return method.as_runge_kutta(self.ring)
-            if wanted == "splitting" and isinstance(method, AdjointComposition):
-                return method.as_splitting()
+            if wanted in READINGS and (read := READINGS[wanted](method, self.ring)) is not None:
+                return read
         return None
 
     def abelian(self) -> RungeKutta:
@@ -158,3 +156,15 @@ class Tableau:
             where=self.path or self.name,
             expected="format rk, prk, cf or composition",
         )
+
+
+def _composed(method: Method, ring: Ring) -> Method | None:
+    return method.as_runge_kutta(ring) if isinstance(method, Composition | AdjointComposition) else None
+
+
+def _flows(method: Method, ring: Ring) -> Method | None:
+    return method.as_splitting() if isinstance(method, AdjointComposition) else None
+
+
+READINGS: dict[str, Callable[[Method, Ring], Method | None]] = {"rk": _composed, "splitting": _flows}
+"""File format to the function that reads methods of other formats in it; None for those it does not read."""

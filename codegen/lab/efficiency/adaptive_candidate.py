@@ -66,13 +66,13 @@ class AdaptiveCandidate(EmittedCandidate):
         first, last = map(float, self.scene.span)
         statistics = Statistics()
         try:
-            found = self.arrive(control, statistics)
-            error = distance(self.scene, found.state, self.exact.state)
+            arrival = self.arrive(control, statistics)
+            error = distance(self.scene, arrival.state, self.exact.state)
             if not math.isfinite(error):
                 raise RunFailed("the final state is not finite")
         except ArithmeticError as failure:
             return replace(self._row(control, 0.0, 0, failure=str(failure)), h=None, steps=None)
         times = self._net(samples(lambda: self.arrive(control)), lambda: self.arrive(math.inf))
-        tried, made = found.accepted + found.rejected, found.accepted
-        row = self._row(control, (last - first) / made, tried, error, times, statistics)
-        return replace(row, steps=made, ns_per_step=1e9 * times[0] / made)
+        tried, accepted = arrival.accepted + arrival.rejected, arrival.accepted
+        row = self._row(control, (last - first) / accepted, tried, error, times, statistics)
+        return replace(row, steps=accepted, ns_per_step=1e9 * times[0] / accepted)

@@ -164,12 +164,12 @@ def table(rows: Sequence[Row]) -> str:
 
 def curves(result: Result) -> list[Curve]:
     """Return error against CPU time of every candidate with at least one successful run."""
-    found = []
+    drawn = []
     for label, rows in result.entries.items():
         points = [(r.seconds, r.error) for r in rows if r.error and r.seconds]
         if points:
-            found.append(Curve(label, tuple(points), peer=rows[0].target == "peer"))
-    return found
+            drawn.append(Curve(label, tuple(points), peer=rows[0].target == "peer"))
+    return drawn
 
 
 def picture(result: Result) -> str:

@@ -37,7 +37,7 @@ from codegen.scene.problem import Problem
 class EmittedCandidate:
     """A method emitted to a target, compiled, and run over the span in equal steps.
 
-    ``made`` is the compiled method if there is one already; its emission then takes almost no time.
+    ``precompiled`` is the compiled method if there is one already; its emission then takes almost no time.
     """
 
     scene: Problem
@@ -45,14 +45,14 @@ class EmittedCandidate:
     exact: Reference
     target: str = "c"
     budget: float = BUDGET
-    made: Compiled | None = None
+    precompiled: Compiled | None = None
 
     def __post_init__(self) -> None:
         start = time.perf_counter()
-        self.compiled: Compiled = self.made or compile_method(self.scene, self.method)
+        self.compiled: Compiled = self.precompiled or compile_method(self.scene, self.method)
         self.runner = Emitted(self.compiled, self.target, certified_order(self.method, self.scene))
         self.label = self.method.label
-        self.key = repr(sorted(self.runner.emission.manifest["files"].items()))
+        self.key = repr(sorted(self.runner.artifact.manifest["files"].items()))
         self.emission_seconds = time.perf_counter() - start
         self.compile_seconds = 0.0
         self.overhead = math.inf
@@ -64,7 +64,7 @@ class EmittedCandidate:
     def prepare(self) -> None:
         """Compile outside the cache, so that the time is the compiler's, then load."""
         if self.target == "c":
-            self.compile_seconds = _compile_seconds(self.runner.emission.files)
+            self.compile_seconds = _compile_seconds(self.runner.artifact.files)
         self.runner.final(0)
 
     def measure(self, control: float) -> Row:

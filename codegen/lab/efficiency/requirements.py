@@ -42,17 +42,17 @@ class Features:
     lines: int
 
 
-def features(compiled: Compiled, emission: Artifact, label: str = "") -> Features:
+def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Features:
     """Return the properties of a method as emitted to C; ``label`` is by default that of the method."""
-    source = emission.files[f"{emission.manifest['module']}.c"]
-    found = re.search(r"stack: +at most (\d+) bytes", source)
+    source = artifact.files[f"{artifact.manifest['module']}.c"]
+    stack = re.search(r"stack: +at most (\d+) bytes", source)
     return Features(
         label or compiled.method.label,
         compiled.method.kind.keeps_manifold or compiled.scene.group.abelian,
         is_symplectic(compiled),
         not compiled.kernel.loops,
         compiled.method.adaptive,
-        int(found[1]) if found else 0,
+        int(stack[1]) if stack else 0,
         source.count("\n"),
     )
 
@@ -107,13 +107,13 @@ class Advice:
 def advise(entries: Mapping[str, Sequence[Row]], known: Sequence[Features]) -> tuple[Advice, ...]:
     """Return the advice for every requirement, and last for peers if some ran."""
     ours = [(need, [f.label for f in known if need.met(f) and f.label in entries]) for need in NEEDS]
-    found = [Advice(need.name, need.meaning, _best(entries, labels)) for need, labels in ours]
+    advice = [Advice(need.name, need.meaning, _best(entries, labels)) for need, labels in ours]
     peers = [label for label, rows in entries.items() if rows and rows[0].target == "peer"]
     if peers:
-        found.append(
+        advice.append(
             Advice("a peer, for comparison", "other software on the same equations", _best(entries, peers))
         )
-    return tuple(found)
+    return tuple(advice)
 
 
 def _best(

@@ -98,15 +98,15 @@ class Increments:
     def __init__(self, kernel: Kernel) -> None:
         self.values = {let.name: let.value for let in kernel.lets()}
         self.space = kernel.outputs[0].space
-        self.found: dict[tuple[int, str], Expr | None] = {}
+        self.increments: dict[tuple[int, str], Expr | None] = {}
         self.factors: dict[int, Expr | None] = {}
 
     def of(self, e: Expr, name: str) -> Expr | None:
         """Return e minus the symbol ``name``; None if e does not have the form symbol + increment."""
         key = (e.id, name)
-        if key not in self.found:
-            self.found[key] = self._of(e, name)
-        return self.found[key]
+        if key not in self.increments:
+            self.increments[key] = self._of(e, name)
+        return self.increments[key]
 
     def _of(self, e: Expr, name: str) -> Expr | None:
         if e.op == "sym":

@@ -91,48 +91,48 @@ def long_run(
     """
     scene, runner = compiled.scene, Emitted(compiled, "c")
     first = float(scene.span[0])
-    found = record(scene, runner.integrator, runner.initial, h, steps, first)
-    failure = found.failure
+    trajectory = record(scene, runner.integrator, runner.initial, h, steps, first)
+    failure = trajectory.failure
     reversals: tuple[tuple[int, float], ...] = ()
     if back and not failure:
         try:
-            reversals = _reversals(runner, found, h)
+            reversals = _reversals(runner, trajectory, h)
         except StepFailed as failed:
             failure = f"in the run back, {failed}"
-    middle = len(found.states) // 2
+    middle = len(trajectory.states) // 2
     symplectic = None
     if scene.is_hamiltonian and not failure:
         with suppress(NotConverged):
-            symplectic = symplectic_defect(compiled, found.states[middle], h)
-    starts = [(first, runner.initial), (found.times[middle], found.states[middle])]
+            symplectic = symplectic_defect(compiled, trajectory.states[middle], h)
+    starts = [(first, runner.initial), (trajectory.times[middle], trajectory.states[middle])]
     conserved = tuple(exactly_conserved(compiled, starts, h))
     growth: tuple[Growth, ...] = ()
     if rounding and not failure:
         growth = rounding_growth(compiled, h, min(steps, ROUNDING_STEPS))
-    kept = _kept(found, conserved)
+    kept = _kept(trajectory, conserved)
     return LongRun(
-        scene.name, compiled.method.label, h, found.steps, kept, reversals, symplectic, failure, growth
+        scene.name, compiled.method.label, h, trajectory.steps, kept, reversals, symplectic, failure, growth
     )
 
 
-def _reversals(runner: Emitted, found: Trajectory, h: float) -> tuple[tuple[int, float], ...]:
+def _reversals(runner: Emitted, trajectory: Trajectory, h: float) -> tuple[tuple[int, float], ...]:
     """Return numbers of steps, and the distance from the initial state after as many steps back."""
     reversals = []
-    for k in (len(found.counts) // 100, len(found.counts) - 1):
-        n = found.counts[k]
-        end = runner.integrator.run(found.states[k], -h, n, found.times[k])
+    for k in (len(trajectory.counts) // 100, len(trajectory.counts) - 1):
+        n = trajectory.counts[k]
+        end = runner.integrator.run(trajectory.states[k], -h, n, trajectory.times[k])
         reversals.append((n, distance(runner.compiled.scene, end, runner.initial)))
     return tuple(reversals)
 
 
-def _kept(found: Trajectory, conserved: Collection[str]) -> tuple[Kept, ...]:
+def _kept(trajectory: Trajectory, conserved: Collection[str]) -> tuple[Kept, ...]:
     """Return the quantities with their drifts; all of the deviation of a ``conserved`` one is rounding."""
-    elapsed = [t - found.times[0] for t in found.times[1:]]
+    elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
     if len(elapsed) < 2 * BLOCKS:
         return ()
-    bound = rounding_bound(found.steps, 2.0**-52, 1.0)
+    bound = rounding_bound(trajectory.steps, 2.0**-52, 1.0)
     kept = []
-    for name, series in found.series.items():
+    for name, series in trajectory.series.items():
         deviations, peaks = series.relative()
         drift = fit(elapsed, deviations, peaks, math.inf if name in conserved else bound)
         kept.append(Kept(name, tuple(elapsed), tuple(deviations), tuple(peaks), drift))

@@ -22,8 +22,8 @@ from codegen.ir.domain import NotConverged, PreciseDomain
 from codegen.lab.invariants import MANIFOLD, expressions
 from codegen.lab.long_runs.compensated import compensated
 from codegen.lab.long_runs.drift import CONFIDENCE
+from codegen.lab.number_types import Evaluate, Vector
 from codegen.lab.runner import Emitted
-from codegen.lab.scalars import Evaluate, Vector
 from codegen.lab.stability.extreme_steps import DIGITS, precise_step
 from codegen.lab.straight_line_field import straight_line
 from codegen.loader import Integrator, StepFailed, load
@@ -93,7 +93,7 @@ def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, .
     with suppress(MethodError):
         runs.append((True, load(emit_compiled(compensated(compiled), "c"))))
     counts = [steps >> k for k in reversed(range(TIMES)) if steps >> k]
-    found = []
+    growths = []
     try:
         starts = _starts(runs[-1], plain.initial, first, h)
         kept = exactly_conserved(compiled, (starts[0], starts[-1]), h)
@@ -103,10 +103,10 @@ def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, .
             ]
             for name in kept:
                 sizes = [[row[name] for row in member] for member in deviations]
-                found.append(_growth(name, carried, counts, sizes))
+                growths.append(_growth(name, carried, counts, sizes))
     except StepFailed:
         return ()
-    return tuple(sorted(found, key=lambda g: (list(kept).index(g.quantity), g.compensated)))
+    return tuple(sorted(growths, key=lambda g: (list(kept).index(g.quantity), g.compensated)))
 
 
 def _starts(
@@ -117,12 +117,12 @@ def _starts(
     A start that is off the manifold keeps its distance while it rotates, so starts must be accurate.
     """
     carried, integrator = run
-    size, found = len(initial), []
+    size, starts = len(initial), []
     state = [*initial, *([0.0] * size if carried else [])]
     for k in range(STARTS):
-        found.append((t + k * APART * h, state[:size]))
+        starts.append((t + k * APART * h, state[:size]))
         state = integrator.run(state, h, APART, t + k * APART * h)
-    return found
+    return starts
 
 
 def exactly_conserved(

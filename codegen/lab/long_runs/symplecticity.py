@@ -15,8 +15,8 @@ import numpy
 from codegen.emitter import Compiled
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.interpret import flatten, interpret
+from codegen.lab.number_types import Scalar, Vector
 from codegen.lab.runner import split_state
-from codegen.lab.scalars import Scalar, Vector
 from codegen.lower import problem_for
 
 DIGITS = 60
@@ -71,12 +71,12 @@ def symplectic_defect(compiled: Compiled, state: Sequence[float], h: float, t: f
 def _step(
     compiled: Compiled, domain: PreciseDomain, q: Vector, mu: Vector, t: Scalar
 ) -> tuple[Vector, Vector]:
-    view = problem_for(compiled.scene, compiled.method)
-    values: dict[str, Scalar] = {"t": t, **split_state(view, (*q, *mu))}
+    problem = problem_for(compiled.scene, compiled.method)
+    values: dict[str, Scalar] = {"t": t, **split_state(problem, (*q, *mu))}
     program = compiled.program
     inputs = {v.name: values[v.name] for v in program.inputs}
-    found = interpret(program, view, domain, inputs, limit=SWEEPS, newton=False)
-    state = tuple(x for block in view.state for x in flatten(block.kind, found[block.name]))
+    outputs = interpret(program, problem, domain, inputs, limit=SWEEPS, newton=False)
+    state = tuple(x for block in problem.state for x in flatten(block.kind, outputs[block.name]))
     return state[: len(q)], state[len(q) :]
 
 

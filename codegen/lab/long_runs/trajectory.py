@@ -14,7 +14,7 @@ from typing import TypeAlias
 import numpy
 
 from codegen.lab.invariants import MANIFOLD, expressions
-from codegen.lab.scalars import Evaluate
+from codegen.lab.number_types import Evaluate
 from codegen.lab.straight_line_field import straight_line
 from codegen.loader import Integrator, StepFailed
 from codegen.scene.problem import Problem
@@ -73,19 +73,19 @@ def record(
     state = numpy.array(initial, dtype=float)
     start = {name: f(state[:, None], numpy.array([first]))[:, 0] for name, f in evaluate.items()}
     series = {name: Series(0.0 if name == MANIFOLD else float(x[0])) for name, x in start.items()}
-    found = Trajectory([first], [list(initial)], series)
-    while found.steps < steps and not found.failure:
-        count = min(chunk, steps - found.steps)
-        t = first + h * found.steps
+    trajectory = Trajectory([first], [list(initial)], series)
+    while trajectory.steps < steps and not trajectory.failure:
+        count = min(chunk, steps - trajectory.steps)
+        t = first + h * trajectory.steps
         try:
             rows = integrator.trajectory(state, h, count, 1, t)
         except StepFailed as failed:
-            found.failure = f"step {found.steps + failed.step + 1}: {failed.reason}"
+            trajectory.failure = f"step {trajectory.steps + failed.step + 1}: {failed.reason}"
             count = failed.step
             rows = integrator.trajectory(state, h, count, 1, t)
-        _append(found, rows, first, h, stride, evaluate)
+        _append(trajectory, rows, first, h, stride, evaluate)
         state = rows[-1]
-    return found
+    return trajectory
 
 
 def array_functions(scene: Problem) -> dict[str, ArrayFunction]:
@@ -106,7 +106,7 @@ def array_functions(scene: Problem) -> dict[str, ArrayFunction]:
 
 
 def _append(
-    found: Trajectory,
+    trajectory: Trajectory,
     rows: numpy.ndarray,
     first: float,
     h: float,
@@ -117,15 +117,15 @@ def _append(
     count = len(rows) - 1
     if not count:
         return
-    times = first + h * (found.steps + numpy.arange(1, count + 1))
+    times = first + h * (trajectory.steps + numpy.arange(1, count + 1))
     ends = [*range(stride, count, stride), count]
     starts = [0, *ends[:-1]]
-    for name, series in found.series.items():
+    for name, series in trajectory.series.items():
         values = evaluate[name](rows[1:].T, times)
         signed = numpy.abs(values).max(axis=0) if name == MANIFOLD else values[0] - series.start
         series.deviations += [float(signed[end - 1]) for end in ends]
         series.peaks += [float(numpy.abs(signed[a:b]).max()) for a, b in zip(starts, ends, strict=True)]
-    found.times += [float(times[end - 1]) for end in ends]
-    found.states += [rows[end].tolist() for end in ends]
-    found.counts += [found.steps + end for end in ends]
-    found.steps += count
+    trajectory.times += [float(times[end - 1]) for end in ends]
+    trajectory.states += [rows[end].tolist() for end in ends]
+    trajectory.counts += [trajectory.steps + end for end in ends]
+    trajectory.steps += count

@@ -35,9 +35,9 @@ class Advice(Measurement[Recommendations]):
     def run(self, subject: Subject) -> Recommendations:
         """Rank the rows of the cost measurement."""
         cost = Cost().result(subject)
-        known = [features(m.compiled, m.emission) for m in subject.compiled.found]
+        known = [features(m.compiled, m.artifact) for m in subject.compiled.measured]
         known += [
-            features(c.compiled, c.runner.emission, c.label)
+            features(c.compiled, c.runner.artifact, c.label)
             for c in cost.candidates
             if isinstance(c, EmittedCandidate) and c.method.adaptive
         ]

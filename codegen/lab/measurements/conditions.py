@@ -55,8 +55,8 @@ class Conditions(Measurement[ConditionTables]):
 
     def run(self, subject: Subject) -> ConditionTables:
         """Derive the conditions of every family on the page."""
-        found = Orders().result(subject).found
-        return ConditionTables(tuple(_conditions(*pair) for pair in _families(found)), found)
+        studies = Orders().result(subject).measured
+        return ConditionTables(tuple(_conditions(*pair) for pair in _families(studies)), studies)
 
     def as_json(self, result: ConditionTables) -> object:
         """Return the numbers of conditions by family, and the violated conditions by method."""
@@ -87,32 +87,32 @@ class Conditions(Measurement[ConditionTables]):
 def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
     """Return the families of a study, each with the highest order that is shown, in order of appearance."""
     highest: dict[str, int] = {}
-    for found in study:
-        label = found.method.family_label
-        if found.method.family not in names():
+    for each in study:
+        label = each.method.family_label
+        if each.method.family not in names():
             continue  # a variant that only the compiler has; it has no index sums
-        highest[label] = max(highest.get(label, 1), min(found.order.order, DEEPEST))
+        highest[label] = max(highest.get(label, 1), min(each.order.order, DEEPEST))
     return list(highest.items())
 
 
 def _conditions(family: str, order: int) -> FamilyConditions:
     groups = enumerate(derive(family, order).by_order, start=1)
-    return FamilyConditions(family, tuple((n, tuple(found)) for n, found in groups))
+    return FamilyConditions(family, tuple((n, tuple(conditions)) for n, conditions in groups))
 
 
 def _row(condition: OrderCondition) -> tuple[str, Markup]:
     return condition.tree, Markup(formula_html(str(condition)))
 
 
-def _violated(found: OrderStudy) -> dict[str, object]:
+def _violated(study: OrderStudy) -> dict[str, object]:
     rows = []
-    for failure in found.order.failing[:3]:
+    for failure in study.order.failing[:3]:
         short = len(failure.residual) <= LONGEST
         residual = formula_html(failure.residual) if short else scientific(float(failure.decimal), 4)
         rows.append((_row(failure.condition)[1], Markup(residual)))
     return {
-        "label": found.method.label,
-        "order": found.order.order,
-        "count": len(found.order.failing),
+        "label": study.method.label,
+        "order": study.order.order,
+        "count": len(study.order.failing),
         "rows": rows,
     }

@@ -37,7 +37,7 @@ class Cost(Measurement[CostResult]):
         """Measure all methods, the ones with step-size control, and the peers."""
         scene, exact, budget = subject.scene, subject.exact, subject.effort.budget
         candidates: list[Candidate] = []
-        for method in subject.compiled.found:
+        for method in subject.compiled.measured:
             own = EmittedCandidate(scene, method.compiled.method, exact, "c", budget, method.compiled)
             own.emission_seconds += method.seconds
             candidates.append(own)
@@ -96,25 +96,25 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
 
 def _operations(entries: Mapping[str, tuple[Row, ...]]) -> list[dict[str, str]]:
     """Return the operations of a step in the finest run of each candidate, and its set-up times."""
-    found = []
+    lines = []
     for label, rows in entries.items():
         good = [r for r in rows if r.steps and r.error is not None]
         if not good:
             continue
         last = good[-1]
-        emission, compilation = rows[0].emission_seconds, max(r.compile_seconds for r in rows)
-        found.append(
+        emit_seconds, compile_seconds = rows[0].emission_seconds, max(r.compile_seconds for r in rows)
+        lines.append(
             {
                 "label": label,
                 "evaluations": _per_step(last.evaluations, last.steps),
                 "exponentials": _per_step(last.exponentials, last.steps),
                 "iterations": _per_step(last.iterations, last.steps),
                 "ns": f"{last.ns_per_step:.0f}" if last.ns_per_step else "–",
-                "emission": duration(emission) if emission else "–",
-                "compilation": duration(compilation) if compilation > 1e-3 else "–",
+                "emission": duration(emit_seconds) if emit_seconds else "–",
+                "compilation": duration(compile_seconds) if compile_seconds > 1e-3 else "–",
             }
         )
-    return found
+    return lines
 
 
 def _per_step(count: int | None, steps: int | None) -> str:

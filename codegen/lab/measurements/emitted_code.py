@@ -17,12 +17,12 @@ class EmittedCode(Measurement[tuple[CompiledMethod, ...]]):
 
     def run(self, subject: Subject) -> tuple[CompiledMethod, ...]:
         """Return the compiled methods."""
-        return subject.compiled.found
+        return subject.compiled.measured
 
     def as_json(self, result: tuple[CompiledMethod, ...]) -> object:
         """Return module, operations and parts left out of every method."""
         keys = ("module", "operations", "left_out", "command")
-        return [{"method": m.label, **{k: m.emission.manifest[k] for k in keys}} for m in result]
+        return [{"method": m.label, **{k: m.artifact.manifest[k] for k in keys}} for m in result]
 
     def section(self, result: tuple[CompiledMethod, ...], subject: Subject) -> Section | None:
         """Return one entry a method."""
@@ -33,11 +33,11 @@ class EmittedCode(Measurement[tuple[CompiledMethod, ...]]):
 
 
 def _entry(method: CompiledMethod) -> dict[str, object]:
-    manifest = method.emission.manifest
+    manifest = method.artifact.manifest
     return {
         "label": method.label,
         "operations": sentences(manifest["operations"]),
         "left_out": manifest["left_out"],
         "command": manifest["command"],
-        "lines": {name: text.count("\n") for name, text in sorted(method.emission.files.items())},
+        "lines": {name: text.count("\n") for name, text in sorted(method.artifact.files.items())},
     }

@@ -47,7 +47,7 @@ class LongRuns(Measurement[Result]):
 
     def as_json(self, result: Result) -> object:
         """Return one object a method."""
-        return [*(run.as_json() for run in result.found), *(f.as_json() for f in result.failures)]
+        return [*(run.as_json() for run in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:
         """Whether every method could be run."""
@@ -60,7 +60,7 @@ class LongRuns(Measurement[Result]):
 
     def section(self, result: Result, subject: Subject) -> Section:
         """Return growth diagrams and tables."""
-        runs, effort = result.found, subject.effort
+        runs, effort = result.measured, subject.effort
         values = {
             "pictures": _pictures(runs, subject.report_command("long")),
             "steps": f"{effort.steps:,}".replace(",", "\u00a0"),

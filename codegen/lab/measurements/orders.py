@@ -32,26 +32,26 @@ class Orders(Measurement[Result]):
 
     def as_json(self, result: Result) -> object:
         """Return one object a method."""
-        return [*(m.as_json() for m in result.found), *(f.as_json() for f in result.failures)]
+        return [*(m.as_json() for m in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:
         """Whether every observed order is the computed one."""
-        return not result.failures and all(m.verdict == "holds" for m in result.found)
+        return not result.failures and all(m.verdict == "holds" for m in result.measured)
 
     def lines(self, result: Result, subject: Subject) -> Iterable[str]:
         """Return one line a method."""
         name = subject.scene.name
-        for found in result.found:
-            yield f"{name} {found.method.label} {found.compiled.sentence()}"
+        for study in result.measured:
+            yield f"{name} {study.method.label} {study.compiled.sentence()}"
         for failure in result.failures:
             yield f"{name} {failure.method} fails: {failure.reason}"
 
     def section(self, result: Result, subject: Subject) -> Section:
         """Return the table of orders and the convergence diagram."""
         values = {
-            "rows": [_row(m) for m in result.found],
+            "rows": [_row(m) for m in result.measured],
             "failures": result.failures,
-            "picture": _picture(result.found, subject) if result.found else None,
+            "picture": _picture(result.measured, subject) if result.measured else None,
             "compared": COMPARED,
             "uncertainty": subject.exact.uncertainty,
         }
@@ -59,8 +59,8 @@ class Orders(Measurement[Result]):
 
     def overview(self, result: Result, subject: Subject) -> Section:
         """Return the number of methods whose order holds."""
-        held = sum(m.verdict == "holds" for m in result.found)
-        return Section(OVERVIEW, {"held": held, "all": len(result.found) + len(result.failures)})
+        held = sum(m.verdict == "holds" for m in result.measured)
+        return Section(OVERVIEW, {"held": held, "all": len(result.measured) + len(result.failures)})
 
 
 def agreement(spread: float | None) -> str:
@@ -70,16 +70,16 @@ def agreement(spread: float | None) -> str:
     return scientific(spread) if spread else "bit for bit"
 
 
-def _row(found: OrderStudy) -> dict[str, str]:
+def _row(study: OrderStudy) -> dict[str, str]:
     return {
-        "label": found.method.label,
-        "order": f"{'≥ ' if found.order.bound else ''}{found.order.order}",
-        "certificate": found.order.certificate,
-        "c": _observed(found.compiled.observed),
-        "python": _observed(found.python.observed),
-        "verdict": found.verdict,
-        "spread": agreement(found.spread),
-        "ns": f"{found.times[-1].ns_per_step:.0f}" if found.times else "–",
+        "label": study.method.label,
+        "order": f"{'≥ ' if study.order.bound else ''}{study.order.order}",
+        "certificate": study.order.certificate,
+        "c": _observed(study.compiled.observed),
+        "python": _observed(study.python.observed),
+        "verdict": study.verdict,
+        "spread": agreement(study.spread),
+        "ns": f"{study.times[-1].ns_per_step:.0f}" if study.times else "–",
     }
 
 
@@ -87,11 +87,11 @@ def _observed(order: float | None) -> str:
     return "–" if order is None else f"{order:.2f}"
 
 
-def _picture(found: Iterable[OrderStudy], subject: Subject) -> Picture:
+def _picture(studies: Iterable[OrderStudy], subject: Subject) -> Picture:
     scene = subject.scene
     curves = [
         Curve(m.method.label, points, m.order.order, place=k)
-        for k, m in enumerate(found)
+        for k, m in enumerate(studies)
         if (points := tuple((r.h, r.error) for r in m.compiled.refinement.clean))
     ]
     return Picture(

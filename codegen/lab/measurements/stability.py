@@ -35,28 +35,28 @@ class StabilityTests(Measurement[Result]):
 
         def measure(m: CompiledMethod) -> Stability:
             key = ("stability", m.files, exact.digits(), effort.stiff, effort.endurance)
-            found = subject.cache.get(
+            measured = subject.cache.get(
                 key,
                 Findings,
                 lambda: findings(m.compiled, exact, stiff, subject.progress, endurance=effort.endurance),
             )
-            return Stability(scene.name, m.label, region(m.compiled.method), found)
+            return Stability(scene.name, m.label, region(m.compiled.method), measured)
 
         return subject.each(measure)
 
     def as_json(self, result: Result) -> object:
         """Return one object a method."""
-        return [*(s.as_json() for s in result.found), *(f.as_json() for f in result.failures)]
+        return [*(s.as_json() for s in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:
         """Whether no result is wrong."""
-        return not result.failures and all(s.honest for s in result.found)
+        return not result.failures and all(s.honest for s in result.measured)
 
     def lines(self, result: Result, subject: Subject) -> Iterable[str]:
         """Return one line for each wrong result and each method that failed."""
-        for found in result.found:
-            for wrong in found.wrong:
-                yield f"{found.scene} {found.method}: {wrong.case.name}: {wrong.verdict}"
+        for stability in result.measured:
+            for wrong in stability.wrong:
+                yield f"{stability.scene} {stability.method}: {wrong.case.name}: {wrong.verdict}"
         for failure in result.failures:
             yield f"{subject.scene.name} {failure.method}: no stability tests: {failure.reason}"
 
@@ -66,48 +66,48 @@ class StabilityTests(Measurement[Result]):
 
     def overview(self, result: Result, subject: Subject) -> Section | None:
         """Return the number of wrong results."""
-        answers = sum(len(s.findings.answers) for s in result.found)
-        wrong = sum(len(s.wrong) for s in result.found)
+        answers = sum(len(s.findings.answers) for s in result.measured)
+        wrong = sum(len(s.wrong) for s in result.measured)
         return Section(OVERVIEW, {"wrong": wrong, "all": answers}) if answers else None
 
 
 def data(result: Result, subject: Subject) -> dict[str, object]:
     """Return the variables of the template."""
-    found = result.found
-    stiff = [(s, v) for s in found for v in s.findings.stiff]
+    methods = result.measured
+    stiff = [(s, v) for s in methods for v in s.findings.stiff]
     command = subject.report_command("stability")
     return {
-        "rows": [_row(s) for s in found],
+        "rows": [_row(s) for s in methods],
         "failures": result.failures,
-        "picture": _picture(found, command),
+        "picture": _picture(methods, command),
         "command": command,
-        "cases": [_cases(s) for s in found],
+        "cases": [_cases(s) for s in methods],
         "variants": [
             {"variant": name, "verdicts": [(s.method, v.verdict) for s, v in stiff if v.variant == name]}
             for name in dict.fromkeys(v.variant for _, v in stiff)
         ],
-        "endurance": [(s.method, e.name, endurance_text(e)) for s in found for e in s.findings.endurance],
-        "notes": list(dict.fromkeys(note for s in found for note in s.findings.notes)),
+        "endurance": [(s.method, e.name, endurance_text(e)) for s in methods for e in s.findings.endurance],
+        "notes": list(dict.fromkeys(note for s in methods for note in s.findings.notes)),
     }
 
 
-def _picture(found: Sequence[Stability], command: str) -> Picture | None:
-    functions = [(s.method, k, s.region.value) for k, s in enumerate(found) if s.region is not None]
+def _picture(methods: Sequence[Stability], command: str) -> Picture | None:
+    functions = [(s.method, k, s.region.value) for k, s in enumerate(methods) if s.region is not None]
     if not functions:
         return None
     return Picture(
-        Markup(region_figure(f"{found[0].scene} regions", functions)),
+        Markup(region_figure(f"{methods[0].scene} regions", functions)),
         "The curves |R(hλ)| = 1 bound the regions of linear stability for y′ = λy. Zero lies on each curve; "
         "the stable side is on its left.",
         command,
     )
 
 
-def _row(found: Stability) -> dict[str, object]:
-    kinds = Counter(_kind(a) for a in found.findings.answers)
-    limit, linear = found.findings.limit, found.region
+def _row(stability: Stability) -> dict[str, object]:
+    kinds = Counter(_kind(a) for a in stability.findings.answers)
+    limit, linear = stability.findings.limit, stability.region
     return {
-        "label": found.method,
+        "label": stability.method,
         "h": "none" if limit.h is None else f"{limit.h:.3g}",
         "reason": limit.reason,
         "real": "–" if linear is None else _length(linear.real),
@@ -129,11 +129,11 @@ def _length(x: float) -> str:
     return "unbounded" if x == float("inf") else f"{x:.3g}" if x else "none"
 
 
-def _cases(found: Stability) -> dict[str, object]:
+def _cases(stability: Stability) -> dict[str, object]:
     """Return the cases of a method; neighbours with the same status share a row."""
     rows: list[dict[str, object]] = []
     names: list[str] = []
-    for a in found.findings.answers:
+    for a in stability.findings.answers:
         if rows and a.error is None and rows[-1]["verdict"] == a.verdict:
             names.append(a.case.name)
             continue
@@ -147,7 +147,7 @@ def _cases(found: Stability) -> dict[str, object]:
                 "digits": "" if a.determined in (None, float("inf")) else f"{a.determined:.0f}",
             }
         )
-    return {"label": found.method, "count": len(found.findings.answers), "rows": rows}
+    return {"label": stability.method, "count": len(stability.findings.answers), "rows": rows}
 
 
 def endurance_text(run: Endurance) -> str:

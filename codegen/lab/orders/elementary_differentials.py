@@ -16,7 +16,7 @@ from codegen.groups.linear_algebra import units
 from codegen.ir.domain import Domain
 from codegen.ir.expr import evaluate
 from codegen.ir.number import Number
-from codegen.lab.scalars import Scalar, Vector
+from codegen.lab.number_types import Scalar, Vector
 from codegen.scene.problem import Problem
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.action_fields import ActionFields, Nilpotent

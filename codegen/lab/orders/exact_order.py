@@ -19,8 +19,8 @@ from codegen.errors import MethodError, SceneError
 from codegen.ir.domain import FloatDomain, SeriesDomain
 from codegen.ir.expr import Expr, evaluate
 from codegen.ir.number import Number
+from codegen.lab.number_types import Vector
 from codegen.lab.orders.local_error import local_error
-from codegen.lab.scalars import Vector
 from codegen.lower import problem_for
 from codegen.method import Method
 from codegen.scene.problem import Problem, StateField
@@ -91,19 +91,19 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
     certified = certified_order(method, scene)
     start = with_exact_start(scene, ring)
     optimised = optimise_method(start, method)
-    view = problem_for(start, method)
+    problem = problem_for(start, method)
     highest = certified.order + 1
     domain = SeriesDomain(ring, 1)
     try:
-        error = local_error(optimised.program, view, ring, highest)
-        initial = tuple(ring.text(x.coefficients[0]) for x in view.initial(domain))
-    except ArithmeticError as problem:
+        error = local_error(optimised.program, problem, ring, highest)
+        initial = tuple(ring.text(x.coefficients[0]) for x in problem.initial(domain))
+    except ArithmeticError as reason:
         raise SceneError(
-            f"the local error is not computed exactly: {problem}",
+            f"the local error is not computed exactly: {reason}",
             where=scene.name,
             expected="a field and flows that are rational functions of the coordinates",
             hint="orderconds converge estimates the order from slopes",
-        ) from problem
+        ) from reason
     power = min(int(x.ring.valuation(x)) for x in error)
     vanishes = power > highest
     return ExactLocalError(
@@ -112,7 +112,7 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
         certified,
         min(power, highest + 1) - 1,
         vanishes,
-        view.symbols,
+        problem.symbols,
         initial,
         () if vanishes else _texts(ring, error, power),
     )

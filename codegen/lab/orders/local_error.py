@@ -14,13 +14,13 @@ from codegen.errors import SceneError
 from codegen.ir.domain import SeriesDomain
 from codegen.ir.interpret import interpret
 from codegen.ir.program import Program
+from codegen.lab.number_types import Scalar, Vector
 from codegen.lab.orders.elementary_differentials import (
     CanonicalFields,
     FrozenFields,
     action_fields,
     element_coordinates,
 )
-from codegen.lab.scalars import Scalar, Vector
 from codegen.method import Method
 from codegen.scene.problem import Problem
 from orderconds.families.action_family import ActionFamily
@@ -107,8 +107,10 @@ def _residuals(method: Method, power: int) -> list[tuple[Scalar, Element]]:
     conditions = family.all_conditions(power)
     coefficients = family.read(method.tableau)
     assert coefficients is not None
-    found = family.residuals(coefficients, method.ring, conditions)
-    return [(c.key, x) for c, x in zip(conditions, found, strict=True) if method.ring.is_zero(x) is not True]
+    residuals = family.residuals(coefficients, method.ring, conditions)
+    return [
+        (c.key, x) for c, x in zip(conditions, residuals, strict=True) if method.ring.is_zero(x) is not True
+    ]
 
 
 def _sum(ring: Ring, terms: list[tuple[Element, Vector]], width: int) -> Vector:

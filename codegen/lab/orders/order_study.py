@@ -26,7 +26,7 @@ MOST_TIMED = 2560
 
 @dataclass(frozen=True)
 class OrderStudy:
-    """One method: its certified order, convergence in C and Python, times of the C, and the emission.
+    """One method: its certified order, convergence in C and Python, times of the C, and the artifact.
 
     ``spread`` is the largest difference of a coordinate between emitted C, emitted Python and the interpreter
     after at least :data:`COMPARED` steps; None if no such run succeeds.
@@ -38,7 +38,7 @@ class OrderStudy:
     python: Convergence
     times: tuple[Timing, ...]
     spread: float | None
-    emission: Artifact
+    artifact: Artifact
 
     @property
     def verdict(self) -> str:
@@ -87,11 +87,13 @@ def order_study(
         progress(f"{name}: times")
         return _Measured(in_c, in_python, timings(c.final, steps), spread)
 
-    key = ("orders", *sorted({**c.emission.files, **python.emission.files}.items()), exact.digits())
-    found = (cache or MeasurementCache(None)).get(key, _Measured, measure)
-    refinements = {"c": found.compiled, "python": found.python}
+    key = ("orders", *sorted({**c.artifact.files, **python.artifact.files}.items()), exact.digits())
+    measured = (cache or MeasurementCache(None)).get(key, _Measured, measure)
+    refinements = {"c": measured.compiled, "python": measured.python}
     results = {t: Convergence(scene.name, method.label, t, order, r) for t, r in refinements.items()}
-    return OrderStudy(method, order, results["c"], results["python"], found.times, found.spread, c.emission)
+    return OrderStudy(
+        method, order, results["c"], results["python"], measured.times, measured.spread, c.artifact
+    )
 
 
 def largest_difference(runners: Sequence[Runner], steps: Sequence[int]) -> float | None:

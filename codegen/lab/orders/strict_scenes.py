@@ -121,7 +121,7 @@ def hamiltonians() -> tuple[Problem, ...]:
         ("T*GL(2)", GL(2), Matrix(2, 2, [1, half, -Rational(1, 3), 1])),
         ("T*Heisenberg", MatrixGroup("Heisenberg", basis), upper),
     )
-    found = []
+    problems = []
     for name, group, start in spaces:
         q, mu = group.point("q"), group.dual("p")
         moved = q.T * Matrix(list(mu)[: q.shape[0]])
@@ -131,8 +131,8 @@ def hamiltonians() -> tuple[Problem, ...]:
         scene = HamiltonianScene(
             name=name, group=group, q=q, mu=mu, H=H, q0=start, mu0=Matrix(momentum), span=_span()
         )
-        found.append(scene)
-    return tuple(found)
+        problems.append(scene)
+    return tuple(problems)
 
 
 def strict_scenes(variational: bool) -> tuple[Problem, ...]:

@@ -36,21 +36,21 @@ def formula_html(text: str) -> str:
 
 
 def _token_html(match: re.Match[str]) -> str:
-    found = match.groupdict()
-    if found["range"] or found["index"]:
-        return f"∑<sub>{_subscript(found['range'] or found['index'])}</sub>"
-    if found["name"]:
-        letter = LETTERS.get(found["name"], found["name"])
-        return f"<i>{letter}</i><sub>{_subscript(found['sub'])}</sub>"
-    if found["power"]:
-        return f"<sup>{found['power'].replace('-', '−')}</sup>"
-    if found["root"]:
-        return f"<sup>{found['root'].replace('-', '−')}</sup>"
-    if found["minus"]:
+    groups = match.groupdict()
+    if groups["range"] or groups["index"]:
+        return f"∑<sub>{_subscript(groups['range'] or groups['index'])}</sub>"
+    if groups["name"]:
+        letter = LETTERS.get(groups["name"], groups["name"])
+        return f"<i>{letter}</i><sub>{_subscript(groups['sub'])}</sub>"
+    if groups["power"]:
+        return f"<sup>{groups['power'].replace('-', '−')}</sup>"
+    if groups["root"]:
+        return f"<sup>{groups['root'].replace('-', '−')}</sup>"
+    if groups["minus"]:
         return "−"
-    if found["times"]:
+    if groups["times"]:
         return "·"
-    if found["radical"]:
+    if groups["radical"]:
         return "√"
     return escape(match.group())
 

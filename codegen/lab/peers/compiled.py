@@ -17,9 +17,9 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from codegen.build import build
 from codegen.ir.domain import FloatDomain
+from codegen.lab.number_types import Scalar
 from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
 from codegen.lab.peers.projection import projection_lines
-from codegen.lab.scalars import Scalar
 from codegen.lab.straight_line_field import velocity
 from codegen.scene.problem import Problem
 from orderconds.tableau import Embedded, RungeKutta, Tableau, find
@@ -100,10 +100,10 @@ def _prepare(template: str, scene: Problem, control: float) -> Prepared:
     def run(end: float = last, control: float = control) -> Outcome:
         state = ffi.new("double[]", start)
         status = library.peer(state, first, end, control, counts, counts + 1)
-        found = tuple(ffi.unpack(state, len(start)))
-        if status or not all(map(math.isfinite, found)):
+        final = tuple(ffi.unpack(state, len(start)))
+        if status or not all(map(math.isfinite, final)):
             raise PeerFailed(REASONS.get(status, REASONS[2]))
-        return Outcome(found, int(counts[0]), int(counts[1]))
+        return Outcome(final, int(counts[0]), int(counts[1]))
 
     return Prepared(run, lambda: run(first, control if template == "dop853.c.j2" else 0.0))
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from codegen.ir.domain import FloatDomain
+from codegen.lab.number_types import Scalar
 from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
-from codegen.lab.scalars import Scalar
 from codegen.lab.straight_line_field import velocity
 from codegen.scene.problem import Problem
 
@@ -48,12 +48,12 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
     compiled = jax.jit(solve)
 
     def run() -> Outcome:
-        found = compiled(start)
-        found.ys.block_until_ready()
-        if found.result != diffrax.RESULTS.successful:
+        solution = compiled(start)
+        solution.ys.block_until_ready()
+        if solution.result != diffrax.RESULTS.successful:
             raise PeerFailed(f"diffrax: the end is not reached within {MOST_STEPS} steps")
-        steps = int(found.stats["num_steps"])
-        return Outcome(tuple(map(float, found.ys[-1])), steps, 12 * steps)
+        steps = int(solution.stats["num_steps"])
+        return Outcome(tuple(map(float, solution.ys[-1])), steps, 12 * steps)
 
     run()  # compiles
     return Prepared(run)

@@ -16,7 +16,7 @@ from codegen.groups.capabilities import Projection, Rotations
 from codegen.groups.linear_algebra import dot
 from codegen.ir.domain import Domain, ExprDomain, FloatDomain
 from codegen.ir.values import Kind
-from codegen.lab.scalars import Scalar, Vector
+from codegen.lab.number_types import Scalar, Vector
 from codegen.lab.straight_line_field import StraightLine, straight_line
 from codegen.scene.problem import Problem
 

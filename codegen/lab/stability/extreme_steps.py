@@ -30,8 +30,8 @@ from codegen.groups import Rotation
 from codegen.ir.domain import FloatDomain, NotConverged, PreciseDomain
 from codegen.ir.interpret import flatten, interpret
 from codegen.ir.values import Kind
+from codegen.lab.number_types import Scalar, Vector
 from codegen.lab.runner import Emitted, split_state
-from codegen.lab.scalars import Scalar, Vector
 from codegen.loader import InterpretedIntegrator, StepFailed
 from codegen.lower import problem_for
 
@@ -146,21 +146,21 @@ def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple
 
 def _speed(compiled: Compiled, state: Sequence[float], t: float) -> float:
     """Return |f(y0)|, the angle of rotation per unit of time."""
-    view = compiled.scene.as_field()
+    field = compiled.scene.as_field()
     domain = FloatDomain(0.0)
-    (value,) = view.apply(domain, "field", None, (tuple(state), t))
+    (value,) = field.apply(domain, "field", None, (tuple(state), t))
     return math.hypot(*value[: compiled.scene.group.dim])
 
 
 def answer(compiled: Compiled, runner: Emitted, case: Case) -> Answer:
     """Make one step with emitted code and return the verdict."""
     try:
-        found = runner.integrator.run(list(case.state), case.h, 1, case.t)
+        answered = runner.integrator.run(list(case.state), case.h, 1, case.t)
     except StepFailed as failure:
         return Answer(case, f"status: {failure.reason}")
     if not (math.isfinite(case.h) and all(map(math.isfinite, case.state))):
         return Answer(case, f"{WRONG}: a result for input that is not finite")
-    if not all(map(math.isfinite, found)):
+    if not all(map(math.isfinite, answered)):
         return Answer(case, f"{WRONG}: a result that is not finite")
     try:
         exact, probed = _exact(compiled, runner, case)
@@ -171,7 +171,7 @@ def answer(compiled: Compiled, runner: Emitted, case: Case) -> Answer:
     error, determined, explained = 0.0, math.inf, True
     for block in _blocks(compiled):
         scale = max(max(abs(exact[i]), abs(case.state[i])) for i in block)
-        gap = max(abs(found[i] - exact[i]) for i in block)
+        gap = max(abs(answered[i] - exact[i]) for i in block)
         moves = max((abs(m[i] - exact[i]) for m in probed for i in block), default=0)
         explained &= bool(gap <= ROUNDINGS * (moves + EPSILON * scale + TINY))
         if scale > TINY:
@@ -240,10 +240,10 @@ def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> li
     integrator = runner.python.integrator
     assert isinstance(integrator, InterpretedIntegrator)
     module: Scalar = integrator.module
-    plain, found = module._Memory, dict[int, list[float]]()
+    plain, solved = module._Memory, dict[int, list[float]]()
 
     def keep(self: object, unknowns: list[float]) -> None:
-        found[id(self)] = unknowns
+        solved[id(self)] = unknowns
         plain.keep(self, unknowns)
 
     module._Memory = type("_Memory", (plain,), {"keep": keep})
@@ -255,7 +255,7 @@ def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> li
         module._Memory = plain
     widths = [len(loop.unknowns) for loop in runner.compiled.kernel.loops]
     ends = list(accumulate(widths))
-    return [list(x[end - n : end]) for x in found.values() for n, end in zip(widths, ends, strict=True)]
+    return [list(x[end - n : end]) for x in solved.values() for n, end in zip(widths, ends, strict=True)]
 
 
 class Rounding(PreciseDomain):
@@ -305,12 +305,12 @@ def precise_step(
     ``probe`` is the seed of the rounding errors, None for exact operations.
     """
     domain = PreciseDomain(h, digits) if probe is None else Rounding(h, digits, probe)
-    view = problem_for(compiled.scene, compiled.method)
+    problem = problem_for(compiled.scene, compiled.method)
     numbers = tuple(domain.context.mpf(x) for x in state)
-    values: dict[str, Scalar] = {"t": domain.context.mpf(t), **split_state(view, numbers)}
+    values: dict[str, Scalar] = {"t": domain.context.mpf(t), **split_state(problem, numbers)}
     program = compiled.program
     if near is not None:
         near[:] = [[domain.context.mpf(x) for x in block] for block in near]
     inputs = {v.name: values[v.name] for v in program.inputs}
-    found = interpret(program, view, domain, inputs, limit=limit, newton=newton, near=near)
-    return [x for block in view.state for x in flatten(block.kind, found[block.name])]
+    outputs = interpret(program, problem, domain, inputs, limit=limit, newton=newton, near=near)
+    return [x for block in problem.state for x in flatten(block.kind, outputs[block.name])]

@@ -41,17 +41,17 @@ def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit
     """Return the largest usable step over the span: the number of steps is doubled, then bisected."""
     span = compiled.scene.span[1] - compiled.scene.span[0]
     reason, failing, steps = "a single step over the span is usable", 0, 1
-    while (found := _failure(compiled, runner, exact, steps)) is not None:
-        reason, failing, steps = found, steps, 2 * steps
+    while (failure := _failure(compiled, runner, exact, steps)) is not None:
+        reason, failing, steps = failure, steps, 2 * steps
         if steps > MOST:
             return Limit(None, None, f"not usable with {MOST} steps: {reason}")
     while steps - failing > 1:
         middle = (steps + failing) // 2
-        found = _failure(compiled, runner, exact, middle)
-        if found is None:
+        failure = _failure(compiled, runner, exact, middle)
+        if failure is None:
             steps = middle
         else:
-            reason, failing = found, middle
+            reason, failing = failure, middle
     return Limit(float(Fraction(span) / steps), steps, reason)
 
 

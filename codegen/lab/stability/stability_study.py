@@ -57,17 +57,17 @@ class Stability:
 
     def as_json(self) -> dict[str, object]:
         """Return plain data."""
-        found = self.findings
+        results = self.findings
         return {
             "scene": self.scene,
             "method": self.method,
             "verdict": "holds" if self.held else "fails",
             "linear": None if self.region is None else self.region.as_json(),
-            "largest_step": found.limit.as_json(),
-            "cases": [a.as_json() for a in found.answers],
-            "stiff": [s.as_json() for s in found.stiff],
-            "endurance": [e.as_json() for e in found.endurance],
-            "notes": list(found.notes),
+            "largest_step": results.limit.as_json(),
+            "cases": [a.as_json() for a in results.answers],
+            "stiff": [s.as_json() for s in results.stiff],
+            "endurance": [e.as_json() for e in results.endurance],
+            "notes": list(results.notes),
         }
 
 
@@ -89,8 +89,8 @@ def stability(
     for method in methods:
         progress(f"{scene.name}, {method.label}: emitting")
         compiled = compile_method(scene, method)
-        found = findings(compiled, exact, stiff, progress, endurance=endurance)
-        yield Stability(scene.name, method.label, region(method), found)
+        results = findings(compiled, exact, stiff, progress, endurance=endurance)
+        yield Stability(scene.name, method.label, region(method), results)
 
 
 def stiff_scenes(scene: Problem, progress: Progress) -> StiffScenes:

@@ -122,7 +122,7 @@ VARIANTS: dict[str, tuple[Callable[[], StiffVariant], ...]] = {
 
 def variants_of(scene: Problem) -> Sequence[StiffVariant]:
     """Return the stiff variants of a gallery scene, none for a scene of the user with the same name."""
-    found = VARIANTS.get(scene.name, ())
-    if not found or scene.roots is not scenes.load(scene.name).roots:
+    makers = VARIANTS.get(scene.name, ())
+    if not makers or scene.roots is not scenes.load(scene.name).roots:
         return ()
-    return [make() for make in found]
+    return [make() for make in makers]

@@ -59,7 +59,7 @@ def test_the_command_in_the_header_makes_the_same_bytes(tmp_path):
 
 def test_explain_tells_what_a_long_step_calls_and_how_often():
     told = run(emit, "dipole", "-m", "cg:cg4a", "--explain")
-    assert "# functions of what the kernel repeats\n  piece_1, 5 calls: field(y1)\n" in told
+    assert "# outlined functions\n  piece_1, 5 calls: field(y1)\n" in told
 
 
 def test_the_header_s_command_quotes_a_file_s_name_and_keeps_the_default_of_an_input(tmp_path, monkeypatch):
@@ -79,7 +79,7 @@ def test_the_header_s_command_quotes_a_file_s_name_and_keeps_the_default_of_an_i
 
 def test_explain_tells_every_pass_and_writes_nothing():
     told = run(emit, "free_rigid_body", "-m", "cg:cg3", "--explain")
-    for word in ("# lowered:", "# sharing: took out", "# left out", "the scene does not depend on it"):
+    for word in ("# lowered:", "# sharing: removed", "# left out", "the scene does not depend on it"):
         assert word in told
 
 

@@ -33,7 +33,9 @@ def derived(*args: str) -> Any:
         ("sprk", [1, 1, 3, 8]),
         ("cg", [1, 1, 3, 8]),
         ("cf", [1, 1, 3, 8]),
-        ("rkmk(2)", [1, 1, 3, 8]),
+        ("rkmk", [1, 1, 2, 4, 9]),
+        ("rkmk(2)", [1, 1, 2, 4]),
+        ("rkmk(1)", [1, 1, 2, 5]),  # one that no tableau meets
         ("vcg", [1, 1, 6]),
     ],
 )
@@ -43,6 +45,11 @@ def test_counts_of_independent_conditions(family: str, counts: list[int]) -> Non
     assert (record["family"], record["order"], record["counts"]) == (family, len(counts), counts)
     assert [sum(c["order"] == n for c in record["conditions"]) for n in range(1, len(counts) + 1)] == counts
     assert all(list(c) == ["order", "tree", "expression", "latex", "rhs"] for c in record["conditions"])
+
+
+def test_the_generating_set_of_rkmk_is_named_beside_its_independent_conditions() -> None:
+    last = run("rkmk", "--order", "4").stdout.splitlines()[-1]
+    assert last.startswith("Lyndon words over ordered trees give 1, 1, 3, 8 conditions")
 
 
 def test_all_prints_the_condition_of_every_tree() -> None:

@@ -259,3 +259,13 @@ def test_a_method_that_fails_is_reported_and_the_others_run(monkeypatch):
     failed, made = json.loads(done.output)
     assert (failed["method"], failed["failure"], failed["steps"]) == ("cf:cf4", "no lowering", 0)
     assert (made["method"], made["failure"], made["steps"]) == ("cg:cg3", "", 200)
+
+
+def test_rounding_that_grows_beyond_its_usual_bound_is_still_rounding():
+    """The splitting conserves the manifold exactly; rounding grows faster than one epsilon a step."""
+    steps = 20_000
+    run = long_run(compile_method("fast_heavy_top", "splitting:blanes_moan4"), 0.02, steps, back=False)
+    manifold = kept(run, "manifold")
+    assert manifold.drift.largest > steps * 2.0**-52
+    assert manifold.drift.law == "rounding"
+    assert kept(run, "energy").drift.law != "rounding"

@@ -30,14 +30,14 @@ class Lines(Measurement[MethodResults[tuple[str, int]]]):
         return subject.each(lambda m: (m.label, sum(text.count("\n") for _, text in m.files)))
 
     def as_json(self, result: MethodResults[tuple[str, int]]) -> object:
-        return [{"method": label, "lines": count} for label, count in result.found]
+        return [{"method": label, "lines": count} for label, count in result.measured]
 
     def holds(self, result: MethodResults[tuple[str, int]]) -> bool:
-        return all(count > 0 for _, count in result.found)
+        return all(count > 0 for _, count in result.measured)
 
     def section(self, result: MethodResults[tuple[str, int]], subject: Subject) -> Section:
         template = "<ul>{% for label, n in rows %}<li>{{ label }}: {{ n }} & more</li>{% endfor %}</ul>"
-        return Section(template, {"rows": [(f"<{label}>", n) for label, n in result.found]})
+        return Section(template, {"rows": [(f"<{label}>", n) for label, n in result.measured]})
 
     def overview(self, result: MethodResults[tuple[str, int]], subject: Subject) -> Section:
         return Section("<p>toy overview of {{ name }}</p>", {"name": subject.scene.name})

@@ -147,7 +147,7 @@ def test_agreement_is_said_in_words(spread: float | None, said: str) -> None:
 
 
 def test_the_executors_agree_to_rounding(found: SceneResults) -> None:
-    assert all(m.spread is not None and m.spread < 1e-14 for m in part(found, Orders).found)
+    assert all(m.spread is not None and m.spread < 1e-14 for m in part(found, Orders).measured)
 
 
 def test_the_page_is_the_same_when_the_times_are(page: str, found: SceneResults) -> None:
@@ -181,7 +181,7 @@ def test_a_part_that_was_not_asked_for_has_no_section(found: SceneResults) -> No
 
 
 def test_stiff_variants_endurance_and_wrong_results_are_shown(found: SceneResults) -> None:
-    (one, *others) = part(found, StabilityTests).found
+    (one, *others) = part(found, StabilityTests).measured
     spin = OrderReduction("stiff spin", 2e3, 4, ((0.1, 1e-2, ""),), 2.0, "order reduction 4 to 2.0")
     ended = Endurance("forward", 10_000_000, 1e-12, None)
     answers = one.findings.answers
@@ -197,7 +197,7 @@ def test_stiff_variants_endurance_and_wrong_results_are_shown(found: SceneResult
 
 
 def test_an_undetermined_result_is_shown_and_fails_only_the_stability_command(found: SceneResults) -> None:
-    (one, *others) = part(found, StabilityTests).found
+    (one, *others) = part(found, StabilityTests).measured
     answers = one.findings.answers
     findings = replace(one.findings, answers=(replace(answers[0], verdict=SILENT), *answers[1:]))
     lost = replace(one, findings=findings)

@@ -47,7 +47,7 @@ QUICK = [("dipole", "vcg:midpoint"), ("stiff_driven_spin", "cf:cf4")]
 
 def sanitised(scene, method, folder):
     made = compile_method(scene, method)
-    emission = Emitted(made, "c").emission
+    emission = Emitted(made, "c").artifact
     files = {**emission.files, "main.c": program(made, emission)}
     compile_files(files, folder, folder / "main", SANITIZE, find_compiler())
     done = subprocess.run([folder / "main"], capture_output=True, text=True, check=False)

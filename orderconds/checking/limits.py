@@ -1,0 +1,78 @@
+"""Limits on the work of a check, so that it ends in finite time with what it has found."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+
+MAX_CONDITIONS = 50_000
+"""No more conditions of one order are evaluated than this where no limit is given."""
+
+
+@dataclass(frozen=True)
+class Limits:
+    """At most ``conditions`` of one order, ``seconds`` in all, ``megabytes`` of memory; None: no limit.
+
+    Time and memory are looked at between batches of conditions: a batch may exceed them.
+    """
+
+    conditions: int = MAX_CONDITIONS
+    seconds: float | None = None
+    megabytes: int | None = None
+
+
+@dataclass
+class Meter:
+    """Counts the conditions of one check and says when a limit is reached.
+
+    >>> meter = Meter(Limits(conditions=10))
+    >>> meter.count(8)
+    >>> meter.stops(2), meter.stops(3), meter.total
+    (False, True, 8)
+    """
+
+    limits: Limits = Limits()
+    total: int = 0
+    of_order: int = 0
+    started: float = field(default_factory=time.monotonic)
+
+    def next_order(self) -> None:
+        """Start to count the conditions of another order."""
+        self.of_order = 0
+
+    def count(self, conditions: int) -> None:
+        """Count conditions that have been evaluated."""
+        self.total += conditions
+        self.of_order += conditions
+
+    def stops(self, more: int) -> bool:
+        """Whether a limit forbids to evaluate so many conditions more."""
+        limits = self.limits
+        if self.of_order + more > limits.conditions:
+            return True
+        if limits.seconds is not None and time.monotonic() - self.started > limits.seconds:
+            return True
+        return limits.megabytes is not None and resident_megabytes() > limits.megabytes
+
+
+def resident_megabytes() -> float:
+    """Return the memory that this process occupies now, or at most so far where the system tells no more."""
+    try:
+        with open("/proc/self/statm", encoding="ascii") as stream:
+            pages = int(stream.read().split()[1])
+    except (OSError, IndexError, ValueError):
+        return _largest_megabytes()
+    import resource
+
+    return pages * resource.getpagesize() / 2**20
+
+
+def _largest_megabytes() -> float:
+    try:
+        import resource
+    except ImportError:  # Windows
+        return 0.0
+    import sys
+
+    largest = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return largest / (2**20 if sys.platform == "darwin" else 2**10)

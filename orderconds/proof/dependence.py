@@ -1,0 +1,226 @@
+"""Which conditions of a sub-family look dependent: combinations found modulo primes, lifted to fractions.
+
+Nothing here is proved. A rank modulo a prime can be too small, and a coefficient may be divisible by the
+prime; :class:`orderconds.proof.exact_member.ExactMember` verifies each combination without primes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import islice
+from random import Random
+from typing import Any
+
+from orderconds.conditions import OrderCondition
+from orderconds.errors import ZeroWeight
+from orderconds.families import Family
+from orderconds.proof.exact_member import Combination, Monomial, Reading, Surd, constants
+from orderconds.ring.draws import Draws
+from orderconds.ring.reconstruct import rational_number
+from orderconds.ring.samples import Sample, Samples, echelon
+from orderconds.series.monomials import products
+from orderconds.tableau.unknowns import Spelled
+
+FIRST = 40
+"""Members to begin with: a sub-family mostly has few conditions."""
+
+SPARE = 24
+"""Members beyond the number of columns, so that chance does not hide a dependence."""
+
+PRIME_BITS = 61
+"""Size of the primes: products of residues fit in flint's words, and small fractions need one prime."""
+
+MAX_PRIMES = 24
+"""How many primes are tried. Combinations with larger coefficients are not found."""
+
+Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
+"""A dependent condition to its combination of monomials; a coefficient is x + y sqrt(d)."""
+
+
+@dataclass(frozen=True)
+class Dependences:
+    """The independent conditions, and each other one as a combination modulo several primes."""
+
+    pivots: tuple[OrderCondition, ...]
+    primes: tuple[int, ...]
+    residues: tuple[Residues, ...]
+
+    def combinations(self) -> Iterator[tuple[OrderCondition, Combination | None]]:
+        """Yield each dependent condition with its combination over Q, None where there is none yet."""
+        for condition in self.residues[0]:
+            yield condition, self._lifted(condition)
+
+    def _lifted(self, condition: OrderCondition) -> Combination | None:
+        monomials = dict.fromkeys(m for modular in self.residues for m in modular[condition])
+        try:
+            return {m: (self._fraction(condition, m, 0), self._fraction(condition, m, 1)) for m in monomials}
+        except ArithmeticError:
+            return None
+
+    def _fraction(self, condition: OrderCondition, monomial: Monomial, part: int) -> Fraction:
+        found = [modular[condition].get(monomial, (0, 0))[part] for modular in self.residues]
+        return rational_number(found, self.primes) if any(found) else Fraction(0)
+
+
+def dependences(
+    family: Family,
+    spelled: Spelled,
+    candidates: Sequence[Sequence[OrderCondition]],
+    draws: Draws,
+    surd: Surd | None,
+    read: Reading | None = None,
+) -> Iterator[Dependences]:
+    """Yield what is found modulo one prime, two primes, ..., at most :data:`MAX_PRIMES`.
+
+    ``candidates`` are the conditions of each order. A prime that finds fewer independent conditions than
+    another one does not count.
+    """
+    everything = [c for of_order in candidates for c in of_order]
+    avoided = [n for c in constants(spelled) for n in (c.value.numerator, c.value.denominator)]
+    best: Dependences | None = None
+    for prime in islice(draws.primes(PRIME_BITS, avoided), MAX_PRIMES):
+        try:
+            found = _modulo(_Sampling(family, spelled, everything, prime, draws, read), candidates, surd)
+        except (_NoRoot, ZeroWeight, ZeroDivisionError, ValueError):
+            continue
+        if found is None:
+            continue
+        pivots, residues = found
+        places = [everything.index(c) for c in pivots]
+        known = [] if best is None else [everything.index(c) for c in best.pivots]
+        if best is None or (-len(places), places) < (-len(known), known):
+            best = Dependences(pivots, (prime,), (residues,))
+        elif places == known:
+            best = Dependences(pivots, (*best.primes, prime), (*best.residues, residues))
+        else:
+            continue
+        yield best
+
+
+def _modulo(
+    sampling: _Sampling, candidates: Sequence[Sequence[OrderCondition]], surd: Surd | None
+) -> tuple[tuple[OrderCondition, ...], Residues] | None:
+    """Return the independent conditions and the combinations modulo one prime.
+
+    With a square root they are those at either root, joined into rational parts; None where the two differ.
+    """
+    prime = sampling.prime
+    if surd is None:
+        pivots, found = _independent(sampling, candidates, None)
+        return pivots, {c: {m: (x, 0) for m, x in terms.items()} for c, terms in found.items()}
+    root = _root_modulo(surd.radicand, prime)
+    (pivots, one), (others, two) = (_independent(sampling, candidates, r) for r in (root, prime - root))
+    if pivots != others:
+        return None
+    half, slope = pow(2, -1, prime), pow(2 * root, -1, prime)
+    joined = {}
+    for c in one:
+        monomials = dict.fromkeys((*one[c], *two[c]))
+        pairs = {m: (one[c].get(m, 0), two[c].get(m, 0)) for m in monomials}
+        joined[c] = {m: ((x + y) * half % prime, (x - y) * slope % prime) for m, (x, y) in pairs.items()}
+    return pivots, joined
+
+
+def _independent(
+    sampling: _Sampling, candidates: Sequence[Sequence[OrderCondition]], root: int | None
+) -> tuple[tuple[OrderCondition, ...], dict[OrderCondition, dict[Monomial, int]]]:
+    columns = FIRST
+    while True:
+        values = sampling.values(columns, root)
+        pivots: list[OrderCondition] = []
+        combinations: dict[OrderCondition, dict[Monomial, int]] = {}
+        generators: list[tuple[int, _Value]] = []
+        widest = 0
+        for n, of_order in enumerate(candidates, start=1):
+            row = [*products(generators, n), *(values[c] for c in of_order)]
+            before = len(row) - len(of_order)
+            found, dependent = echelon([x.coordinates() for x in row], sampling.prime)
+            chosen = [of_order[p - before] for p in found if p >= before]
+            for place, terms in dependent.items():
+                if place >= before:
+                    combinations[of_order[place - before]] = {row[p].factors: x for p, x in terms.items()}
+            widest = max(widest, before + len(chosen))
+            pivots += chosen
+            generators += [(n, values[c]) for c in chosen]
+        if widest + SPARE <= columns:
+            return tuple(pivots), combinations
+        columns = widest + 2 * SPARE
+
+
+@dataclass(frozen=True)
+class _Value:
+    """The value of a monomial in conditions' left-hand sides at random members and at the exact flow."""
+
+    factors: Monomial
+    members: Sample
+    flow: int
+
+    def __mul__(self, other: _Value) -> _Value:
+        flow = self.flow * other.flow % self.members.ring.prime
+        return _Value((*self.factors, *other.factors), self.members * other.members, flow)
+
+    def coordinates(self) -> list[int]:
+        return [*self.members.ring.coordinates(self.members), self.flow]
+
+
+@dataclass(frozen=True)
+class _Sampling:
+    """Conditions of a family, and where to evaluate them."""
+
+    family: Family
+    spelled: Spelled
+    conditions: Sequence[OrderCondition]
+    prime: int
+    draws: Draws
+    read: Reading | None
+
+    def values(self, count: int, root: int | None) -> dict[OrderCondition, _Value]:
+        """Return the values of the conditions at so many random members and at the flow."""
+        generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
+        ring = _Members(self.prime, count, generator, root)
+        known = {u.constant: ring.random(generator) for u in self.spelled.decimals()}
+        method: Any = self.spelled.method(ring, known)[0]
+        read = method if self.read is None else self.read(method, ring)
+        values = self.family.evaluate(read, ring, self.conditions)
+        flow = [
+            c.rhs.numerator * pow(c.rhs.denominator, -1, self.prime) % self.prime for c in self.conditions
+        ]
+        return {c: _Value((c,), x, y) for c, x, y in zip(self.conditions, values, flow, strict=True)}
+
+
+class _Members(Samples):
+    """Samples in which radicals are random numbers, but for a lone square root, which is ``square_root``."""
+
+    def __init__(self, prime: int, count: int, generator: Random, square_root: int | None) -> None:
+        super().__init__(prime, count)
+        self._generator, self._square_root = generator, square_root
+        self._roots: dict[object, Sample] = {}
+
+    def root(self, x: Sample, index: int) -> Sample:
+        """Return a random number, the same for the same radical, or the lone square root."""
+        if self._square_root is not None and index == 2:
+            return self.rational(self._square_root)
+        return self._drawn((self.key(x), index))
+
+    def named_root(self, minpoly: Any, near: Any, unit: Any, name: str) -> Sample:
+        """Return a random number, the same for the same name."""
+        return self._drawn(name)
+
+    def _drawn(self, key: object) -> Sample:
+        if key not in self._roots:
+            self._roots[key] = self.random(self._generator)
+        return self._roots[key]
+
+
+class _NoRoot(Exception):
+    """A number has no square root modulo a prime: another prime is needed."""
+
+
+def _root_modulo(x: Fraction, prime: int) -> int:
+    value = x.numerator * pow(x.denominator, -1, prime) % prime
+    root = pow(value, (prime + 1) // 4, prime)
+    if root * root % prime != value:
+        raise _NoRoot
+    return root

@@ -1,0 +1,51 @@
+"""Numbers that a description determines and nobody can choose: SHA-256 in counter mode.
+
+A test at random points or modulo a random prime proves something only where the object under test was fixed
+before the point. Therefore the points are drawn from a digest of the object itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from hashlib import sha256
+
+from flint import fmpz
+
+
+class Draws:
+    """Numbers drawn from a digest of ``described``, one for each name.
+
+    >>> draws = Draws("one file")
+    >>> draws.number("x", 64) == Draws("one file").number("x", 64) != Draws("another").number("x", 64)
+    True
+    """
+
+    def __init__(self, *described: str) -> None:
+        self._digest = sha256("\0".join(described).encode()).digest()
+
+    def number(self, name: str, bits: int) -> int:
+        """Return the number of this name, uniform below 2^bits."""
+        blocks = -(-bits // 256)
+        drawn = b"".join(
+            sha256(self._digest + block.to_bytes(4, "big") + name.encode()).digest()
+            for block in range(blocks)
+        )
+        return int.from_bytes(drawn, "big") >> (256 * blocks - bits)
+
+    def primes(self, bits: int, avoided: Iterable[int] = ()) -> Iterator[int]:
+        """Yield different primes of that size, 3 modulo 4, that divide none of the numbers ``avoided``.
+
+        Modulo such a prime a square root is a power.
+
+        >>> next(Draws("one file").primes(61)).bit_length()
+        61
+        """
+        nonzero = [x for x in set(avoided) if x]
+        seen = set[int]()
+        place = 0
+        while True:
+            n = self.number(f"prime {place}", bits) | 1 << (bits - 1) | 3
+            place += 1
+            if n not in seen and fmpz(n).is_prime() and all(x % n for x in nonzero):
+                seen.add(n)
+                yield n

@@ -1,0 +1,38 @@
+"""Compositions of implicit midpoint steps in plain arrays A, b."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from orderconds.tableau.methods import Composition, RungeKutta
+from orderconds.tableau.record import Tableau
+
+
+def as_composition(tableau: Tableau) -> Tableau | None:
+    """Return a tableau of arrays as a composition of midpoints with steps b_i, None where it is none.
+
+    The arrays are those of one where a_ij = b_j for j < i, a_ii = b_i/2 and a_ij = 0 for j > i (Bogfjellmo
+    and Marthinsen, Lemma 3.5.4). Rounded decimals need to agree up to their last digits only: the digits
+    then support what follows.
+
+    >>> from orderconds.tableau import find
+    >>> jump = Tableau.load(find("triple_jump"))
+    >>> arrays = replace(jump, family="rk", method=jump.read_as(("rk",)))
+    >>> found = as_composition(arrays)
+    >>> found.family, len(found.method.gamma)
+    ('composition', 3)
+    >>> as_composition(Tableau.load(find("gauss2"))) is None
+    True
+    """
+    method, ring = tableau.method, tableau.ring
+    if not isinstance(method, RungeKutta):
+        return None
+    A, b = method.A, method.b
+    for i, row in enumerate(A):
+        below = [(x, b[j]) for j, x in enumerate(row[:i])]
+        if any(ring.is_zero(x) is not True for x in row[i + 1 :]):
+            return None
+        if any(ring.is_zero(x - y) is False for x, y in (*below, (row[i] + row[i], b[i]))):
+            return None
+    composition = Composition("symmetric-2", tuple(b))
+    return replace(tableau, family="composition", method=composition, embedded=None, proof=None, file=None)
