@@ -10,9 +10,8 @@ from orderconds.tableau.write import Data
 MAX_PARTS = 24
 """No key of a tableau file has more than two parts."""
 
-_LONG_KEY = re.compile(
-    r"(?<![\w.'\"-])(?>(?:[A-Za-z0-9_-]{1,99}+|\"[^\"\n]{0,99}+\"|'[^'\n]{0,99}+')[ \t]{0,9}+\.[ \t]{0,9}+){24}"
-)
+_PART = r"(?:[A-Za-z0-9_-]{1,99}+|\"[^\"\n]{0,99}+\"|'[^'\n]{0,99}+')"
+_LONG_KEY = re.compile(rf"(?<![\w.'\"-])(?>{_PART}[ \t]{{0,9}}+\.[ \t]{{0,9}}+){{{MAX_PARTS}}}")
 
 
 def parse_toml(text: str) -> Data:
