@@ -1,6 +1,6 @@
 """Tableaux to and from the formats of other programs: JSON, CSV, NumPy, SymPy, LaTeX, C arrays.
 
-Every import and export passes through the keys of a tableau file (:func:`orderconds.tableau.file.from_data`).
+Every import and export uses the keys of a tableau file (:func:`orderconds.tableau.record.from_data`).
 So an imported tableau obeys the same grammar, and no input is ever executed. An exported method reads back as
 exactly the same method, rounded decimals with all their digits. TOML and JSON hold everything in a file; the
 other formats hold no proof (:func:`left_out`). Foreign decimals with 12 significant digits or more count as
@@ -20,8 +20,9 @@ from orderconds.errors import InputError
 from orderconds.ring.decimals import endpoints
 from orderconds.ring.protocol import Element
 from orderconds.tableau import Tableau
-from orderconds.tableau.file import MAX_NAME, bytes_of, from_data
-from orderconds.tableau.write import Data
+from orderconds.tableau.file import MAX_NAME, bytes_of
+from orderconds.tableau.file_format import Data
+from orderconds.tableau.record import from_data
 
 if TYPE_CHECKING:
     from orderconds.ring import Balls, NumberField

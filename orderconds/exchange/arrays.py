@@ -17,8 +17,9 @@ from orderconds.errors import TableauError
 from orderconds.exchange.unevaluated import CoefficientTooLong, with_names_inlined
 from orderconds.ring import Balls
 from orderconds.tableau import Tableau
-from orderconds.tableau.file import from_data
-from orderconds.tableau.write import Data, written_out
+from orderconds.tableau.file_format import Data
+from orderconds.tableau.record import from_data
+from orderconds.tableau.write import written_out
 
 Row = list[str]
 Arrays = Data

@@ -12,7 +12,7 @@ from orderconds.exchange.arrays import MATRICES, ROWS, TEXTS, Arrays, coefficien
 from orderconds.exchange.comments import escaped, unescaped
 from orderconds.exchange.nested import Cells, nested
 from orderconds.exchange.numpy_archive import nearest
-from orderconds.tableau.write import Data
+from orderconds.tableau.file_format import Data
 
 INTEGERS = ("count", "start", "embedded_order")
 _ARRAY = re.compile(

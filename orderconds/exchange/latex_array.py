@@ -24,8 +24,8 @@ from orderconds.exchange.comments import escaped, unescaped
 from orderconds.exchange.notation import from_latex, to_latex
 from orderconds.ring import Ball, Balls, Element
 from orderconds.tableau import Tableau
-from orderconds.tableau.file import from_data
-from orderconds.tableau.write import Data
+from orderconds.tableau.file_format import Data
+from orderconds.tableau.record import from_data
 
 SHORT = Balls(64)
 _TEXT = re.compile(r"% (\w{1,64}): (.*)")

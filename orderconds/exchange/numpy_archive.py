@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, TypeAlias, cast
 from orderconds.errors import TableauError
 from orderconds.exchange.arrays import TEXTS, Arrays, coefficient, from_arrays, json_table, to_arrays
 from orderconds.exchange.nested import Cells
-from orderconds.tableau.file import from_data
-from orderconds.tableau.write import Data
+from orderconds.tableau.file_format import Data
+from orderconds.tableau.record import from_data
 
 if TYPE_CHECKING:
     from orderconds.ring.protocol import RealRing

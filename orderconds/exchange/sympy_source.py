@@ -25,8 +25,9 @@ from orderconds.exchange.nested import Cells, nested
 from orderconds.exchange.notation import from_python, to_python
 from orderconds.ring.roots import place_of_root
 from orderconds.tableau import Tableau
-from orderconds.tableau.file import from_data
-from orderconds.tableau.write import Data, as_data
+from orderconds.tableau.file_format import Data
+from orderconds.tableau.record import from_data
+from orderconds.tableau.write import as_data
 
 if TYPE_CHECKING:
     from sympy import Expr, Matrix

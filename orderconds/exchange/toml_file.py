@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from orderconds.errors import TableauError
 from orderconds.tableau import dumps
-from orderconds.tableau.file import from_data
+from orderconds.tableau.file_format import Data
+from orderconds.tableau.record import from_data
 from orderconds.tableau.toml_reader import parse_toml
-from orderconds.tableau.write import Data
 
 
 def write(data: Data) -> bytes:

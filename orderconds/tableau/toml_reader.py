@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import tomllib
 
-from orderconds.tableau.write import Data
+from orderconds.tableau.file_format import Data
 
 MAX_PARTS = 24
 """No key of a tableau file has more than two parts."""

@@ -20,9 +20,9 @@ from click.testing import CliRunner
 from orderconds.cli import program
 from orderconds.errors import InputError
 from orderconds.exchange import FORMATS, export, read_data
-from orderconds.tableau.file import from_data
+from orderconds.tableau.file_format import Data
 from orderconds.tableau.library import available, find
-from orderconds.tableau.write import Data
+from orderconds.tableau.record import from_data
 
 SECONDS = 20
 

@@ -7,7 +7,7 @@ import pytest
 from orderconds import Tableau
 from orderconds.errors import TableauError
 from orderconds.exchange import export, read_data
-from orderconds.tableau.file import from_data
+from orderconds.tableau.record import from_data
 
 
 def test_c_source_with_quotients_and_suffixes() -> None:

@@ -20,7 +20,8 @@ from orderconds.exchange.arrays import from_arrays
 from orderconds.proof.krawczyk import NotProved
 from orderconds.proof.refine import refine
 from orderconds.tableau import find
-from orderconds.tableau.file import from_data, loads, text_of
+from orderconds.tableau.file import text_of
+from orderconds.tableau.record import from_data, loads
 
 HEUN = {
     "name": "heun",
