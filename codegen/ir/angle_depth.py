@@ -24,12 +24,16 @@ def chain(kernel: Kernel) -> int:
     >>> chain(Kernel("step", (), ("h",), body, (space.sym("y"),)))
     2
     """
+    # A loop repeats until its equations hold to rounding, so earlier roundings do not multiply through it.
     if kernel.loops or kernel.deferred is not None:
         return 1
+    # A kernel is single assignment and ordered, so each name has its depth before it is read.
     depths: dict[str, int] = {}
     for statement in kernel.body:
         if isinstance(statement, Let):
             depths[statement.name] = _depth(statement.value, depths)
+    # Only outputs count: digits lost in a value that no output reads are not lost in the state. The bound
+    # divides by the depth, hence at least 1.
     return max([1, *(_depth(x, depths) for x in kernel.outputs)])
 
 
@@ -37,8 +41,12 @@ def _depth(root: Expr, depths: Mapping[str, int]) -> int:
     """Return the longest chain in an expression whose symbols have those of ``depths``."""
     by_node: dict[int, int] = {}
     for node in walk([root]):
+        # walk yields arguments before their users.
         below = max((by_node[a.id] for a in node.args), default=0)
+        # Inputs have depth 0: the state is taken to be exact.
         if node.op == "sym":
             below = depths.get(node.payload, 0)
+        # The signed functions count too. Slopes do not: they occur
+        # in derivatives only, next to functions of the angle.
         by_node[node.id] = below + (node.op == "call" and "stumpff" in node.payload)
     return by_node[root.id]

@@ -32,12 +32,16 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     if not roots:
         return ()
     bare = [_bare(node) for node in kept]
+    # A number in front of a kept node still joins other numbers, so what is kept is the node without it.
     work = _Gathering(_powers(roots, bare))
     for node in bare:
         if node.args:
+            # A kept node is entered as an atom: one times itself.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
+    # Taken before whole() adds to the sums: nodes inside kept ones cost the same in both forms.
     still = set(work.sums)
     collected = tuple(work.whole(root) for root in roots)
+    # Expanding can destroy sharing. A tie keeps the given form, which earlier passes have chosen.
     return collected if _operations(collected, still) < _operations(roots, still) else tuple(roots)
 
 
@@ -50,6 +54,7 @@ def _bare(node: Expr) -> Expr:
 
 def _operations(roots: Sequence[Expr], still: set[int]) -> int:
     nodes = [node for node in walk(roots, stop=lambda n: n.id in still) if node.id not in still]
+    # Signs are free, because a sum absorbs them.
     products = sum(int(node.payload) - 1 for node in nodes if node.op == "pow")
     return products + sum(node.op not in ("const", "sym", "neg", "pow") for node in nodes)
 
@@ -62,17 +67,21 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
+    # Pairs of a node and its reader; a root is read from outside.
     used: list[tuple[Expr, Expr | None]] = [(root, None) for root in roots]
     for node in walk(roots):
         used += [(a, node) for a in node.args]
         inside = [ranks[a.id] for a in node.args if a.id in ranks]
         root = _is_inverse(node) and node.args[1].op == "call" and node.args[1].payload == "sqrt"
         if root and node.id not in still:
+            # With y = 1/sqrt(x) each node that equals c y^n gets the pair (y, n).
             ranks[node.id] = (node.id, 1)
         elif _is_power(node, inside):
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
+    # Only powers that leave their chain of products count: y^2 inside y^3 is an intermediate value.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
+    # If y itself is read, y is computed in any case, and its powers share that one division.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 
@@ -84,6 +93,7 @@ def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
 
 
 def _is_inverse(node: Expr) -> bool:
+    # Interning makes the test by identity exact.
     return node.op == "div" and node.args[0] is node.space.one
 
 
@@ -96,6 +106,7 @@ class _Gathering:
 
     def whole(self, root: Expr) -> Expr:
         """Return one expression with its constants collected."""
+        # Arguments come first, so the combinations of a node's arguments are known when it is visited.
         for node in walk([root], stop=lambda n: n.id in self.sums):
             if node.id not in self.sums:
                 self.sums[node.id] = self._sum(node)
@@ -112,11 +123,14 @@ class _Gathering:
         """Return c 1/y as d (e/y), where e is the size of c for the first that is read."""
         if not _is_inverse(atom):
             return c, atom
+        # A numerator other than 1 costs nothing, and it absorbs the first reader's product. Later readers
+        # share the division and multiply by the ratio, which is often 1.
         numerator = self.numerators.setdefault(atom.id, _size(c))
         return c / numerator, atom.space.const(numerator) / atom.args[1]
 
     def _sum(self, node: Expr) -> Sum:
         space, one = node.space, Number.rational(1)
+        # Irrational constants are atoms: constants of two fields do not join, and a ball is rounded once.
         if node.op == "const" and node.payload.is_rational:
             return {} if node.payload.is_zero else {space.one.id: (node.payload, space.one)}
         if node.op == "neg":
@@ -128,9 +142,12 @@ class _Gathering:
                 other if node.op == "add" else _scaled(other, Number.rational(-1))
             ).items():
                 total[key] = (total[key][0] + c if key in total else c, atom)
+            # A term that cancels must leave: a combination of
+            # one term is a multiple, which products can absorb.
             return {key: pair for key, pair in total.items() if not pair[0].is_zero}
         if node.op in ("mul", "pow") and node.id in self.powers and node.args[0].op != "const":
             return self._power(node)
+        # A number distributes over a sum. Two sums are not multiplied out: that grows exponentially.
         if node.op == "mul":
             for a, b in (node.args, node.args[::-1]):
                 if a.op == "const" and a.payload.is_rational:
@@ -144,6 +161,7 @@ class _Gathering:
             for _ in range(node.payload):
                 power = power * c
             return {atom.id: (power, atom)}
+        # Not Space's own methods: they would simplify again, and may turn the atom into a combination.
         atom = space._make(node.op, tuple(map(self._spell, node.args)), node.payload)
         return {atom.id: (one, atom)}
 
@@ -151,11 +169,13 @@ class _Gathering:
         """Return a power of an inverse root as the inverse of a root times what is under it."""
         base, exponent = self.powers[node.id]
         ((_, inverse),) = self.sums[base].values()
+        # The numeric factors inside y^n are collected, so that the power itself is free of numbers.
         c = Number.rational(1)
         for arg in node.args * (node.payload or 1):
             ((factor, _),) = self.sums[arg.id].values()
             c = c * factor
         root = inverse.args[1]
+        # y^(2m+1) = 1/(x^m sqrt x): x^m runs beside the root, and the division is the last operation.
         under = root.space.pow(root.args[0], exponent // 2)
         atom = root.space.one / (under * root if exponent % 2 else under)
         return {atom.id: (c, atom)}
@@ -179,6 +199,8 @@ def _size(c: Number) -> Number:
 
 def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
     """Return a combination as an expression: terms with coefficients c or -c are added first."""
+    # Grouped by the size of the coefficient: one product for 3/2 a - 3/2 b. Dictionaries keep the order of
+    # first use, so the result depends on the input alone.
     groups: dict[object, list[tuple[bool, Expr]]] = {}
     sizes: dict[object, Number] = {}
     key: object
@@ -192,5 +214,6 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
         for minus, atom in terms[1:]:
             part = part + atom if minus == first else part - atom
         part = space.const(sizes[key]) * part
+        # The sign of a group's first term becomes a subtraction, so no coefficient is stored with both signs.
         result = result - part if first else result + part
     return result

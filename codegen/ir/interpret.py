@@ -51,6 +51,7 @@ def interpret(
     used instead.
     """
     if program.frame == BODY:
+        # The statements are the same in both frames; only the state that they read and return is converted.
         core, start = replace(program, frame=SPACE), {**inputs, "mu": inward(problem, domain, inputs)}
         options: State = {"limit": limit, "newton": newton, "solutions": solutions, "near": near}
         end = interpret(core, problem, domain, start, **options)
@@ -72,11 +73,14 @@ def interpret(
         if isinstance(statement, Assign):
             run(statement)
         elif near is not None:
+            # near is a queue: each block takes the first entry and appends its solution.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
+            # Fixed points first: where they contract they are sharp, and need no difference quotients.
             patience = getattr(domain, "patience", limit) if newton else limit
             try:
                 _iterate(statement, env, domain, run, min(limit, patience), expected)
+            # Iterates that diverge may overflow, divide by zero or leave the domain of a root.
             except (ArithmeticError, ValueError):
                 if not newton or not hasattr(domain, "increment"):
                     raise
@@ -115,9 +119,11 @@ def _composed(
     """Return the new state after all substeps."""
     substep, state = replace(program, substeps=()), dict(inputs)
     for step in program.substeps:
+        # A shallow copy: only h differs, and the caller's domain keeps its own.
         shorter = copy(domain)
         shorter.h = domain.number(step.fraction) * domain.h
         if "t" in inputs:
+            # From the beginning of the whole step, so that the times of substeps do not add up roundings.
             state["t"] = inputs["t"] + domain.number(step.offset) * domain.h
         state |= interpret(substep, problem, shorter, state, limit=limit, newton=newton, near=near)
     return {name: state[name] for name, _ in program.outputs}
@@ -139,6 +145,7 @@ def _iterate(
             run(assign)
         old = [x for u in block.unknowns for x in flatten(u.kind, env[u])]
         new = [x for v in block.images for x in flatten(v.kind, env[v])]
+        # The test is before the update: on return the body's values belong to the unknowns that were read.
         done, size = domain.settled(old, new, size)
         if done:
             return
@@ -189,6 +196,7 @@ def _correct(
         for j, u in enumerate(now):
             step = domain.increment(u)
             moved = images([*now[:j], u + step, *now[j + 1 :]])
+            # Column j of 1 - g'(u), the derivative of u - g(u); the correction is its inverse times g(u) - u.
             slopes = [(a - b) / step for a, b in zip(moved, values, strict=True)]
             columns.append([(i == j) - x for i, x in enumerate(slopes)])
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
@@ -197,6 +205,7 @@ def _correct(
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:
+            # The last run of the body was at a moved point: run it once more at the solution.
             images(now)
             if sharp:
                 return now
@@ -209,6 +218,7 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
     n = len(right)
     rows = [[column[i] for column in columns] + [right[i]] for i in range(n)]
     for k in range(n):
+        # Partial pivoting: the matrix is near the identity only where h is small.
         pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
         rows[k], rows[pivot] = rows[pivot], rows[k]
         if not rows[k][k]:
@@ -219,6 +229,7 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
     solution: list[Scalar] = []
     for k in reversed(range(n)):
         total = rows[k][n]
+        # The solution is collected from the last unknown to the first.
         for x, y in zip(rows[k][k + 1 : n], reversed(solution), strict=True):
             total = total - x * y
         solution.append(total / rows[k][k])

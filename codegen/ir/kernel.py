@@ -80,6 +80,7 @@ class Newton:
 
         It costs some multiple of n^3, a sweep one of n, and the older it is, the more sweeps there are.
         """
+        # With n = len(matrix), n/2 steps share the cost of order n^3, so a step pays one of order n^2.
         return max(1, len(self.matrix) // 2) if self.residuals else 0
 
 
@@ -122,6 +123,8 @@ class Loop:
         What is read after the loop was computed before the last change. Chords contract by (h L)^2 where that
         moves by h L, so that a rate that ends the loop bounds it.
         """
+        # Values after the loop are recomputed from the last
+        # unknowns: their error is the rate times the last change.
         if self.read_anew and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
         first_order = self.solver == CHORD or (self.newton is not None and self.newton.residuals)
@@ -261,6 +264,7 @@ class Kernel:
     @property
     def start(self) -> Start | None:
         """Where the loops begin, where the kernel says so for all of them together."""
+        # A kernel has one Start at most: warm starts extrapolate the unknowns of all loops as one vector.
         return next((s for s in self.body if isinstance(s, Start)), None)
 
     def lets(self) -> Iterator[Let]:
@@ -281,6 +285,7 @@ class Kernel:
                 yield statement.value
                 continue
             yield from (let.value for let in statement.body)
+            # A Start has values, a Loop has starts and images; only a Loop may have a matrix.
             if isinstance(statement, Start):
                 yield from statement.values
                 continue
@@ -300,5 +305,6 @@ class Kernel:
         """Return those of ``scalars`` that some expression reads, in order; what is put off reads too."""
         read = {n.payload for n in walk(self.expressions()) if n.op == "sym"}
         if self.deferred is not None:
+            # A parameter that only a deferred flow reads is still an argument of the step.
             read |= {s for kernel in self.deferred.kernels for s in kernel.used_scalars()}
         return tuple(s for s in self.scalars if s in read)
