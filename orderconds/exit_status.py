@@ -104,7 +104,7 @@ class Run:
         """Print an error's message, and its record where a document is due."""
         with contextlib.suppress(
             OSError
-        ):  # a stream that is closed or full; the exit status is still correct
+        ):  # a full or closed stream keeps the exit status
             click.echo(f"orderconds: {record['message']}", err=True)
         if self.as_json and not self.documents:
             with contextlib.suppress(OSError):
