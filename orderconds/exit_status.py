@@ -102,7 +102,9 @@ class Run:
 
     def refuse(self, record: dict[str, Any]) -> None:
         """Print an error's message, and its record where a document is due."""
-        with contextlib.suppress(OSError):  # a stream that takes nothing; the exit status is still right
+        with contextlib.suppress(
+            OSError
+        ):  # a full or closed stream keeps the exit status
             click.echo(f"orderconds: {record['message']}", err=True)
         if self.as_json and not self.documents:
             with contextlib.suppress(OSError):

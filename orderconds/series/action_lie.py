@@ -129,7 +129,7 @@ class MuntheKaasActionSeries(ActionSeries):
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
         """Add the coefficients of u x v in X_i X_i^(n-1): the first factor takes a head of the word."""
         for cut in range(1, len(before) + len(after) + 3 - n):
-            rest = cut - len(before) - 1  # letters of v in the head, if x lies there
+            rest = cut - len(before) - 1  # letters of v in the head, if x is in the head
             if rest >= 0:
                 varied = self._varied_power(update, 1, before, after[:rest])
                 plain = self._power(update, n - 1, after[rest:])

@@ -77,7 +77,8 @@ def modifying_field(step: Character) -> VectorField:
     field = VectorField(step.ring, ROOTED, lambda tree: step.ring.zero)
 
     def value(tree: Tree) -> Element:
-        # In the whole tree as one component the step has the value 1, so that this term is the field's.
+        # The step has the value 1 on the tree of one vertex, so the term of the whole tree is the value of
+        # the field.
         return flow(tree) - _by_partitions(field, step, tree, whole=False)
 
     field.define(value)

@@ -190,7 +190,11 @@ def _explained(message: str, kind: type[Struct], prefix: str, where: str) -> Tab
         hint = ""
         if wrong[2] == "float" and "str" in wrong[1]:
             hint = 'quote it: "0.5" is exactly 1/2, "0.81772~" a rounded decimal'
-        return TableauError(f"a value of type {wrong[2]}", where=place, expected=wrong[1], hint=hint)
+        problem = f"a value of type {wrong[2]}"
+        if wrong[2] == "numpy.ndarray":
+            problem = "NumPy arrays are not accepted here"
+            hint = "pass nested lists of texts or integers, or load a .npz file"
+        return TableauError(problem, where=place, expected=wrong[1], hint=hint)
     return TableauError(summary[:1].lower() + summary[1:], where=place)
 
 

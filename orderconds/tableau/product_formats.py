@@ -109,7 +109,7 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
             raise TableauError(
                 f"rkn = {self.rkn!r} with parts {known}",
                 where=f"{where}: rkn",
-                expected="two parts and the name of the one that is linear in no velocity, V",
+                expected="two parts, and the name of the part V",
             )
 
     def coefficients(self) -> Places:
