@@ -175,7 +175,7 @@ class _Deferring:
             Assign(self.moving, state),
             Assign(self.complete, state),
             Assign(self.good, truth(True)),
-            While(both(self.good, self.asked > DONE), self.one()),
+            While(both(self.good, DONE < self.asked), self.one()),
             Assign(self.again, negated(self.good)),
             If(self.again, failed),
         )

@@ -99,7 +99,7 @@ class _Scopes:
         result: list[Body] = []
         for k in places:
             statement = body[k]
-            if name in self.own(statement):
+            if name in self.own(statement):  # a test or a value of this block reads it
                 return []
             result += [block for block in blocks(statement) if self.within(block, name)]
         if len(result) > 1 and not all(self.begins(block, name) for block in result):

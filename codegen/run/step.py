@@ -104,6 +104,7 @@ def _aged(plan: Plan) -> list[Statement]:
         if loop.newton is None or not loop.newton.period:
             continue
         served, period = plan.memory.field(f"made_{k}", Kind.COUNT), loop.newton.period
+        # 0 asks the next step for a new matrix.
         older = whole(0) if period == 1 else select((served % period) > 0, served + 1, 0)
         sequence.append(Assign(served, older))
     return sequence

@@ -173,6 +173,7 @@ class _Controlled:
             Assign(self.trial, state),
             *forgotten,
             Call(ADVANCE, (self.trial, *arguments), (STATUS,)),
+            # A step that fails is refused like one whose error is too large.
             Assign(self.norm, INFINITY),
             If(STATUS.equals(code(OK)), (measured,)),
         )

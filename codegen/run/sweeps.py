@@ -141,6 +141,7 @@ class _FixedPoint(_Loop):
         rule, body = self.rule, self.computed()
         body += [*measured, *rule.rates(), *rule.settled(), rule.decided(finite)]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
+        # The last sweep leaves the unknowns as they were: body values that are read later belong to them.
         again = (Assign(rule.previous, CHANGE), *taken)
         body.append(If(STATUS.equals(code(NOT_CONVERGED)), again))
         return [*self.begin(), *self.until_settled(body)]
@@ -225,6 +226,7 @@ class _Newton(_Loop):
         body += self.product(changes, residuals)
         body += rule.measured([size(x) for x in changes], self.unknowns)
         body += rule.rates()
+        # Scale is measured before the correction: a first guess of zero then is not close to anything.
         body += self.corrected(changes)
         body += rule.settled()
         body.append(rule.decided(finite, self.served > 0 if self.kept and not self.newton.inverted else None))
@@ -234,7 +236,7 @@ class _Newton(_Loop):
                 astray = either(astray, negated(self.served > 0))
             body.append(Assign(flag("astray"), astray))
             slow = number(Newton.CONTRACTION) * rule.previous
-            body.append(Assign(self.making, both(slow > 0.0, slow < CHANGE)))
+            body.append(Assign(self.making, both(slow > 0.0, CHANGE > slow)))
         body.append(Assign(rule.previous, CHANGE))
         return [*sequence, *self.until_settled(body, flag("astray") if self.kept else None)]
 
@@ -250,6 +252,7 @@ class _Newton(_Loop):
         body += self.corrected(changes)
         body += rule.settled_by_residuals()
         body.append(rule.decided(CHANGE, self.served > 0 if inverted else None))
+        # A second matrix in one step would cost more than the sweeps that it saves.
         body.append(Assign(self.making, truth(False)))
         body.append(Assign(rule.previous, CHANGE))
         return [*sequence, *self.until_settled(body, negated(self.served > 0) if inverted else None)]

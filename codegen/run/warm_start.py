@@ -205,6 +205,7 @@ class WarmStart:
             Assign(self.place, place),
         ]
 
+        # Each solution is stored twice, so that the last ones are neighbours wherever the ring begins.
         for row in (place, place + self.depth):
             body.append(Assign(self.values[row], solution))
         body.append(If(self.known < self.depth, (Assign(self.known, self.known + 1),)))

@@ -16,7 +16,7 @@ def written(unit: Unit, function: Function) -> frozenset[str]:
             case Call(name, arguments, results):
                 changed_names |= {root(r).text for r in results}
                 callee = unit.parts.get(name)
-                if callee is None:
+                if callee is None:  # of the library, which changes a matrix and nothing else
                     changed_names |= {root(a).text for a in arguments if name == "invert"}
                     continue
                 changed = written(unit, callee)

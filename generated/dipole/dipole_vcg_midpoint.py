@@ -496,7 +496,7 @@ def _advance(state, h, memory, statistics):
             contracts = rate_1 < 0.5
             settled = (
                 change * (rate_1 + 0.0001220703125) <= 8.881784197001252e-16 * scale
-                if contracts else sweep > 1 and (5.684341886080802e-14 * scale >= change
+                if contracts else sweep > 1 and (change <= 5.684341886080802e-14 * scale
                 or (change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state[0:9]))
                 and change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state[9:12]))))
             )

@@ -497,10 +497,10 @@ static inline int substep(double state[static 12], double h, struct memory *memo
         }
         const int contracts = rate_1 < 0.5;
         const int settled = contracts
-            ? change * (rate_1 + 0.0001220703125) <= 8.881784197001252e-16 * scale : sweep > 1
-            && (5.684341886080802e-14 * scale >= change
+            ? change * (rate_1 + 0.0001220703125) <= 8.881784197001252e-16 * scale : (sweep > 1
+            && (change <= 5.684341886080802e-14 * scale
             || (change * fabs(h) <= 7.105427357601002e-15 * largest(state, 9)
-            && change * fabs(h) <= 7.105427357601002e-15 * largest(state + 9, 3)));
+            && change * fabs(h) <= 7.105427357601002e-15 * largest(state + 9, 3))));
         status = isfinite(change) ? (settled ? DIPOLE_VCG_TRIPLE_JUMP_OK
             : DIPOLE_VCG_TRIPLE_JUMP_NOT_CONVERGED) : DIPOLE_VCG_TRIPLE_JUMP_NOT_FINITE;
         make_1 = 0;

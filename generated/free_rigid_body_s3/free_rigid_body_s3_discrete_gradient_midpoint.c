@@ -1004,17 +1004,17 @@ static inline int advance(double state[static 4], double h, struct memory *memor
         xi_0 += change_xi_0;
         xi_1 += change_xi_1;
         xi_2 += change_xi_2;
-        const int still = previous_1 > 0.0 && previous_1 <= change;
-        const int close = 9.094947017729282e-13 * scale >= change
+        const int still = previous_1 > 0.0 && change >= previous_1;
+        const int close = change <= 9.094947017729282e-13 * scale
             && change * rate_1 <= 1.1102230246251565e-16 * scale;
-        const int settled = close || (still && (5.684341886080802e-14 * scale >= change
+        const int settled = close || (still && (change <= 5.684341886080802e-14 * scale
             || change * fabs(h) <= 7.105427357601002e-15 * largest(state, 4)));
         status = isfinite(residual_xi_0 + residual_xi_1 + residual_xi_2) ? (settled
             ? FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK
             : FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_CONVERGED)
             : FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE;
         astray = still && make_1;
-        make_1 = 0.015625 * previous_1 > 0.0 && 0.015625 * previous_1 < change;
+        make_1 = 0.015625 * previous_1 > 0.0 && change > 0.015625 * previous_1;
         previous_1 = change;
     } while (status == FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_CONVERGED
         && sweep < 100 && !astray);

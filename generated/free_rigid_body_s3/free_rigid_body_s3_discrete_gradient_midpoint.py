@@ -1151,13 +1151,13 @@ def _advance(state, h, memory, statistics):
             xi_0 += change_xi_0
             xi_1 += change_xi_1
             xi_2 += change_xi_2
-            still = previous_1 > 0.0 and previous_1 <= change
+            still = previous_1 > 0.0 and change >= previous_1
             close = (
-                9.094947017729282e-13 * scale >= change
+                change <= 9.094947017729282e-13 * scale
                 and change * rate_1 <= 1.1102230246251565e-16 * scale
             )
             settled = (
-                close or (still and (5.684341886080802e-14 * scale >= change
+                close or (still and (change <= 5.684341886080802e-14 * scale
                 or change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state))))
             )
             status = (
@@ -1166,7 +1166,7 @@ def _advance(state, h, memory, statistics):
                 else NOT_FINITE
             )
             astray = still and make_1
-            make_1 = 0.015625 * previous_1 > 0.0 and 0.015625 * previous_1 < change
+            make_1 = 0.015625 * previous_1 > 0.0 and change > 0.015625 * previous_1
             previous_1 = change
             if not (status == NOT_CONVERGED and sweep < 100 and not astray):
                 break

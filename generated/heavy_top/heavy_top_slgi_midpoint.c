@@ -778,10 +778,10 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         n1_0 += change_n1_0;
         n1_1 += change_n1_1;
         n1_2 += change_n1_2;
-        const int still = previous_1 > 0.0 && previous_1 <= change;
-        const int close = 3.552713678800501e-15 * scale >= change
+        const int still = previous_1 > 0.0 && change >= previous_1;
+        const int close = change <= 3.552713678800501e-15 * scale
             && change * rate_1 <= 1.1102230246251565e-16 * scale;
-        const int settled = close || (still && (5.684341886080802e-14 * scale >= change
+        const int settled = close || (still && (change <= 5.684341886080802e-14 * scale
             || (change * fabs(h) <= 7.105427357601002e-15 * largest(state, 9)
             && change * fabs(h) <= 7.105427357601002e-15 * largest(state + 9, 3))));
         status = isfinite(residual_xi1_0 + residual_xi1_1 + residual_xi1_2 + residual_n1_0
@@ -789,7 +789,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             ? HEAVY_TOP_SLGI_MIDPOINT_OK : HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED)
             : HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE;
         astray = (still && make_1) || !(memory->made_1 > 0);
-        make_1 = 0.015625 * previous_1 > 0.0 && 0.015625 * previous_1 < change;
+        make_1 = 0.015625 * previous_1 > 0.0 && change > 0.015625 * previous_1;
         previous_1 = change;
     } while (status == HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED && sweep < 100 && !astray);
     count_sweeps(statistics, 0, sweep, status != HEAVY_TOP_SLGI_MIDPOINT_OK);

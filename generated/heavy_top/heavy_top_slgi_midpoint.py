@@ -752,13 +752,13 @@ def _advance(state, h, memory, statistics):
             n1_0 += change_n1_0
             n1_1 += change_n1_1
             n1_2 += change_n1_2
-            still = previous_1 > 0.0 and previous_1 <= change
+            still = previous_1 > 0.0 and change >= previous_1
             close = (
-                3.552713678800501e-15 * scale >= change
+                change <= 3.552713678800501e-15 * scale
                 and change * rate_1 <= 1.1102230246251565e-16 * scale
             )
             settled = (
-                close or (still and (5.684341886080802e-14 * scale >= change
+                close or (still and (change <= 5.684341886080802e-14 * scale
                 or (change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state[0:9]))
                 and change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state[9:12])))))
             )
@@ -768,7 +768,7 @@ def _advance(state, h, memory, statistics):
                 else NOT_FINITE
             )
             astray = (still and make_1) or (not memory.made_1 > 0)
-            make_1 = 0.015625 * previous_1 > 0.0 and 0.015625 * previous_1 < change
+            make_1 = 0.015625 * previous_1 > 0.0 and change > 0.015625 * previous_1
             previous_1 = change
             if not (status == NOT_CONVERGED and sweep < 100 and not astray):
                 break

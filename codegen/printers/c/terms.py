@@ -7,7 +7,20 @@ from typing import ClassVar
 
 from codegen.printers.c.text import closed_call, greatest
 from codegen.printers.expression import Style, spell
-from codegen.printers.infix import AND, ATOM, CHOICE, OR, PRODUCT, SIGN, SUM, Infix, Text, closed, joined
+from codegen.printers.infix import (
+    AND,
+    ATOM,
+    CHOICE,
+    COMPARED,
+    OR,
+    PRODUCT,
+    SIGN,
+    SUM,
+    Infix,
+    Text,
+    closed,
+    joined,
+)
 from codegen.run.identifiers import Identifiers
 from codegen.run.precision import DOUBLE, Precision
 from codegen.run.terms import Kind, Term, paired
@@ -130,8 +143,9 @@ class Terms(Infix):
     def choice(self, test: Term, yes: Term, no: Term) -> Text:
         """Return one of two values."""
         segments = self.text(test).within(OR)
-        first, second = self.text(yes).within(OR), self.text(no).within(CHOICE)
-        return Text((*joined(segments), *closed("? ", joined(first), ""), *closed(": ", second, "")), CHOICE)
+        first, second = self.text(yes).within(COMPARED), self.text(no)
+        last = second.segments if second.level == CHOICE else second.within(COMPARED)
+        return Text((*joined(segments), *closed("? ", joined(first), ""), *closed(": ", last, "")), CHOICE)
 
     def finite(self, values: Sequence[Term]) -> Text:
         """Return whether all values are numbers."""
