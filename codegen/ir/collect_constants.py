@@ -47,6 +47,7 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
 
 def _bare(node: Expr) -> Expr:
     """Return a node without its sign and its numeric factors."""
+    # A constant is always the first factor of a product (Space.mul).
     while node.op == "neg" or (node.op == "mul" and node.args[0].op == "const"):
         node = node.args[-1]
     return node
@@ -154,6 +155,7 @@ class _Gathering:
             for a, b in (node.args, node.args[::-1]):
                 if a.op == "const" and a.payload.is_rational:
                     return _scaled(self.sums[b.id], a.payload)
+            # (c x)(d y) = (c d)(x y): both numbers leave the product and join the reader's.
             (c, x), (d, y) = self._content(node.args[0]), self._content(node.args[1])
             atom = x * y
             return {atom.id: (c * d, atom)}

@@ -279,6 +279,7 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
             node = waiting.pop()
             if node is None:  # a marker: all arguments of the node below it were yielded
                 user = waiting.pop()
+                # A marker lies directly above its node on the stack.
                 assert user is not None
                 yield user
             elif node.id not in seen:

@@ -110,6 +110,7 @@ def _sorted(e: sympy.Basic) -> list[sympy.Basic]:
 
 
 def _fold(operation: Callable[[Expr, Expr], Expr], nodes: list[Expr]) -> Expr:
+    # From the first node and not from 0 or 1: no node is created that simplification removes.
     total = nodes[0]
     for node in nodes[1:]:
         total = operation(total, node)

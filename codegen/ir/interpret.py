@@ -191,6 +191,7 @@ def _correct(
 
     rounded = getattr(domain, "rounded", list)
     now = [x for s in block.starts for x in flatten(s.kind, env[s])] if near is None else list(near)
+    # sharp: the corrections have converged, and one more was made.
     size, sharp = None, False
     for _ in range(limit):
         values = images(now)
@@ -206,6 +207,7 @@ def _correct(
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
         if near is not None:  # each correction squares the error
+            # The increment is the root of the precision, and Newton's method squares the error.
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:

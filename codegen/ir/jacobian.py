@@ -26,6 +26,7 @@ def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr,
     >>> jacobian([x * y, x + 2 * y], ["x", "y"])
     ((y, x), (1, 2))
     """
+    # Columns are found by number, since a variable that no root reads has no vertex.
     space = roots[0].space
     columns = {space.sym(name).id: j for j, name in enumerate(symbols)}
     graph = _Graph(roots, columns)
@@ -33,6 +34,7 @@ def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr,
     matrix = [[space.zero] * len(symbols) for _ in roots]
     for i in range(len(roots)):
         for source, factor in graph.before[-1 - i].items():
+            # Only variables are left before a result: all inner vertices are gone.
             matrix[i][columns[source]] = factor
     return tuple(tuple(row) for row in matrix)
 

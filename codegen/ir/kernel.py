@@ -104,6 +104,7 @@ class Loop:
     starts: tuple[Expr, ...]
     body: tuple[Let, ...]
     images: tuple[Expr, ...]
+    # 512 roundings: changes at rounding level grow with the number of terms in a sweep.
     tolerance: float = 2.0**-44
     limit: int = 100
     newton: Newton | None = None

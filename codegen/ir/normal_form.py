@@ -42,6 +42,7 @@ class NormalForms:
 
     def __init__(self, space: Space, relations: Sequence[Relation] = (), whole: Sequence[Expr] = ()) -> None:
         self.space = space
+        # Monomials hold numbers of nodes, which sort and hash faster than nodes; this table leads back.
         self.atoms: dict[int, Expr] = {}
         # An expression that is not expanded is a variable from the beginning.
         self.known: dict[int, Polynomial] = {x.id: {((self._atom(x), 1),): ONE} for x in whole}
@@ -161,6 +162,7 @@ class NormalForms:
                 for atom, k in n:
                     powers[atom] = powers.get(atom, 0) + k
                 total = _add(total, tuple(sorted(powers.items())), x * y)
+        # Stops an expansion before it fills the memory: products of sums grow exponentially with their depth.
         if len(total) > MOST_TERMS:
             raise TooLong
         return total
