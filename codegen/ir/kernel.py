@@ -226,7 +226,7 @@ class Estimate:
 class Function:
     """A function that a kernel calls in several places: ``outputs`` over ``body``, of ``inputs`` alone.
 
-    Its k-th result is the expression that calls ``NAME.k``; ``about`` spells it in operations of a program.
+    Its k-th result is the expression that calls ``NAME.k``; ``about`` writes it in operations of a program.
     """
 
     name: str
