@@ -39,7 +39,9 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     identifiers = identify(unit, RESERVED | own_names(interface))
     printer = FunctionPrinter(unit, identifiers, interface.format, interface.prefix)
     snippets = needed(
-        *("c", helpers(unit), interface.format),
+        "c",
+        helpers(unit),
+        interface.format,
         sweeps=bool(interface.blocks),
         wide=inverted(kernel),
         widest=max((len(loop.unknowns) for loop in kernel.loops if loop.newton is not None), default=0),
