@@ -403,7 +403,7 @@ class _Compiler:
                 constant = domain.number(root.payload)
                 return lambda env: constant
             case "sym":
-                return self.name(self.identifiers.spelled.get(root.payload, root.payload))
+                return self.name(self.identifiers.by_name.get(root.payload, root.payload))
             case "add" | "sub" | "mul" | "div":
                 left, right = args
                 binary = _BINARY[{"add": "+", "sub": "-", "mul": "*", "div": "/"}[root.op]]

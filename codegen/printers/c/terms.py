@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 from typing import ClassVar
 
 from codegen.printers.c.text import closed_call, greatest
-from codegen.printers.expression import Style, spell
+from codegen.printers.expression import Style, render
 from codegen.printers.infix import (
     AND,
     ATOM,
@@ -27,16 +27,16 @@ from codegen.run.terms import Kind, Term, paired
 from codegen.snippets.graph import LIBRARY
 
 FUNCTIONS = {"abs": "fabs", "power": "pow"}
-"""Library functions that C calls otherwise."""
+"""Library functions that have another name in C."""
 
 
 def literal(precision: Precision, x: float) -> str:
-    """Spell a number that needs no rounding, or that is rounded already."""
+    """Return a number of the format as a C literal."""
     return precision.text(x) + precision.suffix
 
 
 def style(precision: Precision) -> Style:
-    """Return how C spells constants and functions in a precision: ``0.5f`` and ``sqrtf``."""
+    """Return the constants and function names of C in a precision: ``0.5f`` and ``sqrtf``."""
 
     def called(name: str) -> str:
         return name + precision.suffix if name in LIBRARY and name != "isfinite" else name
@@ -45,7 +45,7 @@ def style(precision: Precision) -> Style:
 
 
 class Terms(Infix):
-    """Spells the terms of one function; ``pointers`` are those parameters that are records."""
+    """Writes the terms of one function in C; ``pointers`` are the parameters that are records."""
 
     words: ClassVar[dict[str, str]] = {"and": "&&", "or": "||", "//": "/"}
 
@@ -67,7 +67,7 @@ class Terms(Infix):
         return Text(closed("!", inner.within(SIGN), ""), SIGN)
 
     def one_test(self, values: Sequence[Term]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return the two tests of which one says that all values are numbers."""
+        """Return two tests; all values are finite if one of them holds."""
         finite = closed("isfinite(", self.text(paired(values)).segments, ")")
         differences = paired([x - x for x in values])
         zero = literal(self.precision, 0.0)
@@ -82,7 +82,7 @@ class Terms(Infix):
                 return Text((self.number(term),))
             case "value":
                 assert term.value is not None
-                return Text(spell(term.value, dict(self.identifiers.spelled), self.style), SUM)
+                return Text(render(term.value, dict(self.identifiers.by_name), self.style), SUM)
             case "status":
                 return Text((self.upper + term.text,))
             case "item" | "part" | "field":
@@ -106,7 +106,7 @@ class Terms(Infix):
                 return Text(("INFINITY",))
 
     def name(self, term: Term) -> str:
-        """Return a name; the signal of inputs is a function and its context."""
+        """Return a name; a signal of inputs is passed as a function and its context."""
         return "input, context" if term.kind is Kind.SIGNAL else self.identifiers.of(term)
 
     def number(self, term: Term) -> str:
@@ -148,7 +148,7 @@ class Terms(Infix):
         return Text((*joined(segments), *closed("? ", joined(first), ""), *closed(": ", last, "")), CHOICE)
 
     def finite(self, values: Sequence[Term]) -> Text:
-        """Return whether all values are numbers."""
+        """Return the test that all values are finite."""
         first = values[0]
         if first.shape:
             return Text((f"all_finite({self.line(first)}, {first.shape[0]})",))
