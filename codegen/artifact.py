@@ -1,8 +1,9 @@
 """An emitted module: its files and its manifest entry, and the folder they are written to and read from.
 
-``manifest.json`` has an entry for each module and target of the folder, with the digest of each file. Files are
-written completely before they get their final names, the manifest last. If a write is killed between two files,
-the digests show it, and repeating the write repairs the folder. One process at a time writes to a folder.
+``manifest.json`` has an entry for each module and target of the folder, with the digest of each file. Files
+are written completely before they get their final names, the manifest last. If a write is killed between two
+files, the digests show it, and repeating the write repairs the folder. One process at a time writes to a
+folder.
 """
 
 from __future__ import annotations

@@ -62,8 +62,8 @@ def family_of(method: Method) -> Family:
 def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOrder:
     """Return the order of a method in its family; a MethodError if it cannot be decided.
 
-    On a ``scene`` with an abelian group the method is one of a classical family, and the order is that of this
-    family.
+    On a ``scene`` with an abelian group the method is one of a classical family, and the order is that of
+    this family.
     """
     from orderconds.checking import check
 

@@ -1,7 +1,7 @@
 """From scene and method, or from a kernel, to emitted files and a manifest entry.
 
-:func:`compile_method` runs the whole compiler: lowering, passes, kernel. Emitted files depend on scene, method
-and options only, so the same arguments give the same bytes.
+:func:`compile_method` runs the whole compiler: lowering, passes, kernel. Emitted files depend on scene,
+method and options only, so the same arguments give the same bytes.
 """
 
 from __future__ import annotations
@@ -104,8 +104,8 @@ def compile_method(
     """Return a method on a scene (or their names), lowered, optimised and translated to a kernel.
 
     ``parameters`` stay run-time arguments, or are folded at the value given (``alpha=1/2``); all others are
-    folded at the scene's values; ``inputs`` are signals that become run-time inputs, ``frame`` is the frame of
-    momenta (:func:`codegen.scene.momentum_frame.with_frame`); ``solver`` is for implicit blocks
+    folded at the scene's values; ``inputs`` are signals that become run-time inputs, ``frame`` is the frame
+    of momenta (:func:`codegen.scene.momentum_frame.with_frame`); ``solver`` is for implicit blocks
     (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an embedded method,
     ``jacobian`` the derivative of a step. Errors: SceneError, MethodError, UnknownName, TableauError.
     """
@@ -168,11 +168,11 @@ def emit(
 
     ``scene`` is a name of the gallery, the path of a Python file, or a problem; ``method`` is
     ``FAMILY:TABLEAU`` or ``TABLEAU``; ``prefix`` starts every external name, by default scene and method;
-    ``precision`` is ``double`` or ``single``; ``inputs`` are signals of the scene that become run-time inputs,
-    ``frame`` is the frame of momenta, ``space`` or ``body``; ``adaptive`` adds a run with step control,
-    ``jacobian`` the derivative of a step; ``solver``, for implicit blocks, is ``newton``, ``chord``,
-    ``fixed-point`` or ``auto``, the cheapest.
-    Errors as :func:`compile_method`, UnknownName for a target, InputError for a prefix that C cannot take.
+    ``precision`` is ``double`` or ``single``; ``inputs`` are signals of the scene that become run-time
+    inputs, ``frame`` is the frame of momenta, ``space`` or ``body``; ``adaptive`` adds a run with step
+    control, ``jacobian`` the derivative of a step; ``solver``, for implicit blocks, is ``newton``, ``chord``,
+    ``fixed-point`` or ``auto``, the cheapest. Errors as :func:`compile_method`, UnknownName for a target,
+    InputError for a prefix that C cannot take.
     """
     printer_of(target)
     known_precision(precision)

@@ -1,7 +1,7 @@
 """From kernel to source text: one package for each target, and the infix notation that targets share.
 
-A target is a package of this folder with a module in which ``print_module(kernel, interface, recipe)`` returns
-texts by file name, and a line in :data:`TARGETS`; :data:`codegen.loader.LOADERS` has the other line.
+A target is a package of this folder with a module in which ``print_module(kernel, interface, recipe)``
+returns texts by file name, and a line in :data:`TARGETS`; :data:`codegen.loader.LOADERS` has the other line.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Expressions as infix text with few parentheses; each operation is rounded as the expression tree says.
 
-The only rewritings are those that change no bit in IEEE arithmetic: a + (-b) becomes a - b, commuting operands
-may be exchanged, a sign moves through products. Sums and products are never regrouped.
+The only rewritings are those that change no bit in IEEE arithmetic: a + (-b) becomes a - b, commuting
+operands may be exchanged, a sign moves through products. Sums and products are never regrouped.
 """
 
 from __future__ import annotations

@@ -19,12 +19,12 @@ LISTS = ("parameters", "blocks", "inputs", "solvers")
 class Interface:
     """The calling convention of one module.
 
-    ``prefix`` starts every external C name and ends in an underscore; ``size`` is the
-    number of numbers in a state; ``time`` says whether the step reads t; ``parameters`` are the run-time parameters in order;
+    ``prefix`` starts every external C name and ends in an underscore; ``size`` is the number of numbers in a
+    state; ``time`` says whether the step reads t; ``parameters`` are the run-time parameters in order;
     ``blocks`` are the labels of the implicit blocks, which statistics count; ``precision`` names the format
     of all numbers (:mod:`codegen.run.precision`); ``inputs`` are the run-time functions of time, in order;
-    ``adaptive`` says that there is a run with step control; ``solvers`` are the methods that solve the blocks.
-    ``variations`` is the size of the Jacobian, 0 without one.
+    ``adaptive`` says that there is a run with step control; ``solvers`` are the methods that solve the
+    blocks. ``variations`` is the size of the Jacobian, 0 without one.
     """
 
     prefix: str

@@ -1,9 +1,10 @@
-"""Continuation in h: a step whose equations do not settle is reached through shorter ones.
+"""Continuation in h: if the equations of a step do not converge, follow the solution from shorter steps.
 
-First the solutions of earlier steps are forgotten: they may mislead where the motion changes. Then the step
-is halved until its equations settle, and each solution is where those of a longer step begin. The factor from
-one step to the next grows while that succeeds and falls where it does not. The solution so found is the one
-that tends to the motion as h tends to zero; a long step may have others. A step of no length changes nothing.
+The first attempt repeats the whole step without the solutions of earlier steps, which mislead if the motion
+has changed. Then the step is halved until its equations converge, and each solution is the initial guess for
+a longer step. The factor between consecutive steps grows on success and shrinks on failure. The result is on
+the branch that tends to the exact motion as h tends to zero; the equations of a long step may have other
+solutions. A step with h = 0 changes nothing.
 """
 
 from __future__ import annotations
@@ -40,11 +41,11 @@ CONTINUED = "continued"
 """The name of the function."""
 
 LARGEST_FACTOR = 4.0
-"""No step is longer than the one before by more."""
+"""The largest ratio of consecutive steps."""
 
 
 def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statement]:
-    """Return the statement that continues a step where its equations have not settled, none without them."""
+    """Return the statement that calls the continuation if a step fails; none without a warm start."""
     if plan.start is None:
         return []
     failed = either(STATUS.equals(code(NOT_CONVERGED)), STATUS.equals(code(NOT_FINITE)))
@@ -52,7 +53,7 @@ def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statem
 
 
 def continued(plan: Plan, core: str) -> Function:
-    """Return the function that makes a step, or substep, which ``core`` does not make at once."""
+    """Return the function that continues a step, or substep, for which ``core`` fails."""
     return _Continuation(plan, core).function()
 
 
@@ -69,7 +70,7 @@ class _Continuation:
         self.failure = Term("name", (), Kind.STATUS, "failure")
 
     def function(self) -> Function:
-        """Return the whole."""
+        """Return the function."""
         plan, state = self.plan, self.plan.state()
         parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
         parameters += (*plan.remembering(plan.memory), *plan.counted)
@@ -92,20 +93,20 @@ class _Continuation:
             While(going_on, (*self.attempt(), *self.adapted())),
             If(negated(self.done), (Return(self.failure),)),
             Assign(state, self.trial),
-            # The solutions before the last one are those of shorter steps, and no guide.
+            # The earlier solutions belong to shorter steps; a polynomial through them would be wrong.
             Assign(plan.memory.field("known", Kind.COUNT), whole(1)),
             no_failure(plan),
             Return(code(OK)),
         )
         part = "part of a step" if plan.parts else "step"
         about = (
-            f"Make a {part} whose equations do not settle: without the earlier solutions, which may mislead "
-            "where the motion changes; then through shorter ones, whose solutions are continued in h."
+            f"Repeat a {part} whose equations did not converge: first without the earlier solutions, which mislead "
+            "if the motion has changed, then by continuation in h from shorter steps."
         )
         return Function(CONTINUED, about, parameters, body, Kind.STATUS)
 
     def attempt(self) -> list[Statement]:
-        """Return the statements that try one step from what is known."""
+        """Return the statements that try one step, from the solution of the last successful one if there is any."""
         plan, memory = self.plan, self.plan.memory
         rates = [memory.field(f"rate_{k}") for k in range(1, len(plan.kernel.loops) + 1)]
         from_guess: list[Statement] = [
@@ -124,7 +125,7 @@ class _Continuation:
         ]
 
     def adapted(self) -> list[Statement]:
-        """Return the statements that choose the next step, where the whole one is not done."""
+        """Return the statements that choose the next step, unless the whole step is done."""
         plan, factor, part, solved = self.plan, self.factor, self.part, self.solved
         assert plan.start is not None
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))

@@ -1,8 +1,8 @@
-"""The run representation carried out over any scalars: floats, numbers of many digits, a ring that compares.
+"""An executor of the run representation over any ordered scalars: floats, numbers of many digits, a ring.
 
-It makes the sweeps, matrices and steps that emitted code makes, for they are the same statements; only the
-arithmetic is that of a domain (:mod:`codegen.ir.domain`). Each function becomes closures once, so that a run
-of many steps does not walk the statements again.
+It executes the same statements as emitted code, so it takes the same sweeps, matrices and steps; only the
+arithmetic is that of a domain (:mod:`codegen.ir.domain`). Each function is compiled to closures once, so that
+a run of many steps does not traverse the statements again.
 
 >>> from codegen.ir.domain import FloatDomain
 >>> from codegen.run.language import Assign, Function, Return, Unit, While
@@ -48,10 +48,10 @@ from codegen.run.writes import written
 Environment = dict[str, Any]
 Value = Callable[[Environment], Any]
 Action = Callable[[Environment], bool]
-"""An action says whether the function has returned."""
+"""An action executes a statement and returns whether the function has returned."""
 
 RESULT = "result of the function"
-"""Where an environment keeps what a function returns; no identifier."""
+"""The key of a function's result in its environment; it is no identifier."""
 
 _BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
     "+": operator.add,
@@ -113,7 +113,7 @@ class Machine:
         return self.number(0.0) if kind in (Kind.REAL, Kind.WIDE) else 0
 
     def call(self, name: str, *arguments: Any) -> Any:
-        """Return what a function returns; arrays and records among the arguments may be changed."""
+        """Call a function and return its result; arrays and records among the arguments may be changed."""
         function = self.unit.parts[name]
         environment = dict(zip(self.parameters[name], arguments, strict=True)) | self.tables
         if not function.guard:
@@ -126,7 +126,7 @@ class Machine:
         return environment.get(RESULT)
 
     def guarded(self, function: Function, arguments: Sequence[Any]) -> Any:
-        """Return what an arithmetic error makes of a function."""
+        """Return the result of a function after an arithmetic error."""
         if function.guard == RAISES_STATUS:
             return STATUSES.index(NOT_FINITE)
         changed = written(self.unit, function)
@@ -258,7 +258,7 @@ class _Compiler:
         return run
 
     def store(self, target: Term) -> Callable[[Environment, Any], None]:
-        """Return what changes a scalar."""
+        """Return the function that assigns to a scalar."""
         if target.op == "item":
             array, index = self.term(target.args[0]), self.term(target.args[1])
 
@@ -297,7 +297,7 @@ class _Compiler:
         return run
 
     def term(self, term: Term) -> Value:
-        """Return what computes a term."""
+        """Return the function that evaluates a term."""
         if term.op in _BINARY:
             left, right, binary = self.term(term.args[0]), self.term(term.args[1]), _BINARY[term.op]
             return lambda env: binary(left(env), right(env))
@@ -345,7 +345,7 @@ class _Compiler:
         return lambda env: a(env) or b(env)
 
     def access(self, term: Term, args: Sequence[Value]) -> Value:
-        """Return entries, parts, fields, and what concerns whole arguments."""
+        """Return accesses to entries, parts and fields, and operations on whole arguments."""
         first = args[0]
         match term.op:
             case "item":
@@ -395,7 +395,7 @@ class _Compiler:
                 return lambda env: _power(first(env), exponent(env))
 
     def expression(self, root: Expr) -> Value:
-        """Return what computes an expression of the kernel."""
+        """Return the function that evaluates an expression of the kernel."""
         domain = self.machine.domain
         args = [self.expression(a) for a in root.args]
         match root.op:
@@ -420,14 +420,14 @@ class _Compiler:
 
 
 def _power(x: Any, exponent: Any) -> Any:
-    """Return a power as C does: of zero it may be infinite."""
+    """Return a power as C does: a negative power of zero is infinite."""
     if not x:
         return math.inf if exponent < 0 else x
     return x**exponent
 
 
 def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | None:
-    """Return a function with several results from the library, None where it is none."""
+    """Return a library function as one with a list of results, None if it is a function of the unit."""
     if function == "invert":
         return lambda n, matrix: [_inverted(n, matrix)]
     if function.startswith("stumpff_"):
@@ -440,7 +440,7 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
 
 
 def _inverted(n: int, matrix: list[Any]) -> int:
-    """Replace a matrix, by rows, by its inverse, as emitted code does; return 0 where it has none, else 1."""
+    """Replace a matrix, by rows, by its inverse, as emitted code does; return 0 if it is singular, else 1."""
     rows = [matrix[n * i : n * i + n] for i in range(n)]
     order = []
     for k in range(n):

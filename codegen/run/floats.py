@@ -1,7 +1,7 @@
 """Doubles as emitted code computes with them: Stumpff functions by the same polynomials and closed forms.
 
-The interpreter's own (:func:`codegen.ir.domain.stumpff`) round differently in the last place, which near the
-end of an iteration may cost or save a sweep. An executor that shall count the sweeps of emitted code takes
+Those of the interpreter (:func:`codegen.ir.domain.stumpff`) round differently in the last place, which near
+the end of an iteration may cost or save a sweep. To count the sweeps of emitted code, an executor needs
 these.
 """
 
@@ -17,7 +17,7 @@ from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, economised,
 
 
 class EmittedFloats(FloatDomain):
-    """Doubles; ``chain`` is how many angles depend one on the other (:mod:`codegen.ir.angle_depth`)."""
+    """Doubles; ``chain`` is the number of angles that depend on one another (:mod:`codegen.ir.angle_depth`)."""
 
     def __init__(self, h: float = 0.0, chain: int = 1) -> None:
         super().__init__(h)

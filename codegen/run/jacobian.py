@@ -1,7 +1,7 @@
-"""The derivative of a step: a variation is carried along it, once for each unit vector.
+"""The derivative of a step: one column for each unit vector, transported by the linearised step.
 
-The kernel of variations computes the step with its rates. Implicit equations, and the linear ones for their
-variations, are iterated there; a step that Newton's method alone can solve has no derivative from here.
+The kernel of variations computes the step and its linearisation. Implicit equations, and the linear equations
+for their variations, are solved by fixed-point iteration; if only Newton's method converges, the call fails.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ from codegen.run.terms import (
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions of the derivative, none where it was not asked for."""
+    """Return the functions of the derivative, none if it was not requested."""
     if plan.kernel.vary is None:
         return ()
     varying = Plan(plan.kernel.vary, plan.format)
@@ -57,7 +57,7 @@ def _vector(varying: Plan) -> Term:
 
 
 def vary(plan: Plan, varying: Plan) -> Function:
-    """Return the function that carries a variation along one step, or one part of it."""
+    """Return the function that transports a variation along one step, or one substep."""
     state, vector, n = plan.state(), _vector(varying), plan.size
     symbols, read = varying.symbols, varying.arrangement.symbols()
     ends, new = outputs(varying.arrangement, symbols[n:])
@@ -73,12 +73,12 @@ def vary(plan: Plan, varying: Plan) -> Function:
         Return(code(OK)),
     ]
     parameters = (state, vector, *plan.moment(), *plan.parameters, *plan.sampled())
-    about = "Carry a variation of the state through one step; the vector receives it."
+    about = "Transport a variation of the state along one step; vector is replaced by the result."
     return Function("vary", about, parameters, tuple(body), Kind.STATUS, RAISES_STATUS)
 
 
 class _Jacobian:
-    """The function that callers see."""
+    """The public function."""
 
     column, row = count("column"), count("row")
 
@@ -89,7 +89,7 @@ class _Jacobian:
         self.inputs = tuple(map(holding, plan.held))
 
     def function(self) -> Function:
-        """Return the whole."""
+        """Return the function."""
         plan, dim = self.plan, self.dim
         matrix = real("jacobian", dim * dim)
         given = (self.given,) if plan.held else ()
@@ -114,13 +114,13 @@ class _Jacobian:
         return Function("jacobian", "", parameters, tuple(body), Kind.STATUS, public=True)
 
     def single(self) -> list[Statement]:
-        """Return the call for a step in one piece."""
+        """Return the call for a step without substeps."""
         plan = self.plan
         arguments = (*plan.moment(), *plan.parameters, *self.inputs)
         return [Call("vary", (plan.state(), self.vector, *arguments), (STATUS,))]
 
     def composed(self) -> list[Statement]:
-        """Return the loop over the parts of a step: the variation first, then the state itself."""
+        """Return the loop over the substeps: the variation first, then the state."""
         plan, part, point = self.plan, count("part_number"), self.plan.state("point")
         memories = record("memory", "memory", plan.parts)
         moment = (*part_moment(plan, part), *plan.parameters, *self.inputs)

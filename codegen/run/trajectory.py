@@ -1,9 +1,9 @@
-"""A run of steps of one size, with rows of a trajectory, and a single step for callers.
+"""A run of steps with constant size, with rows of a trajectory, and the public single step.
 
-A run ends where all steps are made or one fails; the state is then the last good one. Rows are written at the
-beginning and after every stride-th step.
+A run ends after the last step or after a failure; the state is then the last good one. Rows are written at
+the beginning and after every stride-th step.
 
-A small explicit kernel stands in the loop of the run itself: its state then stays in registers.
+A small explicit kernel is inlined in the loop of the run, so that its state stays in registers.
 """
 
 from __future__ import annotations
@@ -38,16 +38,16 @@ from codegen.run.terms import (
 )
 
 REGISTERS = 6
-"""How many numbers of a state stay in registers beside what a step computes with them."""
+"""The largest state that stays in registers next to the intermediate values of a step."""
 
 DONE = count("step")
-"""How many steps are made."""
+"""The number of completed steps."""
 
 COMPLETED = count("completed", 1, optional=True, cell=True)
 
 
 def is_looped(plan: Plan) -> bool:
-    """Whether the loop of a run holds the kernel: where nothing else calls it and its state is small."""
+    """Whether the loop of a run contains the kernel: no other function calls it, and its state is small."""
     kernel = plan.kernel
     alone = kernel.deferred is None and not plan.parts and plan.size <= REGISTERS
     return alone and not (plan.counting or plan.time or kernel.estimate is not None)
@@ -55,7 +55,7 @@ def is_looped(plan: Plan) -> bool:
 
 @dataclass(frozen=True)
 class Rows:
-    """The rows of a trajectory, where a caller wants them: at first and after every stride-th step."""
+    """The optional rows of a trajectory: the initial state, and the state after every stride-th step."""
 
     plan: Plan
 
@@ -75,7 +75,7 @@ class Rows:
         ]
 
     def due(self, step: Term = DONE) -> Term:
-        """Return whether the state after so many steps is a row."""
+        """Return the test that the state after ``step`` steps is a row."""
         return both(self.recording, (step % STRIDE).equals(0))
 
     def add(self, state: Term) -> list[Statement]:
@@ -87,12 +87,12 @@ class Rows:
 
 
 def own_memory(plan: Plan) -> list[Statement]:
-    """Return the statement that makes the memory of a run."""
+    """Return the statement that creates the memory of a run."""
     return [Array(plan.memories, zero=True)] if plan.remembers else []
 
 
 def arguments(plan: Plan, inputs: Term = INPUTS, t: Term = TIME) -> tuple[Term, ...]:
-    """Return what a step is called with besides the state."""
+    """Return the arguments of a step after the state."""
     return (
         *plan.moment(t),
         *plan.parameters,
@@ -103,14 +103,14 @@ def arguments(plan: Plan, inputs: Term = INPUTS, t: Term = TIME) -> tuple[Term, 
 
 
 def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list[Statement]:
-    """Return the statements that make a step and set the status."""
+    """Return the statements that call a step and set the status."""
     error = (absent(plan.error),) if plan.kernel.estimate is not None else ()
     call = Call(ADVANCE, (state, *given_arguments, *error), (STATUS,))
     return [call, *([] if plan.parts else retried(plan, state, given_arguments))]
 
 
 def step(plan: Plan) -> Function:
-    """Return the function that makes one step for a caller; run-time inputs stay the same over it."""
+    """Return the public function for one step; run-time inputs are constant over it."""
     state = plan.state()
     held = real("inputs", len(plan.kernel.inputs))
     parameters = (state, *plan.moment(), *plan.parameters, *((held,) if plan.held else ()), *plan.counted)
@@ -142,7 +142,7 @@ def run_parameters(plan: Plan) -> tuple[Term, ...]:
 
 
 def run(plan: Plan) -> Function:
-    """Return the function that makes a run."""
+    """Return the public function for a run."""
     state, rows = plan.state(), Rows(plan)
     carried = plan.kernel.carried is not None
     moving, before = plan.state(MOVING), momentum_before(plan) if carried else STATUS
@@ -162,7 +162,7 @@ def run(plan: Plan) -> Function:
         inner = (*advanced(plan, now, arguments(plan, t=later)), If(STATUS.equals(code(OK)), advance))
         body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
     if carried:
-        # A momentum may be finite in the body and overflow in space: then no step counts as made.
+        # A momentum may be finite in the body frame and overflow in space: then no step counts as completed.
         ended = Term("name", (), STATUS.kind, "ended")
         failed = (Assign(STATUS, code(NOT_FINITE)), Assign(DONE, whole(0)))
         finite = (Call(LEAVE, (moving, before, state), (ended,)), If(ended.differs(code(OK)), failed))
@@ -172,12 +172,12 @@ def run(plan: Plan) -> Function:
 
 
 def completed() -> list[Statement]:
-    """Return the statement that tells a caller how many steps were made."""
+    """Return the statement that reports the number of completed steps."""
     return [If(given(COMPLETED), (Assign(COMPLETED[0], DONE),))]
 
 
 def _looped(plan: Plan, rows: Rows) -> list[Statement]:
-    """Return the loop of a run that holds the kernel itself."""
+    """Return the loop of a run with the kernel inlined."""
     state, numbers = plan.state(), [own(s) for s in plan.symbols]
     read = plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)

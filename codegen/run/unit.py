@@ -1,4 +1,4 @@
-"""The unit of a kernel: every function, record and table that a module of it needs, and no other."""
+"""The unit of a kernel: all functions, records and tables that its module needs, and no others."""
 
 from __future__ import annotations
 
