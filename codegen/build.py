@@ -1,7 +1,8 @@
 """Compile emitted C to a shared object; results are cached by content and compiler.
 
 The compiler writes into a temporary folder inside the cache, and the finished file is renamed
-(:mod:`codegen.cache_entry`). So no incomplete file has the final name, and two processes may build the same module.
+(:mod:`codegen.cache_entry`). So no incomplete file has the final name, and two processes may build the same
+module.
 """
 
 from __future__ import annotations

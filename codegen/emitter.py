@@ -299,8 +299,8 @@ def steps_of(kernel: Kernel) -> str:
     """Describe the step control of a run."""
     assert kernel.estimate is not None
     return (
-        f"constant, or chosen by a proportional-integral controller; the error estimate of the embedded method is "
-        f"O(h^{kernel.estimate.order})"
+        f"constant, or chosen by a proportional-integral controller with an error estimate "
+        f"of order O(h^{kernel.estimate.order}) by the embedded method"
     )
 
 

@@ -73,7 +73,7 @@ class Statistics:
 
 @dataclass(frozen=True)
 class _Begun:
-    """The checked arguments of a call: the caller's state, its numbers, parameter values, inputs, statistics."""
+    """The checked arguments of a call: state, its numbers, parameter values, inputs, statistics."""
 
     state: State
     numbers: list[float]
@@ -159,7 +159,7 @@ class Integrator(ABC):
         inputs: Signals | None = None,
         **parameters: float,
     ) -> Arrival:
-        """Integrate from t to end with steps as large as the tolerances allow; ``h`` is the size of the first.
+        """Integrate from t to end with steps as large as the tolerances allow; the first has size ``h``.
 
         TypeError for a module without an estimate of the error (``emit --adaptive``), StepFailed as
         :meth:`run`, and with the status ``LIMIT`` if the end is not reached.
@@ -306,7 +306,7 @@ class CompiledIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: _Begun) -> Iterator[tuple[list[Any], list[Any]]]:
-        """Yield the arguments for inputs and statistics; after the call, raise the error of an input function."""
+        """Yield the arguments for inputs and statistics; afterwards raise the error of an input function."""
         callback = None if begun.inputs is None else _Callback(self._ffi, self.interface, begun.inputs)
         blocks, prefix = self.interface.blocks, self.interface.prefix
         counted = [self._ffi.new(f"{prefix}statistics *")] if blocks else []
@@ -333,7 +333,7 @@ class CompiledIntegrator(Integrator):
 
 
 class _Callback:
-    """A function of time that C may call. If it raises, the error is stored and the step gets NaNs and fails."""
+    """A function of time that C may call. If it raises, the error is stored, and NaNs make the step fail."""
 
     def __init__(self, ffi: Any, interface: Interface, function: Signals) -> None:
         self.function, self.count = function, len(interface.inputs)

@@ -54,7 +54,7 @@ class Method:
         return self.tableau.ring
 
     def number(self, x: Element) -> Number:
-        """Return a coefficient as a number; a rational one is over QQ, even if the tableau's field is larger."""
+        """Return a coefficient as a number; a rational one is over QQ even in a larger field."""
         number = Number(self.ring, x)
         if self.ring is QQ:
             return number

@@ -31,7 +31,7 @@ class Rendering:
 
 
 def number(value: Number) -> str:
-    """Return a constant as a double: rounded once, the shortest digits that read back the same, always a float.
+    """Return a constant as a double: rounded once, with the shortest digits that read back the same.
 
     >>> number(Number.rational(1, 3)), number(Number.rational(2))
     ('0.3333333333333333', '2.0')
@@ -52,7 +52,7 @@ DOUBLES = Style()
 
 
 def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[str, ...]:
-    """Return the text of an expression in segments between which a line may break; ``" ".join`` gives one line.
+    """Return the text of an expression in segments between which a line may break.
 
     ``names`` maps symbols to identifiers of the target; other symbols keep their names.
     Powers must have a symbol as base and exponent 2 or 3 (see :mod:`codegen.kernel.schedule`).
@@ -62,6 +62,7 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
         args = [rendered[a.id] for a in node.args]
         match node.op:
             case "const":
+                # The sign is kept apart, so that it can move through products and turn + into -.
                 text = style.constant(node.payload)
                 rendered[node.id] = Rendering((text.removeprefix("-"),), ATOM, text.startswith("-"))
             case "sym":
@@ -76,6 +77,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
                 rendered[node.id] = _add(x, Rendering(y.segments, y.precedence, not y.negative))
             case "mul":
                 x, y = args
+                # a * (b * c) becomes b * c * a: multiplication commutes in IEEE arithmetic, but
+                # does not associate.
                 swap = y.precedence == PRODUCT and x.precedence == ATOM and node.args[0].op != "const"
                 rendered[node.id] = _product(y, "*", x) if swap else _product(x, "*", y)
             case "div":
@@ -83,6 +86,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
             case "pow":
                 if node.args[0].op != "sym" or node.payload > 3:
                     raise ValueError("a power reached the printer unarranged")
+                # Products round alike in every target; the library's pow may differ in the last
+                # bit.
                 rendered[node.id] = Rendering((" * ".join([args[0].text] * node.payload),), PRODUCT)
             case _:
                 inner = ", ".join(" ".join(signed(a)) for a in args)
@@ -100,6 +105,7 @@ def signed(x: Rendering) -> tuple[str, ...]:
 
 
 def _add(x: Rendering, y: Rendering) -> Rendering:
+    # Addition commutes: b - a saves the sign of -a + b, and a leading sum needs no parentheses.
     if (x.negative and not y.negative) or (_sum(y) and not _sum(x)):
         x, y = y, x
     first = signed(x)

@@ -84,9 +84,12 @@ class Infix(ABC):
         level, word = LEVELS[term.op], self.words.get(term.op, term.op)
         left, right = map(self.text, term.args)
         if level in (AND, OR):
+            # C compilers warn about && inside || without parentheses (-Wparentheses).
             tight = {OR: COMPARED, AND: NOT}[level]
             first = left.segments if left.level == level else left.within(tight)
             return Text((*first, *closed(f"{word} ", right.within(tight), "")), level)
+        # Operators associate to the left: a + (b + c) keeps its parentheses, because regrouping
+        # changes the rounding.
         first = left.within(level if level in (SUM, PRODUCT) else SUM)
         segments = (*first, *closed(f"{word} ", joined(right.within(level + 1)), ""))
         return Text(joined(segments, LONG) if level == COMPARED else segments, level)

@@ -42,6 +42,7 @@ class Interface:
     def of(cls, kernel: Kernel, prefix: str, precision: str = DOUBLE.name) -> Interface:
         """Return the interface of a kernel: t and parameters that it never reads are left out."""
         used = kernel.used_scalars()
+        # Run-time inputs are sampled at times, so a step that reads them has the argument t.
         assert not kernel.inputs or "t" in used
         return cls(
             prefix=prefix,

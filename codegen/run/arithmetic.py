@@ -23,6 +23,8 @@ def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: boo
     """Return the statements of a kernel, in order, with ``after_loops`` after the last loop."""
     sequence: list[Statement] = []
     statements = plan.arrangement.statements
+    # All unknowns are final after the last loop, so this is the earliest place to store the
+    # solution.
     last = max((k for k, s in enumerate(statements) if isinstance(s, Iteration)), default=-1)
     for place, statement in enumerate(statements):
         if isinstance(statement, Iteration):
@@ -37,6 +39,7 @@ def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: boo
 
 def loaded(symbols: Sequence[str], array: Term, read: Iterable[str]) -> list[Statement]:
     """Return the statements that load the entries of an array that are read."""
+    # Unused variables are warnings in C.
     wanted = frozenset(read)
     return [Assign(own(s), array[i]) for i, s in enumerate(symbols) if s in wanted]
 
@@ -49,6 +52,8 @@ def outputs(arrangement: Arrangement, symbols: Sequence[str]) -> tuple[list[Stat
         if output.op == "sym" and output.payload not in symbols:
             named.append(own(output.payload))
             continue
+        # New names, because an output may be an input of another one: the state is overwritten only
+        # after all are computed.
         named.append(own(f"new {symbol}"))
         sequence.append(Assign(named[-1], value(output)))
     return sequence, named
@@ -62,6 +67,8 @@ def stored(array: Term, values: Sequence[Term]) -> list[Statement]:
 def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
     """Return the statements that sample the run-time inputs at each time and load those that are read."""
     sequence: list[Statement] = []
+    # Inputs are sampled once for each time, before all sweeps: an input function may be slow, and
+    # it must not change within a step.
     read, n = plan.arrangement.symbols(), len(plan.kernel.inputs)
     for number, sample in enumerate(plan.kernel.samples, 1):
         values = real(f"inputs_{number}", n)

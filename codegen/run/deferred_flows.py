@@ -81,6 +81,8 @@ def _core(plan: Plan, name: str, about: str) -> Function:
     """Return a function that applies a kernel to the state, without checks."""
     state, read = plan.state(), plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
+    # No test for finiteness here: NaNs and infinities persist, and the run tests the state when it
+    # is complete.
     body = [*loaded(plan.symbols, state, read), *computed(plan), *ends, *stored(state, new)]
     return Function(name, about, (state, *_read(plan)), tuple(body), guard=RAISES_NAN, often=True)
 
@@ -130,6 +132,7 @@ class _Deferring:
             Assign(self.moving, state),
             *begin,
             *self.call(ADVANCE, kernel, TIME, STEP),
+            # A single step defers nothing: its caller sees the complete state.
             *self.call(FINISH, deferred.finish, TIME, STEP),
             If(negated(all_finite(self.moving)), (Return(code(NOT_FINITE)),)),
             Assign(state, self.moving),
@@ -160,7 +163,7 @@ class _Deferring:
         return Function("run", "", run_parameters(plan), body, Kind.STATUS, public=True)
 
     def attempt(self) -> tuple[Statement, ...]:
-        """Return the statements of one attempt at all steps; after a failure, a careful one counts the good steps."""
+        """Return the statements of one attempt at all steps; a second, careful one counts the good steps."""
         state = self.plan.state()
         failed = (
             If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
@@ -176,6 +179,9 @@ class _Deferring:
             Assign(self.complete, state),
             Assign(self.good, truth(True)),
             While(both(self.good, DONE < self.asked), self.one()),
+            # The fast attempt only shows that some state is not finite. The careful one completes
+            # every step and stops at the first bad one, so that the caller gets the last good
+            # state.
             Assign(self.again, negated(self.good)),
             If(self.again, failed),
         )
@@ -185,15 +191,21 @@ class _Deferring:
         rows, deferred = Rows(self.plan), self.deferred
         last = (DONE + 1).equals(self.asked)
         t = exact_time(TIME, DONE, STEP)
+        # One product in place of a sum over steps: one rounding error, however many steps were
+        # deferred.
         elapsed = narrow(wide(LATE) * wide(STEP))
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),
             Assign(LATE, LATE + 1),
+            # LONGEST bounds the angle of a deferred rotation, and with it the loss of digits in its
+            # sine and cosine.
             Assign(self.stop, either(self.shown, self.careful, last, LATE.equals(LONGEST))),
         ]
         if deferred.begin is not None:
             begin = tuple(self.call(BEGIN, deferred.begin, t, elapsed))
             sequence += [
+                # If the run continues, the last flow of this step and the first of the next are one
+                # flow of the joint length.
                 Assign(self.lead, select(self.stop, self.last, self.later) * STEP),
                 If(negated(self.begun), begin),
                 Assign(self.begun, negated(self.stop)),

@@ -127,6 +127,7 @@ class Machine:
 
     def guarded(self, function: Function, arguments: Sequence[Any]) -> Any:
         """Return the result of a function after an arithmetic error."""
+        # Exact and many-digit scalars raise where IEEE arithmetic computes an infinity or a NaN.
         if function.guard == RAISES_STATUS:
             return STATUSES.index(NOT_FINITE)
         changed = written(self.unit, function)
@@ -138,6 +139,7 @@ class Machine:
 
 def is_number(x: Any) -> bool:
     """Whether a scalar is neither infinite nor NaN."""
+    # x - x is NaN for infinities and NaNs; the test needs no function that an exact ring lacks.
     return bool(x - x == 0)
 
 
@@ -152,6 +154,8 @@ class _Compiler:
         actions = [self.statement(s) for s in body if not isinstance(s, Note)]
 
         def run(env: Environment) -> bool:
+            # ``any`` stops at the first action that has returned, and skips the statements after
+            # it.
             return any(action(env) for action in actions)
 
         return run
@@ -229,6 +233,7 @@ class _Compiler:
     def assign(self, target: Term, value: Term) -> Action:
         """Return the action that changes a name, an entry, a part, a field or a record."""
         if value.op == "fresh":
+            # Clear in place: other functions hold the same record.
             record, machine = self.term(target), self.machine
 
             def clear(env: Environment) -> bool:
@@ -252,6 +257,7 @@ class _Compiler:
         array, n = self.term(target.args[0] if target.op == "part" else target), target.shape[0]
 
         def run(env: Environment) -> bool:
+            # A slice assignment copies the entries; a plain assignment would alias the two arrays.
             array(env)[start : start + n] = value(env)
             return False
 
@@ -441,6 +447,7 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
 
 def _inverted(n: int, matrix: list[Any]) -> int:
     """Replace a matrix, by rows, by its inverse, as emitted code does; return 0 if it is singular, else 1."""
+    # The order of operations is that of the emitted code, so that doubles agree in every bit.
     rows = [matrix[n * i : n * i + n] for i in range(n)]
     order = []
     for k in range(n):

@@ -37,6 +37,7 @@ def plain_names(function: Function) -> frozenset[str]:
 
 def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
     """Return the identifiers in each function, by its name; ``reserved`` words are excluded."""
+    # Names of functions and tables are global in every target: a local variable must not hide them.
     outside = frozenset(reserved) | {f.name for f in unit.functions} | {t.name.text for t in unit.tables}
     return {
         f.name: Identifiers(_identified(f, unit.scalars, outside | plain_names(f))) for f in unit.functions

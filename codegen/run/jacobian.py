@@ -96,6 +96,8 @@ class _Jacobian:
         entry = Assign(matrix[dim * self.row + self.column], self.vector[self.row])
         inner: tuple[Statement, ...] = (
             Array(self.vector, zero=True),
+            # The step is linear in its variation: the image of a unit vector is a column of the
+            # derivative.
             Assign(self.vector[self.column], number(1.0)),
             *(self.composed() if plan.parts else self.single()),
             If(STATUS.equals(code(OK)), (For(self.row, whole(dim), (entry,)),)),
@@ -124,6 +126,7 @@ class _Jacobian:
         plan, part, point = self.plan, count("part_number"), self.plan.state("point")
         memories = record("memory", "memory", plan.parts)
         moment = (*part_moment(plan, part), *plan.parameters, *self.inputs)
+        # The caller's statistics count steps of the integration, not those of a derivative.
         more = (*plan.remembering(memories[part]), *(absent(x) for x in plan.counted))
         moved: list[Statement] = [Call(SUBSTEP, (point, *moment, *more), (STATUS,))]
         arrays: list[Statement] = []
@@ -136,11 +139,13 @@ class _Jacobian:
                 If(STATUS.equals(code(OK)), (Call(LEAVE, (moving, before, point), (STATUS,)),)),
             ]
         inner: tuple[Statement, ...] = (
+            # The variation comes first: it is linearised at the point where the substep begins.
             Call("vary", (point, self.vector, *moment), (STATUS,)),
             If(STATUS.equals(code(OK)), tuple(moved)),
             Assign(part, part + 1),
         )
         return [
+            # The state of the caller is unchanged; a copy moves through the substeps.
             Array(point),
             Assign(point, plan.state()),
             *([Array(memories, zero=True)] if plan.remembers else []),

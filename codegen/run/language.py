@@ -224,6 +224,7 @@ def assigned(statement: Statement) -> tuple[Term, ...]:
 def reads(statement: Statement) -> Iterator[Term]:
     """Yield the names that a statement itself reads; changing an entry of an array reads the array."""
     given = assigned(statement)
+    # An assignment to an entry keeps the other entries, so it depends on the old array.
     whole = {id(t) for t in given if t.op == "name"}
     for term in direct(statement):
         if id(term) not in whole:

@@ -46,8 +46,11 @@ def _enter(plan: Plan, carried: Carried) -> Function:
     first, n = carried.first, plan.size - carried.first
     body = (
         Call("to_body", (state, before)),
+        # The conversion needs q, which both frames share.
         Assign(moving.part(0, first), state.part(0, first)),
         Assign(moving.part(first, n), before),
+        # Convert back immediately: the rounding error of the round trip then cancels in the
+        # difference at the end.
         Call("to_space", (moving, before)),
     )
     about = "Begin: convert the state to body momentum, and store this momentum converted back to space."
@@ -62,6 +65,7 @@ def _leave(plan: Plan, carried: Carried, n: int) -> Function:
         Array(momentum),
         Call("to_space", (moving, momentum)),
         For(i, whole(n), (Assign(momentum[i], gained),)),
+        # Test before writing: a failure leaves the caller's state unchanged.
         If(negated(all_finite(momentum)), (Return(code(NOT_FINITE)),)),
         Assign(state.part(0, carried.first), moving.part(0, carried.first)),
         Assign(state.part(carried.first, n), momentum),

@@ -17,6 +17,7 @@ class Names:
     """
 
     def __init__(self, reserved: Collection[str]) -> None:
+        # Sorted, so that emitted names do not depend on the order of a set.
         self._taken = dict.fromkeys(sorted(reserved), True)
         self._reserved = len(self._taken)
         self.identifiers: dict[str, str] = {}
@@ -35,6 +36,7 @@ class Names:
     def fresh(self, proposal: str) -> str:
         """Return an unused identifier, close to the proposal."""
         name = re.sub(r"\W", "_", proposal, flags=re.ASCII)
+        # C reserves identifiers with two leading underscores, Python mangles them in classes.
         if not name or name[0].isdigit() or name.startswith("__"):
             name = "v" + name
         while name in self._taken:

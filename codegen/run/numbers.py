@@ -14,6 +14,8 @@ def numbers_held(unit: Unit) -> int:
     identifiers = identify(unit, ())
     held = {f.name: _held(unit, f, identifiers[f.name]) for f in unit.functions}
     public = [held[f.name] for f in unit.functions if f.public]
+    # Private functions may all be inlined into one frame; a caller is inside one public function at
+    # a time.
     return sum(held.values()) - sum(public) + max(public)
 
 

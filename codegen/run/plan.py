@@ -72,6 +72,7 @@ class Plan:
     @property
     def newton(self) -> bool:
         """Whether matrices of Newton's method are kept from step to step."""
+        # The other form of Newton's method computes its matrix in each step and keeps nothing.
         return any(loop.solver == NEWTON for loop in self.kernel.loops)
 
     @property

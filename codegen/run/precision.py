@@ -64,6 +64,7 @@ class Precision:
         """Return the shortest digits that read back as this number of the format, always as a float."""
         if self.bits == 53:
             return repr(x)
+        # Python prints the shortest digits of a double; for a single they are found by trial.
         for digits in range(1, self.digits + 1):
             shorter = repr(float(f"{x:.{digits}g}"))
             if struct.pack("f", float(shorter)) == struct.pack("f", x):
@@ -87,8 +88,10 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
         exact = Fraction(value)
     if exact == 0:
         return 0.0
+    # Rounding to a double first would round twice, and the second time ties may be decided wrongly.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
+    # Subnormal numbers have fewer bits: the last place has a fixed exponent there.
     exponent = max(exponent, SUBNORMAL[bits])
     try:
         return math.ldexp(round(exact / Fraction(2) ** exponent), exponent)

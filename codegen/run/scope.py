@@ -102,6 +102,8 @@ class _Scopes:
             if name in self.own(statement):  # a test or a value of this block reads it
                 return []
             result += [block for block in blocks(statement) if self.within(block, name)]
+        # A value may pass from one sibling block to the next, unless each block assigns the
+        # variable first.
         if len(result) > 1 and not all(self.begins(block, name) for block in result):
             return []
         return result
@@ -126,6 +128,7 @@ class _Scopes:
         """Declare a variable in this block."""
         first = body[places[0]]
         times = sum(self.assignments(body[k], name) for k in places)
+        # `x = x + 1` cannot be a declaration, because it reads x.
         direct_first = isinstance(first, Assign) and self.assignments(first, name) > 0
         called = isinstance(first, Call) and len(first.results) == 1 and self.assignments(first, name) > 0
         if (direct_first or called) and name not in {self.identifiers.variable(x) for x in reads(first)}:
@@ -149,6 +152,7 @@ class _Scopes:
 
     def mentioned(self, statement: Statement) -> frozenset[str]:
         """Return the variables that a statement and its inner blocks mention."""
+        # By identity: equal statements at different places have separate scopes.
         if id(statement) not in self.cached:
             result = set(self.own(statement))
             for block in blocks(statement):

@@ -43,6 +43,7 @@ def counters(plan: Plan) -> tuple[Function, ...]:
             "count_sweeps",
             "Add the sweeps over one block in one step.",
             (statistics, block, sweeps, failed),
+            # The caller may pass no statistics; the test is here and not in the loops.
             (If(given(statistics), adding),),
         )
     ]

@@ -62,13 +62,19 @@ def kernel_step(plan: Plan) -> Function:
     parameters += (*plan.remembering(plan.memory), *plan.counted)
     parameters += (plan.error,) if plan.kernel.estimate is not None else ()
     ends, new = outputs(plan.arrangement, plan.symbols)
+    # The kernel does not read these entries because others determine them: a NaN in them would stay
+    # unnoticed.
     unread = [state[i] for i, s in enumerate(plan.symbols) if s not in read]
     body: list[Statement] = [
         If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
         *sampled(plan),
         *loaded(plan.symbols, state, read),
+        # The extrapolation follows the loops directly: its arithmetic overlaps with that of the
+        # outputs.
         *computed(plan, _remembered(plan)),
         *ends,
+        # Nothing is written to the state before this last test, so that a failed step leaves it
+        # unchanged.
         If(negated(all_finite(*new, *unread)), (Return(code(NOT_FINITE)),)),
         *_errors(plan),
         *_aged(plan),
@@ -93,6 +99,7 @@ def _errors(plan: Plan) -> list[Statement]:
     if plan.kernel.estimate is None:
         return []
     errors = stored(plan.error, [value(x) for x in plan.arrangement.errors])
+    # A run with constant steps passes no array and skips the estimate.
     return [If(given(plan.error), tuple(errors))]
 
 
@@ -111,6 +118,8 @@ def _aged(plan: Plan) -> list[Statement]:
 
 def exact_time(start: Term, steps: Term, h: Term) -> Term:
     """Return start + steps h, computed as a double and rounded once."""
+    # t += h would accumulate one rounding error in each step, and in single precision short steps
+    # would not change t.
     return narrow(wide(start) + wide(steps) * wide(h))
 
 
@@ -136,6 +145,8 @@ def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:
 def composed_step(plan: Plan) -> Function:
     """Return the function that composes the substeps."""
     state, following, part = plan.state(), plan.state("next"), count("part_number")
+    # One memory for each substep: only the solutions of the same substep in successive steps lie on
+    # a smooth curve.
     memories = record("memory", "memory", plan.parts)
     arguments = (*part_moment(plan, part), *plan.parameters, *plan.sampled(INPUTS))
     arguments += (*plan.remembering(memories[part]), *plan.counted)
@@ -147,6 +158,8 @@ def composed_step(plan: Plan) -> Function:
         Assign(part, part + 1),
     )
     body: tuple[Statement, ...] = (
+        # Substeps work on a copy: if a later one fails, the caller keeps the state before the whole
+        # step.
         Array(following),
         Assign(following, state),
         Assign(STATUS, code(OK)),

@@ -43,7 +43,7 @@ from codegen.run.terms import (
 
 SAFETY, LEAST, MOST = 0.9, 0.2, 5.0
 FLOOR = 1e-4
-"""The least error norm that the controller remembers: one accidentally small error must not affect later steps."""
+"""The least error norm that the controller remembers; an accidentally small error has no later effect."""
 
 RTOL, ATOL = real("rtol"), real("atol")
 
@@ -75,7 +75,7 @@ def weighted(plan: Plan) -> Function:
         ),
         Return(call("sqrt", total / float(n))),
     )
-    about = "The root mean square of error over atol + rtol |y|; |y| is the larger of the values before and after."
+    about = "The root mean square of error over atol + rtol |y|; |y| is the larger of before and after."
     parameters = (before, after, error, RTOL, ATOL)
     return Function("weighted", about, parameters, body, Kind.REAL, RAISES_NAN)
 
@@ -128,6 +128,7 @@ class _Controlled:
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
         memory = [Array(plan.memory, zero=True)] if plan.remembers else []
+        # A crude choice is enough: each trial corrects it by a factor of up to 5.
         chosen = size(self.end - self.now) / 100.0
         return (
             Assign(STATUS, code(OK)),
@@ -137,6 +138,7 @@ class _Controlled:
             Assign(self.now, self.t[0]),
             Assign(self.length, size(self.h[0])),
             If(self.length <= 0.0, (Assign(self.length, chosen),)),
+            # The norm 1 makes the integral term neutral in the first step.
             Assign(self.before, number(1.0)),
             If(negated(both(numbers, tolerances)), (Assign(STATUS, code(BAD_STEP)),)),
             *memory,
@@ -146,15 +148,19 @@ class _Controlled:
 
     def step(self) -> tuple[Statement, ...]:
         """Return the statements of one trial."""
+        # In floating-point arithmetic t + h may equal t: then no number of steps reaches the end.
         stuck = negated(either(self.following > self.now, self.following < self.now))
         return (
             Assign(self.left, self.end - self.now),
             Assign(self.last, self.length >= size(self.left)),
             Assign(self.taken, select(self.last, self.left, call("copysign", self.length, self.left))),
+            # The last step assigns the end itself: a sum would miss it by rounding, and a tiny step
+            # would follow.
             Assign(self.following, select(self.last, self.end, self.now + self.taken)),
             If(
                 either(self.accepted_steps + self.rejected_steps >= self.limit, stuck),
                 (Assign(STATUS, code(LIMIT)),),
+                # The test is false for a NaN: an estimate that is not a number rejects the step.
                 (*self.tried(), If(self.norm <= 1.0, self.accept(), self.refuse())),
             ),
         )
@@ -165,6 +171,7 @@ class _Controlled:
         known = {"t": self.now, "h": self.taken}
         arguments = (*(known.get(x.text, x) for x in plan.moment()), *plan.parameters, *plan.sampled())
         arguments += (*plan.remembering(plan.memory), *plan.counted, self.error)
+        # The extrapolation assumes solutions at equal distances in time.
         forgotten = [Assign(plan.memory, fresh(plan.memory))] if plan.remembers else []
         measured = Call("weighted", (state, self.trial, self.error, RTOL, ATOL), (self.norm,))
         return (
@@ -191,7 +198,11 @@ class _Controlled:
     def accept(self) -> tuple[Statement, ...]:
         """Return the statements after an accepted step."""
         state, floor = self.plan.state(), self.rounded(FLOOR)
+        # The previous error damps the controller: step sizes oscillate less where stability limits
+        # them.
         trend = self.power(self.before, 0.4)
+        # After a rejection the estimate was just found to be too optimistic: do not increase the
+        # step at once (Hairer, Norsett and Wanner).
         longer = select(self.shrunk, number(1.0), number(MOST))
         return (
             Assign(state, self.trial),
@@ -200,6 +211,8 @@ class _Controlled:
             Assign(self.proposed, self.rounded(SAFETY) * self.power(self.norm, -0.7) * trend),
             self.bounded(longer),
             If(
+                # A last step is shortened to hit the end; its length is no proposal for the next
+                # call, unless the error asks for less.
                 either(negated(self.last), self.factor < 1.0),
                 (Assign(self.length, size(self.taken) * self.factor),),
             ),

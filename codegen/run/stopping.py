@@ -56,7 +56,7 @@ LEAST_RATE = 2.0**-13
 """Added to the rate: the last change is applied too, and its own relative errors have this size."""
 
 FOUR_ROUNDINGS = 2.0**-50
-"""Four roundings, relative to the sum of the unknowns; for residuals, a change is a sum of absolute values too."""
+"""Four roundings, relative to the sum of the unknowns; for residuals, a change is such a sum too."""
 
 CHANGE, SCALE = real("change"), real("scale")
 
@@ -95,6 +95,9 @@ class Stopping:
         sequence: list[Statement] = [Assign(self.previous, number(0.0))]
         if self.warm:
             known = self.plan.memory.field("known", Kind.COUNT) > 0
+            # Between steps of equal size the rate hardly changes, so the old one lets the first
+            # sweep be the last (Hairer and Wanner start with the old rate for the same reason).
+            # Rate 1 is pessimistic: only a change at rounding level ends the first sweep.
             sequence.append(Assign(self.rate, select(known, self.kept_rate, 1.0)))
         return sequence
 
@@ -111,21 +114,31 @@ class Stopping:
             return []
         first = self.plan.memory.field("first")
         return [
+            # The first change measures the error of the initial guess. A step may have several
+            # loops, and the warm start judges all by the worst.
             If(SWEEPS.equals(1), (Assign(first, greatest([first, CHANGE])),)),
             If(
-                self.previous > 0.0, (Assign(self.rate, greatest([CHANGE / self.previous, number(SLOWEST)])),)
+                # Near rounding level a quotient of changes may be tiny by accident.
+                self.previous > 0.0,
+                (Assign(self.rate, greatest([CHANGE / self.previous, number(SLOWEST)])),),
             ),
         ]
 
     def converged(self) -> list[Statement]:
         """Return the statements that set the flag ``converged``."""
+        # Tolerances are multiples of the unit roundoff: single precision needs fewer sweeps.
         form, previous = self.plan.format, self.previous
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
+        # A small change proves nothing by itself; the predicted next change, rate times change,
+        # must be below rounding. Without a stored rate the test is change^2 <= bound * previous,
+        # which needs no division; previous = 0 in the first sweep then accepts a zero change only.
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm
             else CHANGE * CHANGE <= form.unit * SCALE * previous
         )
+        # Rounding errors can keep the change above every bound. Then it stops decreasing, and more
+        # sweeps are useless; ``tolerance`` distinguishes this from divergence.
         still = both(previous > 0.0, CHANGE >= previous)
         return [
             Assign(flag("still"), still),
@@ -137,7 +150,9 @@ class Stopping:
         ]
 
     def lost(self) -> Term:
-        """Return the test that a change is below rounding in every block of the state, or of its variation."""
+        """Return the test that a change is below the rounding of every block of the state or variation."""
+        # A variation does not act on the state, so its equations are compared with the variation
+        # itself.
         varied, bound = self.loop.label.startswith(VARIED), self.plan.format.scaled(LOST)
         moved = CHANGE * size(STEP)
         tests = [
@@ -170,19 +185,22 @@ class Stopping:
                 (Assign(rate, CHANGE / self.previous),),
                 (Assign(first, first + CHANGE),),
             ),
+            # The estimate by rate and change is reliable only if the iteration contracts clearly.
             Assign(flag("contracts"), rate < 0.5),
             Assign(
                 flag("converged"),
                 select(
                     flag("contracts"),
                     CHANGE * (rate + LEAST_RATE) <= close * SCALE,
+                    # One sweep that does not contract says nothing about the distance to the
+                    # solution.
                     both(SWEEPS > 1, either(CHANGE <= tolerance * SCALE, self.lost())),
                 ),
             ),
         ]
 
     def decided(self, finite: Term, possible: Term | None = None) -> Statement:
-        """Return the statement that converts the flag to a status; NOT_FINITE unless ``finite`` is a finite number.
+        """Return the statement that converts the flag to a status, NOT_FINITE unless ``finite`` is finite.
 
         ``possible`` is false if the matrix is singular; the flag is then meaningless.
         """
@@ -194,6 +212,8 @@ class Stopping:
 
     def going_on(self, astray: Term | None = None) -> Term:
         """Return the test for another sweep."""
+        # The limit is a safeguard for iterations that contract too slowly; the continuation then
+        # takes over.
         tests = [STATUS.equals(code(NOT_CONVERGED)), SWEEPS < self.loop.limit]
         return both(*tests, *([] if astray is None else [negated(astray)]))
 

@@ -117,6 +117,8 @@ class _Loop:
         sequence: list[Statement] = [Assign(SWEEPS, SWEEPS + 1)]
         for statement in self.iteration.body:
             sequence += simple(statement)
+        # All images are computed before any unknown changes (a Jacobi sweep): the order of the
+        # equations then has no effect.
         for image, x in zip(self.images, self.iteration.images, strict=True):
             if image.text.startswith("next "):
                 sequence.append(Assign(image, value(x)))
@@ -124,9 +126,12 @@ class _Loop:
 
     def until_converged(self, body: Sequence[Statement], astray: Term | None = None) -> list[Statement]:
         """Return the loop and the statements after it."""
+        # No loop is left from its middle, because array languages cannot do that: the status ends
+        # it. NOT_CONVERGED is also the result if the loop ends at its limit of sweeps.
         sequence: list[Statement] = [Assign(SWEEPS, whole(0)), Assign(STATUS, code(NOT_CONVERGED))]
         sequence.append(While(self.rule.going_on(astray), tuple(body), at_least_once=True))
         if self.counting:
+            # Count before the guard returns: the statistics must name the block that failed.
             sequence.append(count_sweeps(self.plan, self.number - 1))
         sequence.append(If(STATUS.differs(code(OK)), (Return(STATUS),)))
         return [*sequence, *self.rule.after()]
@@ -137,23 +142,28 @@ class _FixedPoint(_Loop):
 
     def statements(self) -> list[Statement]:
         """Return the statements of the loop."""
+        # Unrolled statements grow with the number of unknowns; above the limit, loops over arrays
+        # keep the code small.
         many = len(self.unknowns) > WIDEST
         measured, finite = self.wide() if many else self.narrow()
         rule, body = self.rule, self.computed()
         body += [*measured, *rule.rates(), *rule.converged(), rule.decided(finite)]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
         # The last sweep does not change the unknowns: values of its body that are read later belong to them.
+        # A branch and not a select: after convergence nothing needs to be copied.
         again = (Assign(rule.previous, CHANGE), *taken)
         body.append(If(STATUS.equals(code(NOT_CONVERGED)), again))
         return [*self.begin(), *self.until_converged(body)]
 
     def narrow(self) -> tuple[list[Statement], Term]:
-        """Return the statements that measure each change, and a term that is finite only if all changes are."""
+        """Return the statements that measure each change, and a term that is finite only if all are."""
         changes = self.named("change")
         sequence: list[Statement] = [
             Assign(change, size(x - u))
             for change, x, u in zip(changes, self.images, self.unknowns, strict=True)
         ]
+        # CHANGE, a maximum, cannot show a NaN: `a > b ? a : b` drops it. A sum of absolute values
+        # keeps NaNs, and infinities in it cannot cancel.
         return [*sequence, *self.rule.measured(changes, self.unknowns)], total(changes)
 
     def wide(self) -> tuple[list[Statement], Term]:
@@ -221,6 +231,7 @@ class _Newton(_Loop):
         if self.kept:
             sequence.append(Assign(self.making, negated(self.age > 0)))
             sequence.append(Assign(flag("astray"), truth(False)))
+            # A matrix at unknowns that are not finite would replace a good one in the memory.
             body.append(If(both(self.making, is_finite(finite)), tuple(self.renewed())))
         else:
             sequence += self.prepared()
@@ -231,12 +242,19 @@ class _Newton(_Loop):
         # small.
         body += self.corrected(changes)
         body += rule.converged()
+        # ``invert`` writes its success to the age. With a singular matrix the changes mean nothing,
+        # however small.
         body.append(rule.decided(finite, self.age > 0 if self.kept and not self.newton.inverted else None))
         if self.kept:
+            # The matrix is exact at the current unknowns and still the change does not decrease: no
+            # further sweep can help, and the step needs a better initial guess (continuation).
             astray = both(flag("still"), self.making)
             if not self.newton.inverted:
                 astray = either(astray, negated(self.age > 0))
             body.append(Assign(flag("astray"), astray))
+            # A simplified Newton iteration contracts by the relative error of its matrix. A slow
+            # contraction means an outdated matrix, and a new one costs less than many slow sweeps.
+            # In the first sweep ``previous`` is 0 and nothing is known yet.
             slow = number(Newton.CONTRACTION) * rule.previous
             body.append(Assign(self.making, both(slow > 0.0, CHANGE > slow)))
         body.append(Assign(rule.previous, CHANGE))
@@ -268,6 +286,8 @@ class _Newton(_Loop):
         sequence = self.entries()
         if self.newton.inverted:
             return [*sequence, Assign(self.age, whole(1)), *self.matrix_counted()]
+        # An explicit inverse costs more than a factorisation once, but each sweep then is a product
+        # without divisions or dependent substitutions, and the inverse lasts for many sweeps.
         sequence.append(Call("invert", (whole(len(self.unknowns)), self.inverse), (self.age,)))
         counted = self.matrix_counted()
         return [*sequence, *([If(self.age > 0, tuple(counted))] if counted else [])]
@@ -283,6 +303,8 @@ class _Newton(_Loop):
             return sequence
         n, inverted = len(self.unknowns), count(f"inverted_{self.number}")
         sequence = [Array(self.inverse), *sequence, Call("invert", (whole(n), self.inverse), (inverted,))]
+        # A singular matrix counts as a failure to converge, so that the continuation tries shorter
+        # steps.
         sequence.append(Assign(STATUS, code(NOT_CONVERGED)))
         singular = inverted.equals(0)
         if self.counting:
@@ -297,12 +319,15 @@ class _Newton(_Loop):
         n, matrix = len(self.unknowns), [value(x) for x in self.iteration.matrix]
         if n > WIDE:
             whole_matrix = real(f"matrix_{self.number}", n * n)
+            # An initialiser and one copy: n^2 separate assignments would make very long functions.
             return [*sequence, Array(whole_matrix, tuple(matrix)), Assign(self.inverse, whole_matrix)]
         return [*sequence, *(Assign(self.cell(k), x) for k, x in enumerate(matrix))]
 
     def cell(self, place: int) -> Term:
         """Return an entry of the inverse; it is a variable if the inverse is computed in each step."""
         if self.iteration.loop.solver == CHORD and self.newton.inverted:
+            # This inverse is used in one step only: scalars can stay in registers, entries of an
+            # array cannot.
             return real(f"inverse_{self.number}_{place}")
         return self.inverse[place]
 
@@ -311,6 +336,8 @@ class _Newton(_Loop):
         n = len(changes)
         if n <= WIDE:
             rows = [[self.cell(i * n + j) * r for j, r in enumerate(residuals)] for i in range(n)]
+            # The latency of this sum is on the critical path of every sweep, and sums of pairs
+            # halve it.
             return [Assign(c, paired(row)) for c, row in zip(changes, rows, strict=True)]
         i, j, partial = count("i"), count("j"), real("sum")
         right, left = real(f"residuals_{self.number}", n), real(f"changes_{self.number}", n)

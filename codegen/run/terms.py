@@ -136,6 +136,8 @@ _COUNT = Term("name", kind=Kind.COUNT)
 def _term(x: Operand, like: Term) -> Term:
     if isinstance(x, Term):
         return x
+    # A Python number takes the kind of the other operand: 1 beside a count is a count, beside a
+    # real 1.0.
     counted = like.kind in (Kind.COUNT, Kind.FLAG)
     return Term("number", kind=Kind.COUNT if counted else Kind.REAL, number=x)
 
@@ -276,6 +278,9 @@ def paired(terms: Iterable[Term]) -> Term:
     listed = list(terms)
     if len(listed) < 3:
         return total(listed)
+    # The pairs are independent of one another, so n / 2 dependent additions remain. The order is
+    # fixed here because floating-point addition is not associative and compilers must not regroup
+    # it.
     return total(total(listed[k : k + 2]) for k in range(0, len(listed), 2))
 
 

@@ -49,6 +49,7 @@ COMPLETED = count("completed", 1, optional=True, cell=True)
 def is_looped(plan: Plan) -> bool:
     """Whether the loop of a run contains the kernel: no other function calls it, and its state is small."""
     kernel = plan.kernel
+    # A function call in each step would force the state to memory.
     alone = kernel.deferred is None and not plan.parts and plan.size <= REGISTERS
     return alone and not (plan.counting or plan.time or kernel.estimate is not None)
 
@@ -116,6 +117,7 @@ def step(plan: Plan) -> Function:
     parameters = (state, *plan.moment(), *plan.parameters, *((held,) if plan.held else ()), *plan.counted)
     body: list[Statement] = []
     if is_looped(plan):
+        # A step is a run of one step here: a second copy of the kernel would only add code.
         nothing = (absent(Rows(plan).trajectory), whole(0), absent(COMPLETED))
         body = [Call("run", (state, STEP, whole(1), *plan.parameters, *nothing), (STATUS,))]
         return Function("step", "", parameters, (*body, Return(STATUS)), STATUS.kind, public=True)
@@ -156,9 +158,13 @@ def run(plan: Plan) -> Function:
         now = moving if carried else state
         row = rows.add(state)
         if carried:
+            # The row is first a copy of the initial state: LEAVE adds the increase of the momentum
+            # to it. The run itself continues in the body frame, without another conversion.
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
+        # Each time is computed from the initial one, so that errors do not accumulate.
         later = exact_time(TIME, DONE, STEP)
+        # The counter advances after success only: it is then the number of completed steps.
         inner = (*advanced(plan, now, arguments(plan, t=later)), If(STATUS.equals(code(OK)), advance))
         body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
     if carried:
@@ -194,6 +200,8 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     bad_step = both(STEPS > 0, negated(is_finite(STEP)))
     return [
         If(bad_step, (Assign(STATUS, code(BAD_STEP)),)),
+        # Local copies: the compiler cannot prove that rows of the trajectory do not alias the
+        # state, and would store the state in each step.
         *(Assign(x, state[k]) for k, x in enumerate(numbers)),
         While(both(STATUS.equals(code(OK)), DONE < STEPS), tuple(inner)),
         *(Assign(state[k], x) for k, x in enumerate(numbers)),

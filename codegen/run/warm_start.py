@@ -63,6 +63,8 @@ def begun(plan: Plan, statement: Beginning) -> If:
         cold += simple(inner)
     cold += [Assign(u, value(x)) for u, x in zip(unknowns, statement.values, strict=True)]
     warm = tuple(Assign(u, guess[k]) for k, u in enumerate(unknowns))
+    # A branch and not a select: the cold start evaluates parts of the kernel, which a run needs
+    # once only.
     return If(plan.memory.field("known", Kind.COUNT) > 0, warm, tuple(cold))
 
 
@@ -83,9 +85,12 @@ def memory_record(plan: Plan) -> Record:
                 "ring buffer; each solution is stored twice, so the last ones are contiguous",
             ),
         ]
+        # The rates of convergence belong to the solutions: both are invalid once the motion
+        # changes.
         fields += [(real(f"rate_{k}"), "") for k in range(1, len(plan.kernel.loops) + 1)]
         words.append("solutions of its equations, the latest first")
     for k, loop in enumerate(plan.kernel.loops, 1):
+        # A matrix to leading order is computed in each step and needs no memory.
         if loop.newton is not None and not loop.newton.leading:
             n = len(loop.unknowns)
             fields += [
@@ -103,6 +108,7 @@ def differences(start: Start) -> Table:
     rows = tuple(
         tuple(float((-1) ** j * comb(order, j)) for j in range(order + 1)) for order in range(start.depth + 1)
     )
+    # Padding with zeros lets a loop read terms in pairs: an odd last term meets a zero.
     padded = tuple((*row, *(0.0,) * (start.depth + 2 - len(row))) for row in rows)
     about = "Coefficients of backward differences by order, the latest solution first."
     return Table(_factors(start), padded, about)
@@ -156,8 +162,8 @@ class WarmStart:
                 ),
             ]
         about = (
-            "A backward difference times sign, from the term with index first on. The latest solution is added last, "
-            "so that the rest of the sum can be computed before it is known."
+            "A backward difference times sign, from the term with index first on. The latest solution is "
+            "added last, so that the rest of the sum can be computed before it is known."
         )
         parameters = (self.memory, order, first, sign, result)
         return Function("difference", about, parameters, tuple(body), often=True)
@@ -175,9 +181,13 @@ class WarmStart:
         ]
         for k, partial in enumerate(sums):
             later, earlier = self.values[place][k], self.values[place + 1][k]
+            # Two terms for each dependent addition: the two products are independent, so half the
+            # latency remains.
             inner.append(Assign(partial, partial + sign * (newer * later + older * earlier)))
         return [
             *(Assign(partial, number(0.0)) for partial in sums),
+            # From the oldest solution to the latest, which the sweeps of this step have just
+            # produced: only the last product waits for them.
             For(pair, (order - first) // 2 + 1, tuple(inner), reverse=True),
             *(Assign(result[k], partial) for k, partial in enumerate(sums)),
         ]
@@ -187,6 +197,8 @@ class WarmStart:
         order, row, size_now = count("order"), real("row", self.n), real("size")
         body = (
             Array(row),
+            # The difference of order k is the error that an extrapolation of degree k - 1 would
+            # have had.
             Call("difference", (self.memory, order, whole(0), number(1.0), row)),
             Assign(size_now, number(0.0)),
             For(_I, whole(self.n), (Assign(size_now, size_now + size(row[_I])),)),
@@ -204,6 +216,7 @@ class WarmStart:
         ]
         body += [
             Assign(self.first, number(0.0)),
+            # Fill the ring downwards: row place + j is then the solution j steps ago.
             Assign(place, select(self.place > 0, self.place - 1, self.depth - 1)),
             Assign(self.place, place),
         ]
@@ -216,6 +229,9 @@ class WarmStart:
         body += self.chosen(place)
         body += [
             Note("choose the next solution such that the difference of the next order vanishes"),
+            # The polynomial of degree k through the last solutions has zero differences of order k
+            # + 1. Solved for the first term of the difference, this is the value one step later: no
+            # nodes, no divisions.
             Call("difference", (self.memory, self.degree + 1, whole(1), number(-1.0), self.guess)),
         ]
         about = (
@@ -225,7 +241,7 @@ class WarmStart:
         return Function("remember", about, (self.memory, solution), tuple(body), often=True)
 
     def judged(self, solution: Term) -> list[Statement]:
-        """Return the statements that discard all earlier solutions if the error of the guess was too large."""
+        """Return the statements that discard all earlier solutions if the guess was bad."""
         moved = real("moved")
 
         def added(k: Term) -> Statement:
@@ -235,6 +251,9 @@ class WarmStart:
         return [
             Assign(moved, number(0.0)),
             *each(self.n, added),
+            # A ratio of two changes has no unit. A guess that is off by half of the motion is
+            # hardly better than the last solution, and a high degree would carry the disturbance on
+            # for many steps.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 
@@ -255,8 +274,13 @@ class WarmStart:
         )
         grows = flag("grows")
         adapt = (
+            # Differences decrease with the order while the motion is smooth on the scale of h,
+            # until rounding errors, which grow by 2 with each order, dominate. The least difference
+            # marks the best degree. It moves slowly, so it is enough to compare with the two
+            # neighbours.
             measured(self.degree, "size"),
             Assign(grows, truth(False)),
+            # A difference of order k needs k + 1 solutions.
             If(self.degree + 1 < self.known, higher),
             If(
                 grows,
@@ -264,6 +288,7 @@ class WarmStart:
                 (If(self.degree > 0, lower),),
             ),
         )
+        # The row of the latest solution decreases by one in each step and so counts the steps.
         often = Term("or", (self.known < self.depth, (place % SELDOM).equals(0)), Kind.FLAG)
         return [
             Note(

@@ -20,6 +20,8 @@ def written(unit: Unit, function: Function) -> frozenset[str]:
                     changed_names |= {root(a).text for a in arguments if name == "invert"}
                     continue
                 changed = written(unit, callee)
+                # Callees come first in a unit and calls are not recursive, so that this recursion
+                # ends.
                 pairs = zip(callee.parameters, arguments, strict=True)
                 changed_names |= {root(a).text for p, a in pairs if p.text in changed and a.op != "none"}
             case Array():

@@ -66,11 +66,15 @@ class FunctionPrinter:
         return f"{self.prefix}{name}" if self.unit.record(name).public else f"struct {name}"
 
     def parameter(self, function: Function, parameter: Term, header: bool) -> str:
-        """Return the declaration of a parameter; a ``header`` has no ``static`` sizes, which C++ cannot parse."""
+        """Return the declaration of a parameter; ``static`` sizes are no C++, so a ``header`` has none."""
         name = self.identifiers[function.name].of(parameter)
+        # ``const`` shows callers which arrays a function leaves unchanged, and the compiler checks
+        # it.
         const = "" if parameter.text in self.writes[function.name] else "const "
         if parameter.kind is Kind.SIGNAL:
             return f"{self.prefix}input input, void *context"
+        # ``static n`` tells the compiler that n entries exist. C++ does not know this syntax and
+        # reads headers.
         promised = "" if header else "static "
         if parameter.kind is Kind.RECORD:
             of = self.record_type(parameter.record)
@@ -87,6 +91,8 @@ class FunctionPrinter:
 
     def head(self, function: Function, header: bool = False) -> list[str]:
         """Return the lines of a function's head, or of its prototype in a ``header``."""
+        # Private functions are static: the compiler may inline them, and two modules in one program
+        # do not clash.
         storage = "" if function.public else "static inline " if function.often else "static "
         kind = "void" if function.returns is None else self.type_of(function.returns)
         listed = [self.parameter(function, p, header) for p in function.parameters]
@@ -155,6 +161,8 @@ class _Body:
             if term.value is not None:
                 read |= {self.identifiers.variable(own(s)) for s in symbols(term.value)}
         parameters = [p for p in self.function.parameters if p.kind is not Kind.SIGNAL]
+        # The interface is fixed, even if this kernel does not use a parameter; the cast avoids a
+        # warning.
         unread = [self.identifiers.of(p) for p in parameters if self.identifiers.of(p) not in read]
         signals = [p for p in self.function.parameters if p.kind is Kind.SIGNAL and p.text not in read]
         unread += ["input", "context"] if signals else []
@@ -202,6 +210,8 @@ class _Body:
             case While():
                 yield from self.loop(statement)
             case For(index, count, body, reverse):
+                # size_t is unsigned: a reversed loop decrements in its test, because `i >= 0` is
+                # always true.
                 i, n = self.identifiers.of(index), self.terms.line(count)
                 yield (
                     f"for (size_t {i} = {n}; {i}-- > 0;) {{"
@@ -224,6 +234,7 @@ class _Body:
         yield from fill("if (", self.terms.text(test).segments, ") {", separator="")
         yield from self.inner(statement.body)
         orelse = statement.orelse
+        # `else if` has no block in which a declaration before the inner test could be.
         if len(orelse) == 1 and isinstance(orelse[0], If) and not self.declared.before.get(id(orelse[0])):
             first, *rest = self.branch(orelse[0])
             yield f"}} else {first}"
@@ -249,6 +260,8 @@ class _Body:
     def kind(self, statement: Statement, target: Term) -> str:
         """Return the type if a statement declares its target, else nothing."""
         name = self.identifiers.of(target) if target.op == "name" else ""
+        # ``const`` for single assignments: a reader sees that the value is final, and the compiler
+        # checks it.
         constant = self.declared.by.get(id(statement), {}).get(name)
         if constant is None:
             return ""
@@ -262,9 +275,12 @@ class _Body:
             record = (
                 f"{name}, 0, sizeof *{name}" if target.text in self.pointers else f"&{name}, 0, sizeof {name}"
             )
+            # All bytes zero represent 0 and 0.0 in IEEE formats.
             yield f"memset({record});"
             return
         if target.shape:
+            # C does not assign arrays. Compilers replace a memcpy of constant size by plain moves;
+            # source and target are different arrays and never overlap.
             copied = (self.terms.line(target), self.terms.line(value), self.extent(target, value))
             yield f"memcpy({', '.join(copied)});"
             return
@@ -280,8 +296,9 @@ class _Body:
         yield from fill(f"{kind}{name} =", self.terms.text(value).segments, ";")
 
     def extent(self, target: Term, value: Term) -> str:
-        """Return the number of bytes to copy: the size of a local array, or a count times the size of an entry."""
+        """Return the bytes to copy: the size of a local array, or a count times the size of an entry."""
         parameters = {p.text for p in self.function.parameters}
+        # sizeof an array parameter is the size of a pointer, so it is used for local arrays only.
         for term in (target, value):
             if term.op == "name" and term.text not in parameters:
                 return f"sizeof {self.terms.line(term)}"
@@ -326,6 +343,7 @@ class _Body:
             yield from fill(f"{callee}(", _arguments(given), ";", separator="")
             return
         if len(results) > 1:
+            # A C function returns one value; further results are written through pointers.
             names = [self.identifiers.of(r) for r in results]
             given += [f"&{n}" for n in names]
             results = ()

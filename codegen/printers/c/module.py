@@ -25,6 +25,8 @@ from codegen.run.unit import unit_of
 from codegen.snippets.graph import needed
 from codegen.templates import environment
 
+# -ffp-contract=off: a fused multiply-add rounds once in place of twice, and the results would
+# depend on the machine.
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """Emitted C compiles without a warning under these flags."""
 
@@ -80,6 +82,7 @@ def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> 
     definitions += [printer.table(table) for table in unit.tables]
     real, n = interface.format.c_type, len(interface.inputs)
     for function in unit.functions:
+        # C has no closures: a function with a context pointer supplies constant inputs to a step.
         if function.name == "step" and n:
             definitions.append(
                 [
@@ -121,6 +124,7 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     size = {"double": 8, "float": 4}[interface.format.c_type]
     rounded = -(-size * numbers_held(unit) // 64) * 64
     inverting = NEWTON in interface.solvers or CHORD in interface.solvers
+    # ``invert`` has a row and a permutation of its own; an inlined kernel saves one frame.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     return f"at most {rounded + frames} bytes; functions of the mathematical library add to this"
 
@@ -139,6 +143,7 @@ def prototypes(interface: Interface) -> str:
     prefix, blocks = interface.prefix, len(interface.blocks)
     real = interface.format.c_type
     time = f"{real} t, " if interface.time else ""
+    # Names are irrelevant in a prototype, and those of a scene might be keywords of C.
     parameters = "".join(f"{real} p{i}, " for i in range(len(interface.parameters)))
     statistics = f"{prefix}statistics *statistics, " if blocks else ""
     matrices = "size_t matrices; " if interface.newton else ""

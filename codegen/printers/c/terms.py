@@ -9,11 +9,9 @@ from codegen.printers.c.text import closed_call, greatest
 from codegen.printers.expression import Style, render
 from codegen.printers.infix import (
     AND,
-    ATOM,
     CHOICE,
     COMPARED,
     OR,
-    PRODUCT,
     SIGN,
     SUM,
     Infix,
@@ -59,7 +57,7 @@ class Terms(Infix):
     def negated(self, test: Term) -> Text:
         """Return the text of a test that fails."""
         if test.op == "given":
-            return Text((f"{self.line(test.args[0])} == NULL",), ATOM - 4)
+            return Text((f"{self.line(test.args[0])} == NULL",), COMPARED)
         if test.op == "finite" and len(test.args) > 1:
             finite, exact = self.one_test(test.args)
             return Text((*closed("!", finite, ""), *closed("&& !(", exact, ")")), AND)
@@ -68,6 +66,8 @@ class Terms(Infix):
 
     def one_test(self, values: Sequence[Term]) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Return two tests; all values are finite if one of them holds."""
+        # isfinite of one sum replaces a test for each value. Only a sum of finite values that
+        # overflows fails it wrongly; x - x, which cannot overflow, decides this rare case.
         finite = closed("isfinite(", self.text(paired(values)).segments, ")")
         differences = paired([x - x for x in values])
         zero = literal(self.precision, 0.0)
@@ -94,7 +94,7 @@ class Terms(Infix):
             case "finite":
                 return self.finite(term.args)
             case "given":
-                return Text((f"{self.line(term.args[0])} != NULL",), PRODUCT - 2)
+                return Text((f"{self.line(term.args[0])} != NULL",), COMPARED)
             case "wide" | "narrow":
                 return self.converted(term)
             case "holding":
@@ -107,6 +107,7 @@ class Terms(Infix):
 
     def name(self, term: Term) -> str:
         """Return a name; a signal of inputs is passed as a function and its context."""
+        # C has no closures.
         return "input, context" if term.kind is Kind.SIGNAL else self.identifiers.of(term)
 
     def number(self, term: Term) -> str:
@@ -144,6 +145,7 @@ class Terms(Infix):
         """Return one of two values."""
         segments = self.text(test).within(OR)
         first, second = self.text(yes).within(COMPARED), self.text(no)
+        # ?: associates to the right: a chain of choices needs no parentheses.
         last = second.segments if second.level == CHOICE else second.within(COMPARED)
         return Text((*joined(segments), *closed("? ", joined(first), ""), *closed(": ", last, "")), CHOICE)
 

@@ -18,6 +18,8 @@ def greatest(terms: list[str]) -> tuple[str, ...]:
     """
     if len(terms) == 1:
         return (terms[0],)
+    # A balanced tree has logarithmic depth; the latency of a linear chain would be that of all
+    # comparisons.
     middle = len(terms) // 2
     first, second = greatest(terms[:middle]), greatest(terms[middle:])
     return (*closed("greater(", first, ","), *closed("", second, ")"))

@@ -53,6 +53,8 @@ class FunctionPrinter:
         body = _Body(self, function).block(function.body, depth)
         if not function.guard:
             return [*lines, *body]
+        # Python raises ZeroDivisionError, OverflowError or ValueError where C computes an infinity
+        # or a NaN.
         return [*lines, "    try:", *body, "    except (ArithmeticError, ValueError):", *self.guard(function)]
 
     def guard(self, function: Function) -> list[str]:
@@ -134,6 +136,8 @@ class _Body:
         lines: list[str] = []
         place = 0
         while place < len(body):
+            # In CPython, unpacking a list or assigning a slice is faster than a subscript for each
+            # entry.
             group = self.entries(body[place:])
             if len(group) >= TOGETHER:
                 lines += self.together(group, depth)
@@ -157,7 +161,7 @@ class _Body:
         return group
 
     def follow(self, group: Sequence[Assign], statement: Assign, reading: bool) -> bool:
-        """Whether a statement accesses the entry after those of ``group``, without reading an entry they write."""
+        """Whether a statement accesses the entry after those of ``group`` and reads none that they write."""
 
         def one(s: Assign) -> Term:
             return s.value if reading else s.target
@@ -171,6 +175,8 @@ class _Body:
         neighbours = all(b == (entries[0] or 0) + k for k, b in enumerate(entries))
         same = self.terms.line(one(statement).args[0]) == first
         changed = root(one(statement)).text
+        # A joint assignment evaluates all values before it writes: none may depend on an entry
+        # written before it.
         apart = reading or all(x.text != changed for s in (*group, statement) for x in names([s.value]))
         return neighbours and same and apart
 
@@ -233,6 +239,7 @@ class _Body:
             yield from self.condition("while", statement.test, depth)
             yield from self.block(statement.body, depth + 1)
             return
+        # Python has no loop with the test at its end.
         yield f"{'    ' * depth}while True:"
         yield from self.block(statement.body, depth + 1)
         yield from self.condition("if", Term("not", (statement.test,), Kind.FLAG), depth + 1)
@@ -246,6 +253,8 @@ class _Body:
             yield f"{'    ' * depth}{name}.clear()"
             return
         if target.shape:
+            # A slice assignment changes the caller's list; a plain one would only rebind the local
+            # name.
             name = name if target.op == "part" else f"{name}[:]"
             yield f"{'    ' * depth}{name} = {self.terms.line(value)}"
             return

@@ -45,6 +45,7 @@ class _Module:
     def unit(self) -> Unit:
         """The unit of the module without ``step``, which is a run of one step in Python."""
         unit = unit_of(Plan(self.kernel, self.interface.format))
+        # The public ``step`` is in the template, where it calls ``run``.
         kept = tuple(f for f in unit.functions if f.name != "step")
         return Unit(unit.scalars, unit.records, unit.tables, kept)
 

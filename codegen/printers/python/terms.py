@@ -17,7 +17,7 @@ from codegen.run.terms import Kind, Term
 
 
 class Constants:
-    """The constants of a module; in single precision ``digits`` maps the names of constants to their digits."""
+    """The constants of a module; in single precision ``digits`` maps their names to their digits."""
 
     def __init__(self, precision: Precision, taken: frozenset[str]) -> None:
         self.precision, self.taken = precision, taken
@@ -36,6 +36,7 @@ class Constants:
         size = text.removeprefix("-")
         if size not in self._names:
             place = 1 + len(self._names)
+            # A scene may use C1 as a name.
             while f"C{place}" in self.taken or f"C{place}" in self.digits:
                 place += 1
             self._names[size] = f"C{place}"
@@ -124,6 +125,7 @@ class Terms(Infix):
         given = [self.line(x) for x in term.args]
         if term.text == "largest":
             return (f"max(map(abs, {given[0]}))",)
+        # `0.0 ** -1` raises in Python; the helper returns an infinity as C does.
         name = {"greatest": "max", "power": "_power"}.get(term.text, term.text)
         segments = closed(f"{name}(", (*(f"{x}," for x in given[:-1]), given[-1]), ")")
         return closed("float32(", segments, ")") if self.single and name == "copysign" else segments
