@@ -71,7 +71,7 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
     for block, found in counts.items():
         each = ", ".join(f"{n} {name}" for name, n in found.items()) or "none"
         if block == START:
-            lines.append(f"{each} a start, in steps that follow no other")
+            lines.append(f"{each} an initial guess, in the first step of a run")
         elif block == STEP:
             lines.append(f"{each} a step")
         elif block.startswith("matrix of "):
