@@ -77,16 +77,21 @@ class Reference:
 
     def _some(self, program: Program, state: dict[str, Value]) -> Iterator[Result]:
         """Yield what happens in the largest step and in two smaller ones, for programs that settle later."""
+        # The reach of a step is about h times the field, so fast fields get shorter steps.
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
+        # A state where the field is not finite is left out; the other state may serve.
         if not math.isfinite(speed):
             return
         excess = math.frexp(speed * STEPS[0] / REACH)[1]  # a power of two above it
         count, last = 0, math.inf
         for moderate in STEPS:
+            # A power of two: h^k has no rounding error that could look like a difference.
             step = math.ldexp(moderate, -max(excess, 0))
+            # Later steps are for programs that need much shorter ones: nearby sizes add no evidence.
             if count and step > last / APART:
                 continue
+            # The interpreter fills this with the solutions of the blocks; compared programs start from them.
             solutions: dict[Var, Value] = {}
             # A step that does not settle is too long; a shorter one is tried.
             try:
@@ -118,8 +123,10 @@ class Reference:
         for step, inputs, before, solutions in point.results():
             try:
                 after = self._run(program, step, inputs, 2 * SWEEPS, solutions)
+            # The same equations in another form may contract later: the next, shorter step decides.
             except NotConverged as error:
                 failure = f"interpretation failed: {error}"
+            # The reference passed this point, so a failure of arithmetic comes from the pass.
             except FAILURES as error:
                 return f"interpretation failed: {error}"
             else:
@@ -128,11 +135,14 @@ class Reference:
 
     def _gap(self, before: dict[str, Value], after: dict[str, Value]) -> str:
         for name, kind in self.kinds.items():
+            # An input that the step only reads, such as the time, has no new value.
             if name not in before:
                 continue
             x, y = (flatten(kind, side[name]) for side in (before, after))
+            # Relative to large values, absolute for small ones: components may vanish by symmetry.
             scale = max(1.0, *(abs(s) for s in x))
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
+            # Negated on purpose: a gap that is not a number counts as a difference.
             if not gap <= AGREE * scale or not math.isfinite(scale):
                 return f"{name} moved by {gap:.3g}"
         return ""
@@ -143,6 +153,7 @@ def _speed(scene: Problem, state: dict[str, Value]) -> float:
     domain = FloatDomain(0.0)
     coordinates = tuple(x for block in scene.state for x in state[block.name])
     try:
+        # A field that overflows or divides by zero is treated like one without a finite value.
         values = evaluate(scene.roots, domain, scene.values(domain, coordinates, state["t"]))
     except (ArithmeticError, ValueError):
         return math.inf
@@ -153,6 +164,7 @@ def _states(scene: Problem) -> Iterator[dict[str, Value]]:
     """Yield the initial state, and one moved from it by the group along fixed directions."""
     domain = FloatDomain(0.0)
     start = scene.initial(domain)
+    # Sines of integers have no symmetry and no integer relation that a scene might share, and need no seed.
     directions = [math.sin(7.0 * k + 1.0) / 8 for k in range(2 * scene.group.dim)]
     x, covector = tuple(directions[: scene.group.dim]), directions[scene.group.dim :]
     time = float(scene.span[0])
@@ -162,6 +174,7 @@ def _states(scene: Problem) -> Iterator[dict[str, Value]]:
         for block in scene.state:
             value = start[first : first + len(block.symbols)]
             first += len(block.symbols)
+            # Momenta form a vector space. Points and elements move by the group and stay on the manifold.
             if moved and block.kind is Kind.DUAL:
                 value = tuple(a + b for a, b in zip(value, covector, strict=True))
             elif moved:
