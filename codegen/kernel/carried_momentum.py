@@ -32,6 +32,7 @@ class Frames:
     @property
     def _alike(self) -> bool:
         """Whether the program computes with the momentum that emitted code takes."""
+        # Both in space, or both in the body: no momentum has to be turned.
         return (self.program.frame == BODY) == (self.scene.body_group is not None)
 
     @property
@@ -46,11 +47,14 @@ class Frames:
             return state
         q, mu = state[: self._size], state[self._size :]
         if self.scene.body_group is not None:
+            # The state holds the momentum of the body and the program computes in space: Ad*_{q^-1} turns it.
             return (*q, *self.scene.body_group.Adtinv(domain, q, mu))
+        # Otherwise the run has turned the momentum before its first step, and the kernel takes it as it is.
         return (*q, *inward(self.scene, domain, {"q": q, "mu": mu})) if self.whole else state
 
     def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:
         """Return the kernel's new state of the program's; it began with ``start`` of ``state``."""
+        # A program without an embedded solution has an empty second state.
         if self._alike or not new:
             return new
         q = new[: self._size]
@@ -58,6 +62,8 @@ class Frames:
             return (*q, *self.scene.body_group.Adt(domain, q, new[self._size :]))
         if not self.whole:
             return new
+        # Only the increment is turned back: a q that rounding has made not quite orthogonal would
+        # otherwise scale the whole momentum in each step.
         named = ({"q": x[: self._size], "mu": x[self._size :]} for x in (state, start, new))
         return (*q, *outward(self.scene, domain, *named))
 
@@ -74,6 +80,7 @@ class Frames:
 
     def carried(self, domain: ExprDomain) -> Carried | None:
         """Return how a run turns the momentum, None where it does not."""
+        # With momenta of the body in the state, or in a whole step, there is nothing for the run to carry.
         if self._alike or self.whole or self.scene.body_group is not None:
             return None
         state = tuple(domain.space.sym(s) for s in self.scene.symbols)

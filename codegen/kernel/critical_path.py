@@ -36,6 +36,7 @@ Sum = dict[Expr | None, tuple[int, Expr, Expr]]
 
 def chain(kernel: Kernel) -> int:
     """Return the length of the critical path: the time of a step without any limit on parallel operations."""
+    # Symbols of assignments take the time of their values; inputs are ready at time 0.
     ready: dict[int, int] = {}
     for let in kernel.lets():
         ready[let.value.space.sym(let.name).id] = _measured(let.value, ready)
@@ -54,6 +55,7 @@ def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
     for let in lets:
         times.append(_measured(let.value, ready))
         ready[let.value.space.sym(let.name).id] = times[-1]
+    # Ties keep the old order, and no definition is ready after its readers: the order stays valid.
     return tuple(lets[k] for k in sorted(range(len(lets)), key=lambda k: (times[k] // TIMES["call"], k)))
 
 
@@ -89,19 +91,23 @@ class _Chains:
     sums: dict[tuple[int, int, int], Sum] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        # Arguments before users: one pass forward for times, one backward for what follows.
         self.nodes = list(walk(self.roots))
         for node in self.nodes:
             self._measure(node)
         # Users before arguments: the longest chain that follows each node.
         for node in reversed(self.nodes):
+            # Users come first, so the chain after a node is final when its arguments are reached.
             after = self.follow.setdefault(node.id, 0) + TIMES[node.op]
             for arg in node.args:
                 self.follow[arg.id] = max(self.follow.get(arg.id, 0), after)
         self.longest = max(self.ready[r.id] for r in self.roots)
 
     def _measure(self, node: Expr) -> None:
+        # The level counts slow operations on the way: values of the highest level are late in a sum.
         self.level[node.id] = max((self.level[a.id] for a in node.args), default=0) + (node.op in ATOMS)
         self.ready[node.id] = max((self.ready[a.id] for a in node.args), default=0) + TIMES[node.op]
+        # Fixed within a run: a compiler's loop hoists products of these out of the steps.
         own = node.op == "const" or (node.op == "sym" and node.payload in self.invariant)
         self.fixed[node.id] = all(self.fixed[a.id] for a in node.args) if node.args else own
 
@@ -110,9 +116,11 @@ class _Chains:
         ends = self._ends() if self.spread else frozenset()
         for node in self.nodes:
             args = [self.new[a.id] for a in node.args]
+            # Without simplification: a node that is not rewritten keeps its operation and its rounding.
             plain = node.space._make(node.op, tuple(args), node.payload) if args else node
             plain = self._combined(self._known(plain))
             self.new[node.id] = plain
+            # Only sums and products are linear; a call or quotient of late values is itself late.
             if node.id in ends and node.op in ("add", "sub", "mul"):
                 short = self._expression(self._sum(node, self.level[node.id]), node.space)
                 # A sum over late values has more products, so it is taken only if it is ready earlier.
@@ -125,19 +133,23 @@ class _Chains:
         ends = set()
         for node in self.nodes:
             for arg in node.args:
+                # Slack of the chain through this argument: with much slack nothing is gained.
                 if self.longest - self.ready[arg.id] - TIMES[node.op] - self.follow[node.id] > SLACK:
                     continue
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
+                # A product is linear in late values if its other factor is known earlier.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
+                # The linear expression ends here: above this node the late values are no longer linear.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
 
     def _sum(self, node: Expr, level: int) -> Sum:
         """Return an expression as a sum over the late values of a level; what is shared is expanded once."""
+        # The rewritten node belongs to the key: the same node expands otherwise after a rewriting below it.
         key = node.id, level, self.new[node.id].id
         if key not in self.sums:
             self.sums[key] = self._expanded(node, level)
@@ -153,6 +165,7 @@ class _Chains:
             total = dict(self._sum(node.args[0], level))
             sign = 1 if node.op == "add" else -1
             for atom, term in _scaled(self._sum(node.args[1], level), sign, one, one).items():
+                # c x + c y = c (x + y), and x + y is ready before the late value c.
                 total[atom] = self._joined(total[atom], term) if atom in total else term
             return total
         if node.op == "mul":
@@ -161,10 +174,12 @@ class _Chains:
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:
+                # Fixed factors are kept apart, so that they meet other fixed ones and leave the step.
                 factor = self.new[a.id]
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
+        # Not linear in anything later: the node is a late value of its own.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
@@ -182,8 +197,10 @@ class _Chains:
             product = self._product(steps, rest)
             terms.append((sign, product if atom is None else self._known(atom * product)))
         while len(terms) > 1:
+            # As in Huffman coding: adding the two earliest terms first gives the earliest sum.
             terms.sort(key=lambda term: self.ready[term[1].id])
             (p, x), (q, y), *others = terms
+            # A sign costs nothing in a subtraction; only a sum of two negative terms ends with a negation.
             both = x + y if p == q else x - y if p > 0 else y - x
             terms = [(p if p == q else 1, self._known(both)), *others]
         sign, value = terms[0]
@@ -193,6 +210,7 @@ class _Chains:
         """Return a product with its steps and constants multiplied first: they are the same in every step."""
         if node.op != "mul":
             return node
+        # c1 (c2 x) = (c1 c2) x, for a fixed c1 on either side.
         for a, b in (node.args, node.args[::-1]):
             if self.fixed[a.id] and b.op == "mul":
                 for c, d in (b.args, b.args[::-1]):

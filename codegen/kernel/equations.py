@@ -63,6 +63,7 @@ def compared(
     if not residuals:
         return None
     space = residuals[0].space
+    # Values from before the block do not change in a sweep: the expansion may keep them whole.
     inside = {v for assign in block.body for v in assign.targets}
     known = [
         x
@@ -72,17 +73,20 @@ def compared(
         if x.op in ("add", "sub")
     ]
     # Few unknowns: what is kept takes registers that sweeps need. Many: what is expanded takes lines.
+    # Two regimes, see :data:`MANY`.
     many = len(entered.unknowns) > MANY
     later = _read_after(block, program) if many else frozenset()
     free = _independent(known, entered.unknowns) if many else []
     normal, linear = NormalForms(space, whole=free), FirstOrder(entered.unknowns)
     try:
         rows = linear.jacobian(residuals)
+    # A pole or branch point at h = 0: the caller takes the exact matrix.
     except NotLinearised:
         return None
     changes = tuple(name(f"d_{u}") for u in entered.unknowns)
     kept: list[tuple[str, Expr]] = []
     for var in (target for assign in block.body for target in assign.targets):
+        # Elements and points are no vectors: adding a derivative would leave the manifold.
         if var.kind not in (Kind.ALG, Kind.DUAL) or (many and var not in later):
             continue
         try:
@@ -96,9 +100,11 @@ def compared(
             for slope, change in zip(row, changes, strict=True):
                 total = total + normal(slope) * space.sym(change)
             moved.append(total)
+        # Half: the value is also kept in every sweep for its correction, which costs registers.
         if 2 * _operations(moved) < _operations(env[var]):
             kept += [(s.payload, x) for s, x in zip(symbols, env[var], strict=True)]
             env[var] = tuple(moved)
+    # Newton's step for r(u) = 0 is -r'^{-1} r; with the sign in the matrix the loop adds the change.
     matrix = tuple(tuple(-normal(x) for x in row) for row in rows)
     inverted = len(matrix) <= newton.SMALL
     return replace(
@@ -113,12 +119,14 @@ def compared(
 
 def _read_after(block: Solve, program: Program) -> frozenset[Var]:
     """Return the variables that a program reads after a block."""
+    # A program without this block and those before: what it reads, it reads after the block.
     rest = program.body[program.body.index(block) + 1 :]
     return frozenset(uses(replace(program, body=rest)))
 
 
 def _independent(values: Sequence[Expr], unknowns: Sequence[str]) -> list[Expr]:
     """Return those values that depend neither on unknowns nor on h: they stand still in an expansion."""
+    # Neither h nor an unknown below: its expansion in h is the value itself.
     moving = {*unknowns, "h"}
     depends: dict[int, bool] = {}
     for node in walk(values):
@@ -135,6 +143,7 @@ def with_matrix(block: Block, solver: str) -> Block:
     """Return the block with the matrix of Newton's method, or of chords."""
     leading = solver == CHORD
     rows = (newton.leading_matrix if leading else newton.matrix)(block.images, block.unknowns)
+    # The first-order matrix contracts by O(h^2) a sweep: more sweeps, each of them far shorter.
     if not leading and _own(rows, block.images) > LONGEST_MATRIX:
         rows = newton.leading_matrix(block.images, block.unknowns)
     inverted = len(rows) <= newton.SMALL
@@ -145,6 +154,7 @@ def with_matrix(block: Block, solver: str) -> Block:
 
 def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
     """Return how many operations a matrix takes beside those of the images."""
+    # The images are computed anyway, so common subexpressions with them are free.
     shared = {n.id for n in walk(images)}
     return sum(1 for n in walk([x for row in rows for x in row]) if n.args and n.id not in shared)
 
@@ -156,6 +166,7 @@ class Solved:
         self.space: Space = block.images[0].space
         self.known: dict[int, Expr] = {}
         for name, image in zip(block.unknowns, block.images, strict=True):
+            # An image that is a symbol or number needs no shorter name.
             if image.args:
                 self.known[image.id] = self.space.sym(name)
 
@@ -168,6 +179,7 @@ class Solved:
             if node.id not in self.known:
                 args = tuple(self.known[a.id] for a in node.args)
                 same = all(a is b for a, b in zip(args, node.args, strict=True))
+                # The old node where nothing changed: hash-consing then keeps its sharing.
                 self.known[node.id] = node if same else self._rebuilt(node, args)
         return self.known[root.id]
 

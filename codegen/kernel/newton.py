@@ -32,6 +32,7 @@ AT_ZERO = {
 def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
     """Return 1 - g' for the images g, a row for each."""
     space = images[0].space
+    # In the space of the images: derivatives share their subexpressions.
     rows = jacobian(images, unknowns)
     units = [[space.one if i == j else space.zero for j in range(len(rows))] for i in range(len(rows))]
     return tuple(tuple(e - x for e, x in zip(*pair, strict=True)) for pair in zip(units, rows, strict=True))
@@ -44,6 +45,7 @@ def leading_matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
     """
     space = images[0].space
     h = space.sym("h")
+    # g = g(0) + h g'(0) + O(h^2); the derivatives by the unknowns follow from these two terms.
     slopes = [row[0] for row in jacobian(images, ["h"])]
     values = _at_zero(space, [*images, *slopes])
     n = len(images)
@@ -55,6 +57,7 @@ class _AtZero(ExprDomain):
 
     def call(self, function: str, *args: Expr) -> Expr:
         """Return a constant where the argument is zero, else a call."""
+        # The closed forms of Stumpff functions are 0/0 at zero: take the constants of their series.
         if args[0].is_zero and function in AT_ZERO:
             value = AT_ZERO[function]
             if value is None:
@@ -65,7 +68,9 @@ class _AtZero(ExprDomain):
 
 def _at_zero(space: Space, roots: Sequence[Expr]) -> list[Expr]:
     """Return the roots at h = 0."""
+    # Evaluation, not substitution: what h = 0 makes constant folds on the way.
     names = {n.payload for n in walk(roots) if n.op == "sym"}
+    # Sorted, so that node numbers do not depend on hashes.
     values = {name: space.zero if name == "h" else space.sym(name) for name in sorted(names)}
     return evaluate(roots, _AtZero(space), values)
 
@@ -75,9 +80,11 @@ def inverse(rows: Rows) -> Rows:
     space = rows[0][0].space
     n = len(rows)
     cofactors = [[_cofactor(rows, i, j) for j in range(n)] for i in range(n)]
+    # No pivots: for n <= 3 and a matrix near 1 the expansion is accurate, and it has no branches.
     determinant = space.zero
     for entry, cofactor in zip(rows[0], cofactors[0], strict=True):
         determinant = determinant + entry * cofactor
+    # One division, n^2 products: a division costs several products.
     factor = space.one / determinant
     return tuple(tuple(factor * cofactors[j][i] for j in range(n)) for i in range(n))
 
@@ -86,6 +93,7 @@ def _cofactor(rows: Rows, i: int, j: int) -> Expr:
     n, space = len(rows), rows[0][0].space
     if n == 1:
         return space.one
+    # Cyclic indices give a 3 x 3 cofactor its sign; for n = 2 the sign is written out.
     a, b = ((i + k) % n for k in (1, n - 1))
     c, d = ((j + k) % n for k in (1, n - 1))
     if n == 2:

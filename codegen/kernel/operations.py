@@ -30,6 +30,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
     further keys what each block does a sweep, and where it makes Newton's matrix, without its inversion.
     Changes of sign, comparisons, extrapolation and what a stopping rule costs are not counted.
     """
+    # The count of a function is added at each of its calls, so totals compare with unoutlined steps.
     inside = {function.name: operations(inner)[STEP] for function, inner in arrangement.outlined}
 
     def count(statements: Iterable[Simple], more: Iterable[Expr]) -> dict[str, int]:
@@ -43,6 +44,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
                 sweep, label = count(statement.body, statement.images), statement.loop.label
                 if statement.matrix:
                     n = len(statement.loop.unknowns)
+                    # A kept inverse times the residual: n^2 products and n (n - 1) additions.
                     sweep = _plus(sweep, {"add": n * (n - 1), "mul": n * n})
                     total[matrix_of(label)] = count(statement.newton, statement.matrix)
                 total[label] = sweep
@@ -51,6 +53,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
             case _:
                 total[STEP] = _plus(total[STEP], count([statement], ()))
     for key in (STEP, START):
+        # A step executes its substeps one after the other; sweeps and matrices are counted per substep.
         if key in total:
             total[key] = {name: n * arrangement.repeated for name, n in total[key].items()}
     return total
@@ -87,7 +90,9 @@ def costs(kernel: Kernel) -> list[str]:
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(made))[STEP] for made in turned)
+        # mu + (after - before): two additions for each component.
         added = {"add": 2 * len(turned[1].outputs)}
+        # A run turns the momentum forth and back at its beginning, and back once more at its end.
         spelled = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
         first, last = (line.removesuffix(" a step") for line in spelled)
         lines.append(f"{first} where a run begins, {last} where it ends")
@@ -108,11 +113,13 @@ def _counted(
             roots += statement.arguments
         elif isinstance(statement, SharedCall):
             total = _plus(total, {statement.function: 1})
+            # The call counts once, however many orders it returns.
             roots.append(statement.argument)
         else:
             roots.append(statement.value)
     for root in roots:
         total = _plus(total, _spelled(root))
+    # Arithmetic first, calls after it in alphabetical order.
     first = ("add", "mul", "div")
     return {k: total[k] for k in (*first, *sorted(set(total) - set(first))) if k in total}
 
@@ -125,6 +132,7 @@ def _spelled(root: Expr) -> dict[str, int]:
             case "const" | "sym" | "neg":
                 own = {}
             case "pow":
+                # x^n as printed: n factors, n - 1 products.
                 own = {"mul": node.payload - 1}
             case "call":
                 own = {node.payload: 1}
@@ -133,6 +141,7 @@ def _spelled(root: Expr) -> dict[str, int]:
             case op:
                 own = {op: 1}
         for arg in node.args:
+            # Added per reader, not per node: printed text repeats a part that has no name.
             own = _plus(own, found[arg.id])
         found[node.id] = own
     return found[root.id]

@@ -103,6 +103,7 @@ class Trees:
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
+        # c (d v) = (c d) v: stage sums build h xi/2 from h xi, and a second reader would forbid joining h xi.
         if v in self._multiples:
             d, v, value = self._multiples[v]
             c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)
@@ -113,18 +114,22 @@ class Trees:
     def joined(self) -> list[Tree]:
         """Return the assignments joined into trees, as long as that saves lines."""
         self._find_users()
+        # Each assignment begins as its own tree; a map from member to tree finds the tree of a reader.
         trees = {i: Tree([i]) for i, m in enumerate(self.executions) if m.may_join}
         owner = {i: i for i in trees}
         while True:
             pairs: dict[PairKey, list[tuple[int, int]]] = {}
+            # Computed once per round: keys walk the whole tree.
             keys = {i: self.key(t) for i, t in trees.items()}
             count: dict[Key, int] = {}
             for key in keys.values():
                 count[key] = count.get(key, 0) + 1
             for i in trees:
                 user = self._only_user(i)
+                # Joined with its only reader: no value is computed twice or handed out.
                 if user is not None and user in owner and owner[user] != i:
                     j = owner[user]
+                    # The key of the result, too: equal parts may be wired differently.
                     joined = self.key(self._join(trees[i], trees[j]))
                     pairs.setdefault((keys[i], keys[j], joined), []).append((i, j))
             # Greedy: the pair of shapes that saves most lines is joined wherever it occurs.
@@ -135,6 +140,7 @@ class Trees:
                     best, saved = key, gain
             if best is None:
                 return list(trees.values())
+            # A tree may be in two pairs of one shape; each joins once a round.
             used: set[int] = set()
             for i, j in pairs[best]:
                 if i in used or j in used:
@@ -142,6 +148,7 @@ class Trees:
                 used |= {i, j}
                 trees[j] = self._join(trees[i], trees[j])
                 for member in trees.pop(i).members:
+                    # Members keep their numbers, so later rounds find their new tree.
                     owner[member] = j
 
     def _gain(self, key: PairKey, places: list[tuple[int, int]], count: Mapping[Key, int]) -> int:
@@ -153,10 +160,12 @@ class Trees:
         i, j = places[0]
         # Trees of a shape that also occur elsewhere stay functions of their own: their lines are copied.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
+        # One call less in each place saves about three lines of text.
         return k * 3 - copies
 
     def _size(self, i: int) -> int:
         """Return about how many lines the operation that ends a tree takes."""
+        # By name: the lines of an operation hardly depend on its operands, and walks are slow.
         name = self.executions[i].assign.operation.name
         if name not in self._lines:
             results = [x for value in self.executions[i].results for x in value]
@@ -175,16 +184,20 @@ class Trees:
         for statement in self.program.body:
             if not isinstance(statement, Assign):
                 for v in (*statement.starts, *statement.images, *statement.residuals):
+                    # None marks a reader outside all trees, so the value must keep its own name.
                     self._users.setdefault(v, []).append(None)
         for _, v in self.program.outputs:
+            # Outputs are readers outside all trees, too.
             self._users.setdefault(v, []).append(None)
 
     def _only_user(self, i: int) -> int | None:
         """Return the one assignment that uses what the assignment makes, if it is in the same block."""
+        # A set: an operation may read one value twice.
         users = {u for v in self.executions[i].assign.targets for u in self._users.get(v, [])}
         if len(users) != 1:
             return None
         (user,) = users
+        # A tree does not cross the border of a loop: its parts run a different number of times.
         return user if user is not None and self.executions[user].place == self.executions[i].place else None
 
     def wiring(self, tree: Tree) -> tuple[list[Var], list[tuple[int, ...]]]:
@@ -199,6 +212,7 @@ class Trees:
             places = []
             for v in self.executions[i].assign.args:
                 if v in targets:
+                    # Negative numbers start at -1, so that 0 is free for the first given variable.
                     places.append(-targets[v])
                 else:
                     places.append(given.setdefault(v, len(given)))
@@ -214,6 +228,7 @@ class Trees:
         for i, places in zip(tree.members, wires, strict=True):
             assign = self.executions[i].assign
             # Sums of one shape may have other coefficients: they are arguments of the function.
+            # The kind distinguishes sums in the algebra from sums in its dual.
             operation = None if isinstance(assign.operation, Linear) else assign.operation
             shape.append((operation, _pattern([c for c, _ in assign.terms]), places, assign.targets[0].kind))
         return tuple(shape)
@@ -221,8 +236,10 @@ class Trees:
     def useful(self, tree: Tree) -> bool:
         """Whether a tree does enough for a call."""
         results = self.results(tree)
+        # Counted between operands and results: what lies below the operands is computed by the caller.
         stop = {x.id for x in self.inputs(tree)}
         nodes = sum(1 for n in walk(results, lambda n: n.id in stop) if n.args and n.id not in stop)
+        # Four lines: less is no longer than the call with its arguments.
         return nodes > 4 * NODES
 
     def results(self, tree: Tree) -> Values:
@@ -237,6 +254,7 @@ class Trees:
             execution = self.executions[i]
             values |= {v: x for v, x in zip(execution.assign.args, execution.args, strict=True) if v in given}
         flat = [x for v in given for x in values[v]]
+        # Coefficients in the order of :func:`distinct`, the order in which the function takes them.
         scales = [c for i in tree.members for c in distinct(self.executions[i].assign)]
         flat += [self.domain.number(c.value) for c in scales]
         return [*flat, self.domain.h] if any(c.power for c in scales) else flat
@@ -253,6 +271,8 @@ class Trees:
 def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]:
     """Return which coefficients are alike: 0 for one, else numbers in order; and their powers of h."""
     seen: dict[Coefficient, int] = {}
+    # One is a shape of its own, as it needs no product. Equal coefficients get equal numbers, so that
+    # their terms are added before one product.
     return tuple((0, 0) if c.is_one else (seen.setdefault(c, 1 + len(seen)), c.power) for c in coefficients)
 
 

@@ -38,17 +38,20 @@ class SharedArguments(ExprDomain):
 
     def _first(self, argument: Expr) -> Expr:
         """Return the argument of an earlier call that equals this one, or this one."""
+        # By node number: equal nodes are one node, and expanding a polynomial is slow.
         if argument.id not in self.shared:
             self.shared[argument.id] = self._compared(argument)
         return self.shared[argument.id]
 
     def _compared(self, argument: Expr) -> Expr:
+        # islice stops early: explicit stages have arguments with thousands of nodes.
         if len(list(islice(walk([argument]), LONGEST + 1))) > LONGEST:
             return argument
         try:
             polynomial = self.normal.polynomial(argument)
         except TooLong:
             return argument
+        # Compared one by one: polynomials are dicts and have no hash. A step has few angles.
         for known, first in self.arguments:
             if known == polynomial:
                 return first

@@ -29,10 +29,12 @@ class Variations:
         """Return those of a problem; SceneError for a group whose elements have no rates."""
         parts: list[tuple[LieGroup | None, tuple[str, ...]]] = []
         for block in scene.state:
+            # A point that is itself a group element, acted on by the group from the left, varies as one.
             moved = block.kind is Kind.POINT and isinstance(scene.action, LeftMultiplication)
             bundle = scene.group.offers(CotangentBundle) if moved else None
             if bundle is not None:
                 base = bundle.base
+                # T*G is G x g*: the element varies by its algebra, the momentum component by component.
                 parts += [(base, block.symbols[: base.size]), (None, block.symbols[base.size :])]
             elif block.kind is Kind.GROUP or moved:
                 parts.append((scene.group, block.symbols))
@@ -48,6 +50,7 @@ class Variations:
     @property
     def names(self) -> tuple[str, ...]:
         """Names of its numbers that no scene can have."""
+        # The dot keeps them apart from names of a scene, which are identifiers.
         return tuple(f"vary.{k}" for k in range(self.dim))
 
     def seeds(self, domain: ExprDomain) -> dict[str, Expr]:
@@ -58,6 +61,7 @@ class Variations:
             count = len(symbols) if group is None else group.dim
             own, rest = rest[:count], rest[count:]
             state = tuple(domain.space.sym(s) for s in symbols)
+            # dq = xi.q: seeds are derivatives of coordinates, which :mod:`codegen.ir.tangent` carries on.
             rates = own if group is None else group.velocity(domain, own, state)
             seeds |= dict(zip(symbols, rates, strict=True))
         return seeds
@@ -68,6 +72,7 @@ class Variations:
         for group, symbols in self.parts:
             count = len(symbols)
             g, v, state, rates = state[:count], rates[:count], state[count:], rates[count:]
+            # Back to the algebra at the new element: rate inverts velocity on tangent vectors.
             rates_of_end += v if group is None else group.rate(domain, v, g)
         return tuple(rates_of_end)
 

@@ -47,7 +47,8 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)
-        # A single multiple is always expanded: its number joins the coefficient. A sum only if no one else reads it.
+        # The number of a single multiple joins the coefficient at no cost. A sum with several readers
+        # stays: each of them would repeat its products.
         terms = [(c, arg)]
         if source is not None and source.terms and (source.is_multiple or rewriter.uses.get(arg) == 1):
             terms = [(Coefficient(c.value * k.value, c.power + k.power), v) for k, v in source.terms]
