@@ -200,7 +200,7 @@ class _Translation:
         """Return the new state, and that of an embedded method, after all statements."""
         state = tuple(map(self.domain.space.sym, self.scene.symbols))
         ends = []
-        # Twice the same way: the embedded solution ends in the same frame, so that differences are meaningful.
+        # Both end in the same frame, so that their difference estimates the error.
         for embedded in (False, True):
             parts = (v for n, v in self.program.outputs if (n == EMBEDDED) is embedded)
             values = tuple(x for v in parts for x in flatten(v.kind, self.env[v]))

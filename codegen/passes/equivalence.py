@@ -1,4 +1,4 @@
-"""Whether two programs mean the same: interpretation at points of the scene, in double precision."""
+"""Equivalence of two programs: interpretation at points of the scene, in double precision."""
 
 from __future__ import annotations
 
@@ -15,31 +15,41 @@ from codegen.ir.values import Kind, Var
 from codegen.scene.problem import Problem
 
 STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
-"""Step sizes to try, the largest first: what a wrong rewriting leaves is largest there. Where the field is so
-fast that the first reaches too far, all are shortened."""
+"""Step sizes to try, the largest first, because the effect of a wrong rewriting is largest there.
+
+Any falling powers of two serve. If the first step reaches too far along a fast field, all are shortened."""
 
 REACH = 0.5
-"""The most that a step may move along the field: beyond, rounding would be amplified."""
+"""The largest move along the field in one step: longer steps would amplify rounding.
+
+Its value matters little: :data:`AGREE` leaves a factor of 2^15 above the rounding that occurs."""
 
 FAILURES = (NotConverged, ArithmeticError, ValueError)
-"""How an interpretation fails; ValueError for the root of a negative number."""
+"""Errors of an interpretation; a root of a negative number raises ValueError."""
 
 Result = tuple[float, dict[str, Value], dict[str, Value], dict[Var, Value]]
-"""Step size, inputs, new state, and what solved the equations of the last program that was compared."""
+"""Step size, inputs, new state, and the solutions of the blocks of the last compared program."""
 
 SWEEPS = 24
-"""The most sweeps over a block: a step that needs more is too large to compare roundings."""
+"""The most sweeps over a block: a step that needs more is too large to compare roundings.
+
+A contraction by 1/4 a sweep reaches rounding, 2^-48, in 24. Slower blocks take the next, shorter step."""
 
 TRIES, APART = 3, 16
-"""How many steps a program may be compared in, and by what factor they differ: equations put otherwise need
-smaller steps to settle where they are iterated, and one step in which they do is enough."""
+"""The number of steps in which a program may be compared, and the smallest ratio between them.
+
+Rewritten equations may need smaller steps to converge by iteration; one step in which they do is enough.
+The three steps span a factor of 256 or more."""
 
 AGREE = 2.0**-36
-"""Relative difference of results that mean the same: far above rounding and the tolerance of a block."""
+"""Relative difference of equal results: far above rounding and the tolerance of a block.
+
+In 170 comparisons of eight methods of the gallery the passes moved results by 2^-51 at most. A coefficient
+that is wrong by 2^-28 is found: ``tests/codegen/passes/test_equivalence.py``."""
 
 
 class _Point:
-    """Results from one state; those in smaller steps are computed when they are asked for."""
+    """Results from one state; results of smaller steps are computed on demand."""
 
     def __init__(self, more: Iterator[Result]) -> None:
         self._more = more
@@ -54,12 +64,11 @@ class _Point:
 
 
 class Reference:
-    """What a program means: its results after one step from points of a scene.
+    """The meaning of a program: its results after one step from points of a scene.
 
     The points are the initial state, which may be special (an equilibrium, a symmetric position), and one
-    nearby without any symmetry; the step is the largest of moderate reach for which the blocks settle. A
-    program that is compared begins at the solutions of the one before it: where its equations are others, it
-    moves away from them.
+    nearby without any symmetry. The step is the largest of moderate reach for which the blocks converge. A
+    compared program starts at the solutions of the program before it; if its equations differ, it moves away.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -76,7 +85,7 @@ class Reference:
             )
 
     def _some(self, program: Program, state: dict[str, Value]) -> Iterator[Result]:
-        """Yield what happens in the largest step and in two smaller ones, for programs that settle later."""
+        """Yield results of the largest step and of two smaller ones, for programs that converge later."""
         # The reach of a step is about h times the field, so fast fields get shorter steps.
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
@@ -110,7 +119,7 @@ class Reference:
         return interpret(program, self.scene, domain, inputs, limit=limit, newton=False, solutions=solutions)
 
     def differs(self, program: Program) -> str:
-        """Return an account of what a program does differently, or ''."""
+        """Return a description of the first difference, or ''."""
         for point in self.points:
             account = self._in_some_step(program, point)
             if account:
@@ -118,7 +127,7 @@ class Reference:
         return ""
 
     def _in_some_step(self, program: Program, point: _Point) -> str:
-        """Compare in the first step that the program makes."""
+        """Compare in the first step for which the program converges."""
         failure = ""
         for step, inputs, before, solutions in point.results():
             try:
