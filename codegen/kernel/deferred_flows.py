@@ -84,16 +84,16 @@ def _is_h(letter: Letter) -> bool:
 
 
 Timed = tuple[Letter, Var | None]
-"""A flow with the variable for how long it lasts, where it is none of the program's own durations."""
+"""A flow, and the variable of its duration if that is not one of the program."""
 
 JoinedFlows = tuple[int, int, Number, Number]
-"""Places of a flow at the beginning and of one at the end; how long the latter lasts alone, and with it."""
+"""Places of a flow at the beginning and of one at the end; durations of the latter alone and joined."""
 
 
 def _joined(
     kept: Sequence[Letter], commute: Callable[[str, str], bool], program: Program
 ) -> list[JoinedFlows]:
-    """Return which flows at the end take those of the same part at the next beginning with them."""
+    """Return the flows at the end of a step that join a flow of the same part at the next beginning."""
     # The end of a step is the beginning of the next: flows at the times t + h and t join there.
     last = _last_time(program)
     begin, end = _run(kept, commute), _run(kept[::-1], commute)
@@ -110,7 +110,7 @@ def _joined(
 
 
 def _run(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> int:
-    """Return how many letters at the beginning are of different parts and commute with one another."""
+    """Return the number of letters at the beginning with different parts that commute pairwise."""
     n = 0
     # Flows in this run commute, so each of them can be moved to the very beginning of the step.
     while n < len(letters) and all(
@@ -126,7 +126,7 @@ def _last_time(program: Program) -> tuple[Var, ...]:
 
 
 def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
-    """Return the program of some flows, those with a variable for the time that it holds."""
+    """Return the program of some flows; a flow with a variable lasts for the value of the variable."""
     # All stage times are kept; the kernel assigns only what its outputs read.
     body = [a for a in old.assigns() if isinstance(a.operation, Advance)]
     first = state = tuple(v for v in old.inputs if v.kind is not Kind.REAL)

@@ -1,4 +1,4 @@
-"""Counting what a step costs: arithmetic and calls outside loops, and in one sweep of each loop."""
+"""The cost of a step: arithmetic and calls outside loops, and in one sweep of each loop."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ START = "start"
 
 
 def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
-    """Return how often each operation is carried out: ``add`` (and subtract), ``mul``, ``div``, and calls.
+    """Return the number of each operation: ``add`` (and subtract), ``mul``, ``div``, and calls.
 
-    The key ``step`` holds what a step does once, ``start`` what a step does more that follows no other,
-    further keys what each block does a sweep, and where it makes Newton's matrix, without its inversion.
-    Changes of sign, comparisons, extrapolation and what a stopping rule costs are not counted.
+    The key ``step`` counts operations once a step, ``start`` the additional ones of a first step. Further
+    keys count one sweep of each block, and the entries of its Newton matrix without the inversion. Changes of
+    sign, comparisons, extrapolation and the stopping rule are not counted.
     """
     # The count of a function is added at each of its calls, so totals compare with unoutlined steps.
     inside = {function.name: operations(inner)[STEP] for function, inner in arrangement.outlined}
@@ -60,12 +60,12 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
 
 
 def matrix_of(label: str) -> str:
-    """Return the key of what making a block's matrix costs."""
+    """Return the key for the cost of a block's matrix."""
     return f"matrix of {label}"
 
 
 def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
-    """Spell counts for people, a line for the step and one for each block's sweep.
+    """Format counts as text, a line for the step and one for each block's sweep.
 
     >>> sentences({"step": {"add": 2, "stumpff_12": 1}, "stage 1": {"mul": 3}})
     ['2 add, 1 stumpff_12 a step', '3 mul a sweep of stage 1']
@@ -85,7 +85,7 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
 
 
 def costs(kernel: Kernel) -> list[str]:
-    """Spell what a step, each sweep of its blocks, and the ends of a run cost."""
+    """Format the costs of a step, of each sweep of its blocks, and of the ends of a run."""
     lines = sentences(operations(arrange(kernel)))
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
@@ -125,7 +125,7 @@ def _counted(
 
 
 def _spelled(root: Expr) -> dict[str, int]:
-    """Count the operations in the text of one expression, which repeats what it shares."""
+    """Count the operations in the text of one expression, where shared nodes repeat."""
     found: dict[int, dict[str, int]] = {}
     for node in walk([root]):
         match node.op:

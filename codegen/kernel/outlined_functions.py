@@ -1,7 +1,7 @@
-"""Pieces: functions of a kernel that its expressions call, made of trees of operations, and executed.
+"""Outlined functions: trees of operations that the expressions of a kernel call.
 
-A function takes what a tree is given, and the coefficients of its sums where these are not the same constants
-wherever it is called; it computes those results that are read.
+A function takes the inputs of a tree. It also takes the coefficients of its sums, unless they are the same
+constants in every call. It computes the results that are read.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ LETTER = {Kind.REAL: "r", Kind.ALG: "x", Kind.DUAL: "m", Kind.GROUP: "g", Kind.P
 
 
 class _Inputs:
-    """The inputs of a function, in order: symbols, or the constants that they are wherever it is called."""
+    """The inputs of a function, in order: symbols, or constants that are the same in every call."""
 
     def __init__(self, name: str, space: Space, fixed: Sequence[Expr | None]) -> None:
         self.name, self.space, self.fixed = name, space, fixed
@@ -35,7 +35,7 @@ class _Inputs:
         return tuple(self.symbols[first:])
 
     def text_of(self, x: Expr, c: Coefficient) -> str:
-        """Spell the coefficient of a term: its symbol, or its value."""
+        """Format the coefficient of a term: its symbol, or its value."""
         # Header text is for people: the name of the argument without that of its function.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
         return (f"({value})" if " " in value else value) + " h" * c.power
@@ -49,10 +49,10 @@ class _Inputs:
 def function(
     name: str, trees: Trees, tree: Tree, scene: Problem, read: Sequence[int], fixed: Sequence[Expr | None]
 ) -> tuple[Function, list[int]]:
-    """Return the function of a tree's shape, and the places of those of a tree's inputs that it takes.
+    """Return the function of a tree's shape, and the places of the tree inputs that it takes.
 
-    ``read`` are the results that it computes, ``fixed`` the inputs
-    (:meth:`codegen.kernel.repeated_trees.Trees.inputs`) that are the same constant wherever it is called.
+    ``read`` are the results that it computes. ``fixed`` are the inputs
+    (:meth:`codegen.kernel.repeated_trees.Trees.inputs`) with the same constant in every call.
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
@@ -100,7 +100,7 @@ def function(
 
 
 def _words(kinds: Sequence[Kind]) -> list[str]:
-    """Name what a function is given by its kind: x1, x2, m1.
+    """Name the inputs of a function by their kinds: x1, x2, m1.
 
     >>> _words([Kind.ALG, Kind.DUAL, Kind.ALG])
     ['x1', 'm1', 'x2']
@@ -109,7 +109,7 @@ def _words(kinds: Sequence[Kind]) -> list[str]:
 
 
 def calls(kernel: Kernel) -> dict[str, int]:
-    """Return in how many places a kernel calls each of its functions, in order."""
+    """Return the number of places in which a kernel calls each of its functions, in order."""
     places = {function.name: dict[tuple[int, ...], None]() for function in kernel.outlined}
     for node in walk(kernel.expressions()):
         name = node.payload.partition(".")[0] if node.op == "call" else ""
@@ -145,7 +145,7 @@ class WithFunctions:
 def _sum(
     coefficients: Sequence[Coefficient], symbol: Mapping[Coefficient, Expr], args: Sequence[Values]
 ) -> Values:
-    """Return a sum with symbols for its coefficients; terms with equal ones are added first."""
+    """Return a sum with symbols for its coefficients; terms with equal coefficients are added first."""
     # c x + c y = c (x + y): one product fewer, as in the unoutlined sum.
     groups: dict[Coefficient, Values] = {}
     for c, x in zip(coefficients, args, strict=True):

@@ -1,8 +1,8 @@
 """Kernel to printable statements: Stumpff functions of one argument computed together, powers as products.
 
 A target's template sees five kinds of statement: :class:`Assignment`, :class:`SharedCall` (one call, several
-results), :class:`Invocation` (the same of a function), :class:`Beginning` and :class:`Iteration`. What a loop
-computes on the way is not reused after it.
+results), :class:`Invocation` (a call of an outlined function), :class:`Beginning` and :class:`Iteration`.
+Names that this module adds inside a loop are not read after it.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ METHODS = {
     NEWTON: "Newton's method",
     CHORD: "Newton's method with the matrix to first order in h",
 }
-"""What solvers are called."""
+"""Names of the solvers in headers."""
 
 STUMPFF = {f"stumpff{k}": k for k in range(4)}
 
@@ -56,7 +56,7 @@ class Invocation:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """What the results are called in expressions."""
+        """The names of the results in expressions."""
         return tuple(f"{self.name}.{k}" for k in range(self.results))
 
 
@@ -65,7 +65,7 @@ Simple = Assignment | SharedCall | Invocation
 
 @dataclass(frozen=True)
 class Beginning:
-    """Where the unknowns of all loops begin (see :class:`codegen.ir.kernel.Start`)."""
+    """Starting values of the unknowns of all loops (see :class:`codegen.ir.kernel.Start`)."""
 
     start: Start
     body: tuple[Simple, ...]
@@ -76,8 +76,8 @@ class Beginning:
 class Iteration:
     """A loop (see :class:`codegen.ir.kernel.Loop`); ``kept`` are body names read after it.
 
-    ``matrix`` is that of Newton's method, by rows, with the statements that only it needs in ``newton``; both
-    are empty where there is none.
+    ``matrix`` is Newton's matrix, by rows, and ``newton`` the statements that only the matrix needs; both are
+    empty without Newton's method.
     """
 
     loop: Loop
@@ -95,7 +95,7 @@ Statement = Simple | Beginning | Iteration
 
 @dataclass(frozen=True)
 class Arrangement:
-    """The statements of a step and its outputs, ready to be spelled; a step makes them ``repeated`` times."""
+    """The statements of a step and its outputs, ready to print; a step executes them ``repeated`` times."""
 
     statements: tuple[Statement, ...]
     outputs: tuple[Expr, ...]
@@ -123,7 +123,7 @@ class Arrangement:
                 yield statement
 
     def expressions(self) -> Iterable[Expr]:
-        """Yield every expression to be spelled."""
+        """Yield every expression to print."""
         for simple in self._simple():
             yield from _values(simple)
         for statement in self.statements:
@@ -182,7 +182,7 @@ def _alone(function: Function) -> Kernel:
 
 
 def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
-    """Return the expressions of a statement that are computed where it stands."""
+    """Return the expressions of a statement that are computed outside loops."""
     if isinstance(statement, Let):
         return [statement.value]
     return statement.starts if isinstance(statement, Loop) else []
@@ -201,7 +201,7 @@ def _iteration(
     matrix: tuple[Expr, ...] = ()
     if loop.newton is not None:
         entries = tuple(x for row in loop.newton.matrix for x in row)
-        # A leading matrix stands before the loop and must not read body values.
+        # A leading matrix is computed before the loop and must not read body values.
         made, matrix = (scope if loop.newton.leading else inner).nested(loop.newton.body, entries)
     return Iteration(loop, number, starts, tuple(body), images, kept, made, matrix)
 
@@ -232,7 +232,7 @@ def _read_later(kernel: Kernel, position: int) -> frozenset[str]:
 
 @dataclass
 class _Scope:
-    """Rewrites the expressions of one block; what must come first is pending until taken."""
+    """Rewrites the expressions of one block; statements that must precede the next are pending."""
 
     taken: dict[str, int]
     known: dict[int, Expr] = field(default_factory=dict)
@@ -244,7 +244,7 @@ class _Scope:
     def nested(
         self, lets: Sequence[Let], values: Sequence[Expr]
     ) -> tuple[tuple[Simple, ...], tuple[Expr, ...]]:
-        """Return the statements and values of a block in this scope, which nothing reads after it."""
+        """Return the statements and values of a nested block; later statements cannot read them."""
         # In a scope of its own: these statements may be skipped at run time, so no later line may use them.
         inner = self.inside([*(let.value for let in lets), *values])
         body = [s for let in lets for s in inner.assign(let, False)]
@@ -252,8 +252,8 @@ class _Scope:
         return (*body, *inner.take()), rewritten
 
     def inside(self, expressions: list[Expr]) -> _Scope:
-        """Return the scope of a loop body: it sees what stands before the loop."""
-        # A copy of what is known: names from the loop body are not known outside.
+        """Return the scope of a loop body, which can read all names from before the loop."""
+        # A copy: names from the loop body are not known outside.
         inner = _Scope(self.taken, dict(self.known), outlined=self.outlined)
         inner.expect(expressions)
         return inner
@@ -268,7 +268,7 @@ class _Scope:
         self.orders = {argument: tuple(sorted(set(ks))) for argument, ks in needed.items()}
 
     def assign(self, let: Let, kept: bool) -> list[Simple]:
-        """Return the statements of an assignment: none of its own where a joint call made its value."""
+        """Return the statements of an assignment; a shared call that computes its value replaces it."""
         value = self.rewrite(let.value)
         before = self.take()
         # The call has named this result already; a second name would only copy it.
@@ -278,7 +278,7 @@ class _Scope:
         return [*before, Assignment(let.name, value)]
 
     def take(self) -> list[Simple]:
-        """Return and forget the statements that must stand before the next one."""
+        """Return the pending statements, which must precede the next one, and clear them."""
         pending, self.pending = self.pending, []
         return pending
 

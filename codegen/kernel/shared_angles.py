@@ -1,4 +1,4 @@
-"""Functions of one angle: arguments that are equal as polynomials are one expression.
+"""Shared angles: arguments that are equal as polynomials become one expression.
 
 Variational methods exponentiate h xi, h xi/2 and -h xi/2 in one stage. Written as sums of squares, z of the
 second, z of the third and a quarter of z of the first differ, and their Stumpff functions would be computed
@@ -32,7 +32,7 @@ class SharedArguments(ExprDomain):
 
     def call(self, function: str, *args: Expr) -> Expr:
         """Return a call node."""
-        # Only functions of angles: their calls are what a step spends most time on.
+        # Only functions of angles: a step spends most of its time in them.
         if function.startswith("stumpff"):
             args = (self._first(args[0]),)
         return super().call(function, *args)

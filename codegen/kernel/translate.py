@@ -1,6 +1,6 @@
 """From step program to kernel: symbolic execution over expressions, then a schedule of scalar assignments.
 
-Every value becomes a tuple of expressions; hash-consing shares what is equal. A block becomes a loop
+Every value becomes a tuple of expressions; hash-consing shares equal nodes. A block becomes a loop
 (:mod:`codegen.kernel.equations`), expressions become assignments (:mod:`codegen.kernel.assignments`).
 """
 
@@ -47,8 +47,8 @@ from codegen.passes.series_sums import SeriesSums
 from codegen.scene.problem import TIME, Problem
 
 AS_WRITTEN, COMBINED, ORDERED, SHORTENED = range(4)
-"""What is done about long chains: nothing, steps and constants are multiplied first, assignments stand in
-order, all of :mod:`codegen.kernel.critical_path`."""
+"""Treatments of the critical path: none; multiply steps and constants first; order the assignments;
+everything in :mod:`codegen.kernel.critical_path`."""
 
 
 def to_kernel(
@@ -62,20 +62,20 @@ def to_kernel(
     """Return the kernel of a program in its problem (:func:`codegen.lower.problem`).
 
     ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or CHORD, the others are iterated.
-    With ``variations`` it is the kernel that carries one of the state along (``Kernel.vary``). ``chains``
-    other than :data:`AS_WRITTEN` is for programs without blocks. A ``whole`` step begins and ends with the
-    state's own momentum (:mod:`codegen.kernel.carried_momentum`), and so does one with variations.
-    :class:`codegen.errors.SceneError` where an operation of the group has no closed form,
-    :class:`codegen.ir.differentiate.NotDifferentiable` where Newton's method has no matrix, ZeroDivisionError
-    where it has none to first order.
+    With ``variations`` the kernel also propagates a variation of the state (``Kernel.vary``). A value of
+    ``chains`` other than :data:`AS_WRITTEN` is for programs without blocks. A ``whole`` step, or one with
+    variations, begins and ends with the state's own momentum (:mod:`codegen.kernel.carried_momentum`).
+    :class:`codegen.errors.SceneError` if an operation of the group has no closed form,
+    :class:`codegen.ir.differentiate.NotDifferentiable` if Newton's method has no matrix, ZeroDivisionError
+    if it has no matrix to first order.
     """
     return _Translation(program, scene, solvers, variations, chains, whole).kernel()
 
 
 class _Translation:
-    """A program carried out over expressions, and what was found on the way.
+    """The symbolic execution of a program.
 
-    ``env`` holds the values of variables, ``hints`` names for expressions, ``taken`` the names that are used.
+    ``env`` holds the values of variables, ``hints`` the names of expressions, ``taken`` the names in use.
     """
 
     def __init__(
@@ -110,13 +110,13 @@ class _Translation:
         return candidate
 
     def remember(self, var: Var) -> None:
-        """Let the expressions of a variable be called after it."""
+        """Name the expressions of a variable after it."""
         for k, x in enumerate(flatten(var.kind, self.env[var])):
             # The first name stays: an expression is called after the variable that it was computed for.
             self.hints.setdefault(x.id, f"{var.name}_{k}" if var.kind is not Kind.REAL else var.name)
 
     def run(self, assign: Assign) -> None:
-        """Carry out an assignment."""
+        """Execute an assignment."""
         scene, domain = self.scene, self.domain
         args = tuple(self.env[a] for a in assign.args)
         try:
@@ -144,7 +144,7 @@ class _Translation:
             self.remember(target)
 
     def begin(self) -> State:
-        """Give the inputs of the program their values; return what it begins with."""
+        """Set the inputs of the program; return its initial state."""
         space = self.domain.space
         # The frame may turn the momentum, and then all that follows reads the turned one.
         given = start = self.frames.begin(self.domain, tuple(map(space.sym, self.scene.symbols)))
@@ -156,7 +156,7 @@ class _Translation:
         return start
 
     def solve(self, statement: Solve) -> None:
-        """Carry out a block of equations."""
+        """Execute a block of equations."""
         # Assignments of the body belong to the loop, also for outlining.
         self.inside = True
         entered = self.enter(statement)
@@ -180,7 +180,7 @@ class _Translation:
         self.blocks.append(entered)
 
     def enter(self, block: Solve) -> Block:
-        """Give the unknowns symbols, run the body on them, and return the block."""
+        """Set the unknowns to symbols, execute the body, and return the block."""
         # Unknowns become symbols: expressions of the body are functions of them, as a loop needs.
         names: list[str] = []
         starts: list[Expr] = []
@@ -197,7 +197,7 @@ class _Translation:
         return Block(block.label, tuple(names), tuple(starts), tuple(images))
 
     def ended(self, start: State) -> tuple[State, State]:
-        """Return the new state, and that of an embedded method, after all statements."""
+        """Return the new state, and the new state of an embedded method, after all statements."""
         state = tuple(map(self.domain.space.sym, self.scene.symbols))
         ends = []
         # Both end in the same frame, so that their difference estimates the error.
@@ -214,7 +214,7 @@ class _Translation:
         return outputs, lower
 
     def varied(self, variations: Variations, outputs: State) -> State:
-        """Return the variation of the new state; each block is followed by that of its unknowns."""
+        """Return the variation of the new state; add after each block the variation of its unknowns."""
         space, seeds = self.domain.space, variations.seeds(self.domain)
         # Each variation follows its block: its coefficients are values at the solution.
         both = (b for block in self.blocks for b in (block, _varied(block, seeds, space, self.name)))
@@ -276,12 +276,12 @@ class _Translation:
 
 
 def is_long(body: Iterable[Let | Start | Loop]) -> bool:
-    """Whether a step has so many assignments that what it repeats is looked for."""
+    """Whether a step has enough assignments to be outlined."""
     return _count(body) > LONG
 
 
 def _count(body: Iterable[Let | Start | Loop | Function]) -> int:
-    """Return how many assignments a body holds, those in loops and of Newton's matrices included."""
+    """Return the number of assignments of a body, including loops and Newton's matrices."""
     total = 0
     for statement in body:
         if isinstance(statement, Let):
@@ -300,7 +300,7 @@ def _outlined(
     hints: dict[int, str],
     name: Callable[[str], str],
 ) -> tuple[Assignments | None, tuple[Function, ...]]:
-    """Return the schedule of a step that calls functions, and these; None where nothing is repeated."""
+    """Return the schedule of a step with outlined functions, and the functions; None without repetitions."""
     flat = list(roots)
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]

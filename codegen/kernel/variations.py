@@ -20,13 +20,13 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Variations:
-    """How a state varies: its symbols in parts, each with the group that moves it, or None for numbers."""
+    """The parts of a varying state: symbols with the group that moves them, or None for numbers."""
 
     parts: tuple[tuple[RightTrivialisation | None, tuple[str, ...]], ...]
 
     @classmethod
     def of(cls, scene: Problem) -> Variations:
-        """Return those of a problem; SceneError for a group whose elements have no rates."""
+        """Return the variations of a problem; SceneError for a group whose elements have no rates."""
         parts: list[tuple[LieGroup | None, tuple[str, ...]]] = []
         for block in scene.state:
             # A point that is itself a group element, acted on by the group from the left, varies as one.
@@ -44,12 +44,12 @@ class Variations:
 
     @property
     def dim(self) -> int:
-        """How many numbers a variation has."""
+        """The number of components of a variation."""
         return sum(len(symbols) if group is None else group.dim for group, symbols in self.parts)
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of its numbers that no scene can have."""
+        """Names of its components, which no scene can use."""
         # The dot keeps them apart from names of a scene, which are identifiers.
         return tuple(f"vary.{k}" for k in range(self.dim))
 
@@ -77,7 +77,7 @@ class Variations:
         return tuple(rates_of_end)
 
     def text(self) -> str:
-        """Say what the numbers are."""
+        """Describe the components."""
         words = []
         first = 0
         for group, symbols in self.parts:

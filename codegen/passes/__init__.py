@@ -1,7 +1,7 @@
 """The passes: one file each, pure functions over programs, run in a fixed order and verified after each.
 
-``optimise`` runs them on a scene: types and single assignment are checked after every pass, and meaning by
-interpretation at points where the program must agree with the lowered one to rounding.
+``optimise`` runs them on a scene. After every pass it checks types and single assignment, and interprets the
+program at sample points, where it must agree with the lowered program to rounding.
 """
 
 from __future__ import annotations
@@ -54,10 +54,10 @@ def optimise(
 
 
 class Optimiser:
-    """The passes on one program: it is interpreted once, whatever is then compared with it.
+    """The passes on one program, and the reference that each result is compared with.
 
-    ``composed`` is the same step as a composition of shorter ones (:mod:`codegen.lower.substeps`), where it
-    is one: compared as a whole, then taken in its place; passes change, and are held against, one substep. A
+    ``composed`` is the same step as a composition of shorter ones (:mod:`codegen.lower.substeps`), if it is
+    one. It is compared as a whole and then replaces the step; the passes rewrite and compare one substep. A
     pass that breaks the program raises :class:`codegen.ir.verify.IllFormed`: a fault of this compiler.
     """
 
@@ -78,9 +78,9 @@ class Optimiser:
         return self.program, tuple(self.reports)
 
     def framed(self) -> tuple[Program, tuple[PassReport, ...]]:
-        """Return the program put into the body frame and its equations made smaller, where that can be.
+        """Return the program in the body frame with smaller equations, if the scene has a body frame.
 
-        Counting operations shows whether it is worth while.
+        It need not be cheaper: the caller counts the operations of both programs.
         """
         plain, reports = self.program, list(self.reports)
         # The reference stays: interpreting a program in the body frame includes both turns of the momentum.

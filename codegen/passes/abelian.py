@@ -1,7 +1,7 @@
 """Brackets on an abelian group, and dexp^{-1} cut off at 0.
 
-Exact. Where every bracket vanishes, dexp^{-1}, dexp* and the adjoint operations are the identity, ad and P
-are zero; dexp^{-1}_(0) is the identity, and P_(0) zero, on any group.
+Exact. If every bracket vanishes, dexp^{-1}, dexp* and the adjoint operations are the identity, and ad and P
+are zero. On any group dexp^{-1}_(0) is the identity and P_(0) is zero.
 """
 
 from __future__ import annotations

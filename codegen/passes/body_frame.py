@@ -4,8 +4,8 @@ Exact. With E~ = q^-1 E q for a group element, Ad_{q^-1} x for a value in the al
 its dual, a program keeps its operations, which commute with the group; Q = E q becomes q E~. The field is
 taken from :mod:`codegen.scene.body_frame`:
 xi = Ad_E~ W(Q, P), n = Ad*_{E~^-1} N(Q, P), P = Ad*_E~ M. So the equations of
-a block need of q only what the body's field needs. The program takes and gives the momentum of the body
-(:data:`codegen.ir.program.BODY`), so that steps one after the other need not turn it.
+a block read only those numbers of q that the body's field reads. The program reads and returns the momentum
+of the body (:data:`codegen.ir.program.BODY`), so that consecutive steps do not transform it.
 
 A program of other operations, or of a scene without a body frame, is left alone.
 """

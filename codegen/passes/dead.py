@@ -1,4 +1,4 @@
-"""Dead code: what neither the new state nor an equation that it needs depends on.
+"""Dead code: values that neither the new state nor any equation behind it depends on.
 
 Exact. A block loses unknowns that nothing reads and, with them, their equations; a block without unknowns
 that anything reads vanishes.
@@ -32,7 +32,7 @@ def run(program: Program) -> Program:
 def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     """Keep the body assignments that are live, adding what they need to ``live``.
 
-    Where none of them depends on an unknown there is nothing to solve, and they stand alone.
+    If none of them depends on an unknown, there is nothing to solve, and they become plain assignments.
     """
     image = dict(zip(block.unknowns, block.images, strict=True))
     # Not strict: a block has one residual for each unknown, or none at all.

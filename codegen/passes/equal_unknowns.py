@@ -1,8 +1,8 @@
 """Unknowns with the same image: one of them represents all.
 
-Exact. At a solution unknowns that must equal the same value are equal, so the block is solved for the first
-of them, from its start. Stages with equal rows of coefficients become one stage after
-:mod:`codegen.passes.value_numbering` has found that their equations are the same.
+Exact. At a solution, unknowns with the same image are equal, so the block is solved for the first of them,
+from its start. Stages with equal rows of coefficients become one stage, after
+:mod:`codegen.passes.value_numbering` has merged their equations.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""Exact flows that commute: those of one part are gathered into one where nothing between them minds.
+"""Exact flows of one part are joined into one if they commute with all flows between them.
 
-Exact. Two flows commute when they can trade places; that is tried with 40 digits at points of the scene, for
-two different times. A flow is joined with the next one of its part when it commutes with all that act
-between: the spin of a symmetric top about its axis, which gravity does not see, is made once a step.
+Exact. Two flows commute if their order does not matter. A test with 40 digits at points of the scene, for two
+different durations, decides. Example: gravity does not depend on the spin of a symmetric top about its axis,
+so a step needs the flow of this spin only once.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Letter:
-    """One flow of a word: its part, how long, and the time that it sees, if any."""
+    """One flow of a word: its part, its duration, and its time argument, if any."""
 
     part: str
     duration: Coefficient
@@ -31,7 +31,7 @@ class Letter:
 
 
 def run(program: Program, scene: Problem) -> Program:
-    """Return the program with flows of one part joined across what commutes with them."""
+    """Return the program with flows of one part joined across flows that commute with them."""
     letters = word(program)
     if letters is None:
         return program
@@ -53,7 +53,7 @@ def run(program: Program, scene: Problem) -> Program:
 
 
 def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str], bool]) -> int | None:
-    """Return the place of the last flow of the same part and time that can be moved behind the others."""
+    """Return the place of the last flow with the same part and time that commutes with all after it."""
     for at in reversed(range(len(kept))):
         # A part with time is frozen at its stage time; flows frozen at two times are two different flows.
         if (kept[at].part, kept[at].time) == (letter.part, letter.time):
@@ -65,7 +65,7 @@ def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str]
 
 
 def word(program: Program) -> list[Letter] | None:
-    """Return the flows of a program in order, or None where it does something else as well."""
+    """Return the flows of a program in order, or None for a program with other operations."""
     letters = []
     state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for statement in program.body:
@@ -85,7 +85,7 @@ def word(program: Program) -> list[Letter] | None:
 
 
 def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
-    """Return the program that makes these flows, with the times of the old one."""
+    """Return the program that applies these flows, with the stage times of the old one."""
     # All times first: each depends on t alone, and the pass for unused values removes the rest.
     body = [a for a in program.assigns() if isinstance(a.operation, Advance)]
     first = state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
@@ -99,7 +99,7 @@ def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
 
 
 def commuting(scene: Problem) -> Callable[[str, str], bool]:
-    """Return whether the flows of two parts trade places on the scene."""
+    """Return a predicate: whether the flows of two parts commute on the scene."""
     orbit = orbit_of(scene)
     d = orbit.domain
 

@@ -1,8 +1,8 @@
 """Functions of one ad: dexp, dexp^{-1} and exp applied one after the other become one function.
 
 Exact. Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x), so that a chain of such operations with multiples
-of one x is a product of functions of ad_x, or of ad*_x on duals, which a group may know in closed form: on
-SO(3) it is 1 + b ad_x + c ad_x^2. An exponential that only one adjoint operation uses is not formed.
+of one x is a product of functions of ad_x, or of ad*_x on duals. A group may have a closed form for it: on
+SO(3) it is 1 + b ad_x + c ad_x^2. An exponential with one adjoint operation as its only reader is not formed.
 """
 
 from __future__ import annotations
@@ -93,11 +93,11 @@ def _emit(rewriter: Rewriter, assign: Assign, x: Var, word: Word, v: Var) -> tup
 
 
 Part = tuple[Var, Word, Var]
-"""x, a function of ad_x, and what it is applied to."""
+"""x, a function of ad_x, and its argument."""
 
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
-    """Return s and the function of y that var is, where x = s y and var has no other use."""
+    """Return s and the definition of var as a function of ad_y, if x = s y and var has one reader."""
     source = rewriter.definitions.get(var)
     # A function with another reader is computed anyway, so joining it would compute it twice.
     if source is None or not isinstance(source.operation, AdSeries) or rewriter.uses.get(var, 0) > 1:
@@ -136,7 +136,7 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
 
 
 def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
-    """Return the rational number s with x = s y, where one is seen."""
+    """Return the rational number s with x = s y, or None if their terms do not show one."""
     a, b = _terms(definitions, x), _terms(definitions, y)
     # Proportional combinations have the same terms; both dicts are sorted.
     if list(a) != list(b):

@@ -65,7 +65,7 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _added(program: Program) -> Program:
-    """Return the program with terms that stand in several sums in one proportion added once."""
+    """Return the program with terms that several sums contain in one proportion added once."""
     builder = Builder({v.name for v in defined(program)})
     # Blocks only: a sweep is repeated, so an addition saved in it counts several times.
     body = [replace(s, body=_together(s.body, builder)) if isinstance(s, Solve) else s for s in program.body]

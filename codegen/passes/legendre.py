@@ -1,10 +1,10 @@
 """The Legendre transform: momenta and forces of a stage from its velocity alone, and smaller equations.
 
-Exact. Where an unknown v equals W(Q, P) up to invertible linear maps, P = W^{-1}(Q, v) at the solution: every
-other use of W and P, and of what lies between them and v or a momentum M, is computed from v. Then a force
-is no longer tied to a momentum that is still unknown, and tearing removes it; what is left to solve is, for
-each v, that the momentum computed from v is the one computed from the equations, which :func:`residuals` adds
-to the block. The velocity itself is read from the unknown after the block.
+Exact. If an unknown v equals W(Q, P) up to invertible linear maps, then P = W^{-1}(Q, v) at the solution.
+Every other reader of W, of P, and of the values on the path between v and a momentum M uses values computed
+from v. Then a force no longer depends on an unknown momentum, and tearing removes it. One equation remains
+for each v: the momentum computed from v equals the momentum of the equations. :func:`residuals` adds it to
+the block. Statements after the block read the velocity from the unknown.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ INVERTIBLE = (Adjoint, InverseDexp, AdSeries)
 
 @dataclass(frozen=True)
 class Path:
-    """How an unknown follows from a velocity W(Q, P): maps from W to the unknown, and from a base to P.
+    """The path of an unknown from a velocity W(Q, P): maps from W to the unknown, and from a base to P.
 
     Both lists are in order of application; each map takes the value before it as its last argument.
     """
@@ -88,7 +88,7 @@ def residuals(program: Program, scene: Problem) -> Program:
 
 
 def path(block: Solve, unknown: Var) -> Path | None:
-    """Return how an unknown of a block follows from a velocity, None where it does not."""
+    """Return the path of an unknown of a block from a velocity, None if there is none."""
     maker = {target: assign for assign in block.body for target in assign.targets}
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
     outward, velocity = _chain(maker, image)
@@ -100,7 +100,7 @@ def path(block: Solve, unknown: Var) -> Path | None:
 
 
 def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assign | None]:
-    """Return the invertible linear maps that end in var, the first first, and what made their start."""
+    """Return the chain of invertible linear maps that ends in var, in order, and the source of its start."""
     maps: list[Assign] = []
     while True:
         source = maker.get(var)
@@ -117,7 +117,7 @@ def _invertible(assign: Assign) -> bool:
 
 
 def _undone(build: Builder, assign: Assign, value: Var) -> Var:
-    """Append what gives the argument of an invertible map from its value."""
+    """Append the inverse of an invertible map, applied to its value."""
     operation = assign.operation
     if isinstance(operation, Adjoint):
         return build.add(operation.opposite(), "a", assign.args[0], value)
@@ -148,7 +148,7 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
 
 
 def _residual(block: Solve, route: Path, build: Builder) -> Var:
-    """Append what the momentum from the unknown exceeds the other by, in the frame where that costs less."""
+    """Append the difference of the two momenta, in the frame with fewer operations."""
     replaced, computed = _values(build, route)
     # Momenta may be compared anywhere on the path: an invertible map between them keeps the zeros.
     given = route.base
@@ -177,7 +177,7 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 
 
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
-    """Return the block with the values on a path taken from its unknown wherever else they are used."""
+    """Return the block whose other statements read the values of a path as computed from its unknown."""
     # Every value on the path gets a second computation, from the unknown; dead code drops those not read.
     replaced, _ = _values(build, route)
     fresh = build.take()

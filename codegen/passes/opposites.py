@@ -1,4 +1,4 @@
-"""Adjoint operations that undo each other, and exponentials that do nothing to their own exponent.
+"""Adjoint operations that undo each other, and exponentials that act on multiples of their exponent.
 
 Exact. Ad*_g Ad*_{g^-1} mu = mu and the like; Ad_{exp x} y = y where x and y are multiples of one value.
 """
@@ -12,7 +12,7 @@ from codegen.passes.rewrite import Rewriter, rewrite
 
 
 def run(program: Program) -> Program:
-    """Return the program without operations that are undone at once."""
+    """Return the program without pairs of inverse operations."""
     return rewrite(program, _rule)
 
 

@@ -1,4 +1,4 @@
-"""Reports of passes: what each changed, and sentences for the header of emitted code."""
+"""Reports of passes: the changes of each pass, and sentences for the header of emitted code."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from codegen.ir.program import Program
 
 @dataclass(frozen=True)
 class Pass:
-    """A pass over programs; ``because`` says why what it removes is not needed."""
+    """A pass over programs; ``because`` is the reason why the removed operations are not needed."""
 
     name: str
     because: str

@@ -13,8 +13,8 @@ from codegen.ir.values import Var
 class Rewriter:
     """Applies a rule to every assignment; the rule sees earlier definitions and how often values are used.
 
-    ``rule(rewriter, assign)`` returns the variables that stand for the assignment's targets from now on:
-    earlier ones (the assignment vanishes), or targets of what it appended by ``emit``.
+    ``rule(rewriter, assign)`` returns the variables that replace the assignment's targets: earlier variables
+    (the assignment vanishes), or targets of assignments that it has appended by ``emit``.
     """
 
     rule: Callable[[Rewriter, Assign], tuple[Var, ...]]
@@ -29,14 +29,14 @@ class Rewriter:
         """Return the rewritten program."""
         # Counted once, on the old program: a rule must not see its own rewritings as readers.
         self.uses = uses(self.program)
-        # Fresh names must differ from all old ones: those of statements still to come are in use as well.
+        # Fresh names must differ from all old ones, including those of later statements.
         self.builder.taken = {v.name for v in defined(self.program)}
         body = tuple(s for statement in self.program.body for s in self._statement(statement))
         outputs = tuple((name, self.now(var)) for name, var in self.program.outputs)
         return replace(self.program, body=body, outputs=outputs)
 
     def now(self, var: Var) -> Var:
-        """Return the variable that replaces var, var itself where none does."""
+        """Return the replacement of var, or var itself."""
         return self.names.get(var, var)
 
     def emit(self, assign: Assign) -> tuple[Var, ...]:

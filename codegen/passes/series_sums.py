@@ -1,10 +1,10 @@
 """Sums of functions of one ad, nested: sum_k f_k (1 + b_k ad_x + c_k ad_x^2) v_k in two brackets.
 
-Exact. It is A + ad_x (B + ad_x C) with A = sum f_k v_k, B = sum f_k b_k v_k and C = sum f_k c_k v_k, however
-many terms there are; one by one each takes two brackets. The momentum of (3.19) is such a sum: functions of
-one ad applied to the momentum before and to the force. A group that knows them in closed form has
-``series_sum``. Where the v_k are sums themselves, A, B and C are sums of what those are sums of: they do not
-wait for them.
+Exact. It is A + ad_x (B + ad_x C) with A = sum f_k v_k, B = sum f_k b_k v_k and C = sum f_k c_k v_k, for any
+number of terms; evaluated one by one, each term takes two brackets. The momentum of (3.19) is such a sum:
+functions of one ad applied to the momentum before and to the force. A group with closed forms has
+``series_sum``. If the v_k are sums themselves, A, B and C are sums of their terms, so they do not wait for
+the v_k.
 """
 
 from __future__ import annotations
@@ -47,9 +47,9 @@ class SeriesSums:
         self.uses = uses(self.program)
 
     def value(self, domain: Domain, assign: Assign, env: Mapping[Var, Value]) -> tuple[Value, ...] | None:
-        """Return the value of a sum with its functions of ad nested; None where nothing is saved by that.
+        """Return the value of a sum with its functions of ad nested; None if nesting saves nothing.
 
-        Assignments are taken note of, so that all of them have to pass here in order.
+        This method records definitions, so it must see every assignment in order.
         """
         for target in assign.targets:
             self.definitions[target] = assign
@@ -109,7 +109,7 @@ class SeriesSums:
         return group.series_sum(domain, terms, dual, env[x], total)
 
     def _flat(self, terms: list[tuple[Coefficient, Var]]) -> list[tuple[Coefficient, Var]]:
-        """Return a sum in terms of what its terms are sums of, where that is no longer."""
+        """Return a sum with its terms expanded, unless that is longer."""
         total: dict[tuple[Var, int], Number] = {}
         for c, v in terms:
             # Expanded sums start from values that are ready earlier, which shortens the critical path.

@@ -1,7 +1,7 @@
 """Sums that are the negative of an earlier sum become its negative, which costs nothing.
 
-Exact. Commutator-free and Crouch-Grossman methods take exp(x) and dexp*_{-x}: x is summed once. This pass is
-the last of all, for others join a number to the coefficients of a sum.
+Exact. Commutator-free and Crouch-Grossman methods take exp(x) and dexp*_{-x}: x is summed once. This pass
+is the last of all, because others multiply a number into the coefficients of a sum.
 """
 
 from __future__ import annotations

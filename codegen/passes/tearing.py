@@ -1,8 +1,8 @@
 """Tearing: unknowns that the others determine within one sweep are computed, not solved for.
 
 Exact. Where a block's body stays free of cycles when an unknown is replaced by its image, it is replaced. An
-equation has to hold at the solution only, so that the solutions are the same; what is left is a smaller
-block. Momenta and forces are tried first, so that velocities stay.
+equation has to hold at the solution only, so the solutions are the same, and the block is smaller. Momenta
+and forces are tried first, so that velocities stay.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from codegen.ir.values import Kind, Var
 
 
 def run(program: Program) -> Program:
-    """Return the program with as few unknowns as single replacements leave."""
+    """Return the program with unknowns replaced one by one until no replacement is possible."""
     body: list[Statement] = []
     names: dict[Var, Var] = {}
 
