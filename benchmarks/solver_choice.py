@@ -251,8 +251,8 @@ def verdict(rows: Sequence[Row]) -> str:
     if other:
         ratio, row = max(other, key=lambda pair: pair[0])
         lines.append(
-            f"In {len(other)} cases the fastest solver is not robust; there the largest ratio is {ratio:.2f}: "
-            f"{row.name}."
+            f"In {len(other)} cases the fastest solver is not robust; there the largest ratio is "
+            f"{ratio:.2f}: {row.name}."
         )
     failing = [row.name for row in rows if row.sides[row.chosen].measured is None and row.fastest]
     none = [row.name for row in rows if not row.fastest]
@@ -279,7 +279,8 @@ def fitted(sides: Sequence[Side]) -> str:
     weights, _ = nnls(matrix, [1.0] * len(used))
     gaps = sorted(abs(a.cost(Amounts(*map(float, weights))) / t - 1) for a, t in used)
     named = {f.name: float(f"{w:.2g}") for f, w in zip(fields(Amounts), weights, strict=True)}
-    return f"{replace(Amounts(), **named)}\n{len(used)} programs; median error {100 * gaps[len(gaps) // 2]:.0f} %"
+    error = 100 * gaps[len(gaps) // 2]
+    return f"{replace(Amounts(), **named)}\n{len(used)} programs; median error {error:.0f} %"
 
 
 def environment(rounds: int) -> str:

@@ -133,13 +133,18 @@ def unknowns_of(kernel: Kernel) -> int:
     return sum(len(loop.unknowns) for loop in kernel.loops)
 
 
+def trial_steps(kernel: Kernel) -> int:
+    """Return how many steps a trial of usual steps makes."""
+    return STEPS if unknowns_of(kernel) <= LARGE else FEW_STEPS
+
+
 class Candidate:
     """A kernel with its cost and its trials: one of usual steps, and one of a longer step."""
 
     def __init__(self, kernel: Kernel, scene: Problem, initial: tuple[float, ...]) -> None:
         self.kernel, self.cost = kernel, StepCost(kernel)
         trials = Trials(kernel, scene, initial)
-        self.usual = trials.run(STEPS if unknowns_of(kernel) <= LARGE else FEW_STEPS)
+        self.usual = trials.run(trial_steps(kernel))
         self.far = trials.run(1, LONGER) if self.usual.converged else None
 
     @property
@@ -169,19 +174,20 @@ class Candidate:
 
 def counted(trial: Trial, k: int) -> str:
     """Return how many sweeps and matrices a block took."""
-    text = f"{_decimal(trial.sweeps[k])} sweeps"
+    text = amount(trial.sweeps[k], "sweep", "sweeps")
     if trial.matrices[k]:
-        text += f" and {_decimal(trial.matrices[k])} matrices"
+        text += f" and {amount(trial.matrices[k], 'matrix', 'matrices')}"
     return f"{text} a step"
 
 
-def _decimal(x: float) -> str:
-    """Write a number with at most two decimals.
+def amount(x: float, one: str, several: str) -> str:
+    """Write a number with at most two decimals and its noun.
 
-    >>> _decimal(1.55), _decimal(2.0), _decimal(0.05)
-    ('1.55', '2', '0.05')
+    >>> [amount(x, "matrix", "matrices") for x in (1.0, 0.35, 2.0)]
+    ['1 matrix', '0.35 matrices', '2 matrices']
     """
-    return f"{x:.2f}".rstrip("0").rstrip(".")
+    number = f"{x:.2f}".rstrip("0").rstrip(".")
+    return f"{number} {one if number == '1' else several}"
 
 
 def measured(trial: Trial, k: int) -> str:
@@ -214,7 +220,7 @@ class _Selection:
         for k, loop in enumerate(candidate.kernel.loops):
             reason = measured(candidate.usual, k)
             if fastest[k] not in robust:
-                reason += f"; {METHODS[fastest[k]]} is faster but {self.weakness(fastest[k])}"
+                reason += f"; {METHODS[fastest[k]]}: would be faster, but {self.weakness(fastest[k])}"
             elif NEWTON in self.refused:
                 reason += f"; Newton's method is not possible: {self.refused[NEWTON]}"
             elif not candidate.robust:
@@ -223,8 +229,17 @@ class _Selection:
         return candidate.kernel, self.choices(candidate.kernel, reasons)
 
     def consider(self, solver: str) -> None:
-        """Build and try the kernel of a solver, unless it cannot be the best."""
-        known = [c.step() for c in self.candidates.values() if c.robust]
+        """Build and try the kernel of a solver, unless it cannot be the best.
+
+        Of many unknowns, chords need not be tried once Newton's method converges, robust or not: they invert
+        a matrix in each step.
+        """
+        large = unknowns_of(self.fixed) > LARGE
+        known = [
+            c.step()
+            for s, c in self.candidates.items()
+            if c.robust or (large and s == NEWTON and c.usual.converged)
+        ]
         least = self.least(solver)
         if known and min(known) <= least:
             self.left_out[solver] = f"not tried: would take at least {least:.0f} ns a step"
@@ -244,8 +259,9 @@ class _Selection:
     def least(self, solver: str) -> float:
         """Return what a step costs at least with a matrix, in nanoseconds: one sweep of each block.
 
-        A sweep is that of the fixed point with a product by the inverse. Chords invert a matrix in each step;
-        small ones are inverted by formulas, whose operations are not known before.
+        A sweep is that of the fixed point with a product by the inverse. Chords invert a matrix in each step,
+        Newton's method one in all steps of a trial; small ones are inverted by formulas, whose operations are
+        not known before.
         """
         total = self.candidates[FIXED_POINT].cost.amounts(
             [float(self.parts)] * len(self.fixed.loops), [0.0] * len(self.fixed.loops)
@@ -253,8 +269,8 @@ class _Selection:
         for loop in self.fixed.loops:
             n = len(loop.unknowns)
             total += Amounts(arithmetic=2 * n * n).times(self.parts)
-            if solver == CHORD and n > SMALL:
-                total += inversion(n).times(self.parts)
+            if n > SMALL:
+                total += inversion(n).times(self.parts / (1 if solver == CHORD else trial_steps(self.fixed)))
         return total.cost(WEIGHTS)
 
     @property

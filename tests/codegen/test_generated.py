@@ -17,9 +17,9 @@ from pathlib import Path
 import pytest
 
 from codegen.emitter import compile_method
-from codegen.run.trial import PARTS
 from codegen.lab.runner import Interpreted
 from codegen.regenerate import entries
+from codegen.run.trial import PARTS
 from tests.promises import ulps, usage_lines, usage_program
 
 GENERATED = Path(__file__).parents[2] / "generated"
