@@ -10,7 +10,7 @@ import keyword
 import re
 import shlex
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import PurePath
 from typing import Any
 
@@ -34,6 +34,7 @@ from codegen.printers.recipe import Recipe
 from codegen.run.precision import DOUBLE
 from codegen.run.precision import precision as known_precision
 from codegen.run.solver_choice import AUTO, Choice, known_solver, solved
+from codegen.run.trial import PARTS
 from codegen.scene.momentum_frame import with_frame
 from codegen.scene.problem import TIME, Problem
 from codegen.scene.run_time import with_inputs, with_runtime
@@ -48,9 +49,6 @@ COUNTED = "; sweeps above are those in double precision"
 SWEEPS = 5
 WEIGHTS = {"div": 4, "sqrt": 5}
 """The cost model for comparing two forms of a step, in additions; other functions cost twelve."""
-
-STEPS = 100
-"""The number of steps of the usage example, over the scene's span."""
 
 HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
 """Headers and modules that emitted files or their examples include; no emitted file may have their names."""
@@ -221,7 +219,7 @@ def emit_compiled(
         "initial": list(recipe.initial),
         "span": [float(t) for t in scene.span],
         "left_out": list(recipe.left_out),
-        "solvers": [asdict(choice) for choice in compiled.solvers],
+        "solvers": [choice.as_json() for choice in compiled.solvers],
     }
     return emit_kernel(compiled.kernel, recipe, target, chosen, about, precision)
 
@@ -257,8 +255,8 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, single: b
             *((("steps", steps_of(compiled.kernel)),) if method.adaptive else ()),
         ),
         initial=start_of(scene),
-        h=float((last - first) / STEPS),
-        steps=STEPS,
+        h=float((last - first) / PARTS),
+        steps=PARTS,
         defaults={p: float(scene.parameters[p]) for p in scene.runtime},
         left_out=left_out(compiled),
         command=command,
