@@ -102,9 +102,7 @@ class Run:
 
     def refuse(self, record: dict[str, Any]) -> None:
         """Print an error's message, and its record where a document is due."""
-        with contextlib.suppress(
-            OSError
-        ):  # a full or closed stream keeps the exit status
+        with contextlib.suppress(OSError):  # a full or closed stream keeps the exit status
             click.echo(f"orderconds: {record['message']}", err=True)
         if self.as_json and not self.documents:
             with contextlib.suppress(OSError):
