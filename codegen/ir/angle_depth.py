@@ -1,6 +1,6 @@
-"""How long the longest chain of angles in a step is: each is computed from functions of those before it.
+"""The depth of angles: the length of the longest chain of angles, each computed from the one before.
 
-It says how far a step may turn before rounding leaves nothing of it (:func:`codegen.snippets.stumpff.limit`).
+It bounds how far a step may turn before no correct digit is left (:func:`codegen.snippets.stumpff.limit`).
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ from codegen.ir.kernel import Kernel, Let
 
 
 def chain(kernel: Kernel) -> int:
-    """Return how many Stumpff functions stand one in the argument of another, at least 1.
+    """Return the largest number of nested Stumpff functions, at least 1.
 
-    Equations are another matter: what solves them is as sharp as they are, and 1 is returned. So are exact
-    flows: what one adds to an angle the next does not multiply.
+    A kernel with equations has depth 1: their solution is as accurate as the equations. So has a kernel with
+    deferred flows: an error that one flow adds to an angle is not multiplied by the next flow.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -38,7 +38,7 @@ def chain(kernel: Kernel) -> int:
 
 
 def _depth(root: Expr, depths: Mapping[str, int]) -> int:
-    """Return the longest chain in an expression whose symbols have those of ``depths``."""
+    """Return the depth of an expression; ``depths`` holds the depths of its symbols."""
     by_node: dict[int, int] = {}
     for node in walk([root]):
         # walk yields arguments before their users.

@@ -18,9 +18,9 @@ Sum = dict[int, tuple[Number, Expr]]
 
 
 def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ...]:
-    """Return the roots with numbers gathered, or as they are where that takes no fewer operations.
+    """Return the roots with their constants collected, or the roots themselves if that saves no operation.
 
-    What is ``kept``, or a number times that, is not expanded.
+    Expressions in ``kept``, and their multiples, are not expanded.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -46,7 +46,7 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
 
 
 def _bare(node: Expr) -> Expr:
-    """Return the expression that a node is a number times of: numbers join those before it."""
+    """Return a node without its sign and its numeric factors."""
     while node.op == "neg" or (node.op == "mul" and node.args[0].op == "const"):
         node = node.args[-1]
     return node
@@ -60,10 +60,10 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
 
 
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
-    """Return inverse roots of which odd powers from the third on are read, and their powers.
+    """Return the powers of inverse roots to rewrite: of the root only odd powers from the third on are read.
 
-    Each with the number of the inverse root and the exponent; numbers in front are left out, and so is what
-    is part of anything ``kept``.
+    Each maps to the number of the inverse root and the exponent. Numeric factors do not count. Parts of
+    ``kept`` expressions are left out.
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
@@ -113,14 +113,14 @@ class _Gathering:
         return self._spell(root)
 
     def _spell(self, node: Expr) -> Expr:
-        """Return a node as it is read by one that is no combination; the first reader sets numerators."""
+        """Return the expression of a node's combination; an inverse gets the numerator of its first reader."""
         if node.id not in self.written:
             total = [self._inverse(c, atom) for c, atom in self.sums[node.id].values()]
             self.written[node.id] = _expression(total, node.space)
         return self.written[node.id]
 
     def _inverse(self, c: Number, atom: Expr) -> tuple[Number, Expr]:
-        """Return c 1/y as d (e/y), where e is the size of c for the first that is read."""
+        """Return c 1/y as d (e/y), where e is the size of c for the first reader."""
         if not _is_inverse(atom):
             return c, atom
         # A numerator other than 1 costs nothing, and it absorbs the first reader's product. Later readers

@@ -36,7 +36,7 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 def partials(node: Expr) -> list[Expr]:
     """Return the derivatives of a node by its arguments, in order.
 
-    Those of ``quotient`` are taken away from the zeros of its divisor. :class:`NotDifferentiable` for
+    The derivatives of ``quotient`` hold where its divisor is not zero. :class:`NotDifferentiable` for
     ``signed_stumpff1`` and the slopes.
     """
     space, args = node.space, node.args

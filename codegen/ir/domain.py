@@ -110,7 +110,7 @@ def slope(k: int, z: float) -> float:
 class FloatDomain:
     """IEEE double precision.
 
-    ``patience`` is how many sweeps a fixed point may take that is sharp when it settles.
+    A fixed-point iteration that takes more sweeps than ``patience`` is left to Newton's method.
     """
 
     patience = 40
@@ -138,7 +138,7 @@ class FloatDomain:
         return result
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Stand still at rounding level: the rule of :class:`codegen.ir.kernel.Loop`."""
+        """Return whether the changes are at rounding level, and the size of the last one."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         if not math.isfinite(change):
             raise NotConverged("a fixed-point iteration left the finite numbers")
@@ -223,7 +223,7 @@ class PreciseDomain:
         return total
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Stand still within 2^12 units of the working precision."""
+        """Return whether the changes stopped falling within 2^12 units of the precision, and the last one."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
         # Being small is not enough: the next sweep may still gain digits. Changes must have stopped falling.
@@ -303,7 +303,7 @@ class SeriesDomain:
             total = total + term
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Stand still exactly."""
+        """Return whether nothing has changed; an exact iteration needs no size."""
         # A contraction by O(h) fixes one more coefficient a sweep, so order + 1 sweeps suffice.
         return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None
 

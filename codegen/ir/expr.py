@@ -45,7 +45,7 @@ FUNCTIONS = (
 
 
 class Expr:
-    """One node; made only by its :class:`Space`."""
+    """One node; only its :class:`Space` creates it."""
 
     # Neither == nor hash is defined: within one space equal expressions are one object.
     __slots__ = ("args", "id", "op", "payload", "space")

@@ -40,15 +40,13 @@ def interpret(
 ) -> State:
     """Return the new state after one step, by input name.
 
-    ``inputs`` gives every input of the program: a Real is a scalar of the domain, anything else a flat tuple
-    of scalars (group elements row by row). Blocks are iterated until the domain says they stand still; one
-    that takes long or fails is solved by Newton's method with difference quotients where the domain has them
-    (and ``newton``). After ``limit`` sweeps of either :class:`NotConverged` names the block. ``solutions``
-    are what unknowns are expected to be, to begin with; they receive what was found. ``near`` instead gives
-    numbers near the unknowns, a list for each block in the order they are solved, where Newton's method
-    begins at once; they are replaced by what was found.
-    A domain that has ``computed`` is given the name and the value of every result, and what it returns is
-    used instead.
+    ``inputs`` has a value for each input: a scalar of the domain for a Real, else a flat tuple of scalars
+    (group elements row by row). Blocks are solved by fixed-point iteration until the domain reports
+    convergence; a slow or failing one by Newton's method with difference quotients, if the domain has them
+    and ``newton`` is true. :class:`NotConverged` names a block that takes more than ``limit`` sweeps.
+    Iterations start at ``solutions``, which receives the new ones. ``near`` starts Newton's method at once:
+    it has a list of numbers for each block, in the order of solution, and receives the solutions.
+    A domain's method ``computed`` receives the name and the value of each result, and returns a new value.
     """
     if program.frame == BODY:
         # The statements are the same in both frames; only the state that they read and return is converted.
@@ -98,10 +96,10 @@ def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tupl
 def outward(
     problem: Problem, domain: Domain, state: Mapping[str, Value], *ends: Mapping[str, Value]
 ) -> tuple[Scalar, ...]:
-    """Return the momentum in space after a step from a state, made in the body between two ends.
+    """Return the momentum in space after a step whose momentum was in the body frame; ``ends`` are both ends.
 
-    It is that of the state and what has been added: where rounding has made q not quite orthogonal, it turns
-    this alone.
+    It is mu plus the change between the ends: a q that is not quite orthogonal by rounding then rotates the
+    change alone, and not mu.
     """
     before, after = (TO_SPACE.evaluate(problem, domain, (x["q"], x["mu"]))[0] for x in ends)
     return tuple(mu + (b - a) for mu, a, b in zip(state["mu"], before, after, strict=True))
@@ -170,8 +168,8 @@ def _correct(
 ) -> list[Scalar]:
     """Solve a block by Newton's method with difference quotients: no formula is differentiated.
 
-    It begins at ``near``, by default where the block starts; the unknowns are returned. A domain may say how
-    images are ``rounded``.
+    It begins at ``near``, by default at the block's starts, and returns the unknowns. A domain's method
+    ``rounded`` rounds the images.
     """
     kinds = [u.kind for u in block.unknowns]
     widths = [len(flatten(s.kind, env[s])) for s in block.starts]

@@ -41,7 +41,7 @@ class _Graph:
     """The linearised expressions: ``before[v][u]`` and ``after[u][v]`` are the edge from u to v.
 
     Vertices are the ids of nodes that depend on a variable; results are -1, -2, ... so that a node may be a
-    result and stand inside another.
+    result and an argument of another node.
     """
 
     def __init__(self, roots: Sequence[Expr], columns: dict[int, int]) -> None:

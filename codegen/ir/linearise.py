@@ -1,8 +1,8 @@
 """Jacobians of expressions to first order in h, for simplified Newton iterations.
 
-Every expression is carried as v_0 + v_1 h with its derivatives by the unknowns, truncated alike, so that what
-only higher powers of h contribute is never formed: of an exponential of h x there remains 1 + h x, of a force
-that enters with a factor h its value at h = 0. An iteration with this Jacobian gains two powers of h a sweep.
+Every expression is carried as v_0 + v_1 h with its derivatives by the unknowns, truncated alike, so
+higher powers of h are never formed: an exponential of h x becomes 1 + h x, and a force with a factor h is
+taken at h = 0. An iteration with this Jacobian gains two powers of h a sweep.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from codegen.ir.number import Number
 STEP = "h"
 
 EXPANDED = frozenset({"sqrt", "sin", "cos", "exp", "log", *(f"stumpff{k}" for k in range(4))})
-"""The functions whose expansions are known here."""
+"""The functions with a rule for their expansion."""
 
 Pair = tuple[Expr, Expr]
 """Coefficients of 1 and of h."""
@@ -36,7 +36,7 @@ class _Dual:
 
 
 class FirstOrder:
-    """Derivatives of expressions by the unknowns up to h^1; what several share is expanded once.
+    """Derivatives of expressions by the unknowns up to h^1; shared subexpressions are expanded once.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x, h = s.sym("x"), s.sym("h")

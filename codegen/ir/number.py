@@ -41,7 +41,7 @@ class Number:
 
     @cached_property
     def key(self) -> tuple[object, ...]:
-        """What tells whether numbers are equal."""
+        """The key: equal numbers have equal keys."""
         # Keys make equality decidable for balls, too: equal names in a file give equal keys.
         return tuple(self.ring.key(self.element))
 
@@ -64,8 +64,8 @@ class Number:
     def read(cls, text: str) -> Number:
         """Return the rational number that a person typed: ``1/2``, ``0.25``, ``-3e-2``.
 
-        A ValueError that says what was expected, for anything else and for what no double holds; an exponent
-        is looked at before it is taken at its word.
+        A ValueError states the expected form for any other text and for numbers outside the range of doubles.
+        The length of the text and its exponent are checked before the number is built.
 
         >>> Number.read("-3e-2") == Number.rational(-3, 100)
         True
@@ -158,5 +158,5 @@ class Number:
         return Fraction(int(self.element.p), int(self.element.q))
 
     def text(self) -> str:
-        """Spell this number exactly, or to 20 digits where it is only known as a ball."""
+        """Return this number as exact text, or to 20 digits if it is a ball."""
         return self.ring.text(self.element)

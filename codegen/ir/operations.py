@@ -27,7 +27,7 @@ LINEAR = (Kind.ALG, Kind.DUAL)
 
 
 class Problem(Protocol):
-    """What a program needs to know of its scene: group, action, field or Hamiltonian, over any domain."""
+    """The group, the action, and the field or Hamiltonian of a scene, evaluated over any domain."""
 
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
         """Return the results of an operation of the group or the scene, by the name of its function.
@@ -58,10 +58,10 @@ class Operation(ABC):
     evaluates_scene: ClassVar[bool] = False
     """Whether it counts as one evaluation of the field or of the derivatives of the Hamiltonian."""
     exponentials: ClassVar[int] = 0
-    """How many exponentials, or flows, it computes."""
+    """The number of exponentials or flows that it computes."""
 
     noun: ClassVar[str] = ""
-    """What a user calls it, with ``{s}`` for the plural; '' for an operation that costs nothing."""
+    """Its name in reports, with ``{s}`` for the plural; '' for an operation that costs nothing."""
 
     @property
     @abstractmethod
@@ -330,7 +330,7 @@ class InverseDexp(Operation):
 
 @dataclass(frozen=True)
 class InverseDexpSlope(Operation):
-    """P*_(order)(x, y) mu: its pairing with z is that of mu with the derivative of dexpinv_x y along z.
+    """P*_(order)(x, y) mu: <P* mu, z> = <mu, derivative of dexpinv_x y by x along z>.
 
     It belongs to the dexp^{-1} of :class:`InverseDexp` with the same order.
     """

@@ -1,4 +1,4 @@
-"""The base class of lowerings: what one family makes of a tableau and a problem.
+"""The base class of lowerings: one class for each family turns a tableau and a problem into a program.
 
 A family of methods is two classes. :class:`orderconds.families.Family` knows its order conditions;
 :class:`Lowering` knows which scenes it takes and writes the step program. :func:`codegen.lower.register`

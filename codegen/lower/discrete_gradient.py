@@ -8,8 +8,8 @@ The tableau is read as a quadrature rule with nodes c_i and weights b_i for the 
     D = g + (H(x1) - H(x0) - <g, eta>)/|eta|^2 eta.
 
 With one node 1/2 this is (2.31) with the midpoint choice; with Gauss nodes the mean value of that section,
-what the quadrature misses being put along eta. Since omega is skew, <D, xi> = 0 and H(x1) = H(x0) for any
-tableau; the order is two where sum b_i c_i = 1/2, else one. The unknown is xi.
+where a multiple of eta corrects the error of the quadrature. Since omega is skew, <D, xi> = 0 and H(x1) =
+H(x0) for any tableau; the order is two where sum b_i c_i = 1/2, else one. The unknown is xi.
 """
 
 from __future__ import annotations

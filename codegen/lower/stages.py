@@ -1,4 +1,4 @@
-"""What all lowerings share: inputs, stage times, evaluating the scene, and one block holding all stages."""
+"""Stages of a step: inputs, stage times, evaluations of the scene, and one block that holds all stages."""
 
 from __future__ import annotations
 

@@ -1,12 +1,12 @@
-"""Compositions: a step that is one shorter step made again and again becomes that step and a table.
+"""Compositions: a step that repeats one shorter step becomes that step and a table of substeps.
 
 Where the stages of a tableau fall into groups, a_ij = b_j for j in an earlier group than i and a_ij = 0 for j
 in a later one, the method is the composition of the methods of the groups, with steps gamma_k h where gamma_k
 is the sum of the b_j of group k (Lemma 3.5.4 of Bogfjellmo and Marthinsen; for Crouch-Grossman methods read
 off the products of exponentials). Where the groups' coefficients over gamma_k are the same, these are one
-method, and one program serves for all. The first group may so be of more than one that is a composition.
+method, and one program serves all. Several neighbouring groups may together be the repeated method.
 
-Only implicit methods are taken apart: explicit stages share what they compute.
+Only implicit methods are split: explicit stages of neighbouring substeps share computations.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from orderconds.tableau import Composition, RungeKutta
 
 
 def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
-    """Return the method that a step repeats, and how long each of its steps is; None where there is none.
+    """Return the method that a step repeats, and its substeps; None if the step repeats no method.
 
     The family is one of those whose lowering has :attr:`codegen.lower.Lowering.repeats_substeps`.
 

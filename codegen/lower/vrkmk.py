@@ -11,7 +11,7 @@ dexp^{-1}_{(r),x} xi by x, the equations are
 
 Given all v_i and m_i the scene is evaluated once a stage and everything else follows: they are the unknowns.
 Where a_ji = 0 for all j <= i, m_i follows from Lambda and later stages; then Lambda is an unknown and m_i is
-none. The passes remove values that no equation reads. The sum m_i is expanded in mu0, n_j and m_j, because
+not. The passes remove values that no equation reads. The sum m_i is expanded in mu0, n_j and m_j, because
 its terms cancel on an abelian group.
 """
 
