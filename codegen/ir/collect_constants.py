@@ -113,7 +113,7 @@ class _Gathering:
         return self._spell(root)
 
     def _spell(self, node: Expr) -> Expr:
-        """Return the expression of a node's combination; an inverse gets the numerator of its first reader."""
+        """Return the expression of a node's combination; an inverse takes its first numerator."""
         if node.id not in self.written:
             total = [self._inverse(c, atom) for c, atom in self.sums[node.id].values()]
             self.written[node.id] = _expression(total, node.space)
