@@ -142,8 +142,8 @@ def sympy_polynomials(order: int = 7, size: int = 9) -> Prepared:
 
 def commutator_free(explicit: bool) -> Prepared:
     """CF conditions to order 4 as polynomials, 5 stages with 5 exponentials each, as has the update."""
-    from orderconds.derivation import derive
     from orderconds import families
+    from orderconds.derivation import derive
     from orderconds.ring.polynomials import Polynomials
     from orderconds.tableau import CommutatorFree, Stage
 

@@ -95,6 +95,7 @@ def command(
                     for r in compiled.trace
                 ]
                 record["functions"] = functions_of(compiled)
+                record["compared"] = [list(choice.compared) for choice in compiled.solvers]
         screen.print_json(records)
     return 0
 
@@ -119,9 +120,16 @@ def explanation(compiled: Compiled) -> str:
         lines = [f"  {p['name']}, {p['calls']} calls: {p['about']}\n" for p in functions]
         parts.append("# outlined functions\n" + "".join(lines))
     if compiled.solvers:
-        parts.append("# solved by\n" + "".join(f"  {choice.text()}\n" for choice in compiled.solvers))
+        parts.append("# solved by\n" + "".join(f"  {line}\n" for line in solvers_of(compiled)))
     parts.append("# left out\n" + "".join(f"  {line}\n" for line in left_out(compiled)))
     return "\n".join(parts)
+
+
+def solvers_of(compiled: Compiled) -> list[str]:
+    """Return how each block is solved, followed by the figures of every solver that was considered."""
+    return [
+        line for choice in compiled.solvers for line in (choice.text(), *map("  {}".format, choice.compared))
+    ]
 
 
 def functions_of(compiled: Compiled) -> list[dict[str, object]]:

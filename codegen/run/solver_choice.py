@@ -1,40 +1,40 @@
-"""How each block of equations is solved: by a fixed point, Newton's method or chords, whichever is cheapest.
+"""How each block of equations is solved: by a fixed point, Newton's method or chords.
 
 Newton's method keeps an exact matrix as long as it contracts; chords compute one, to first order in h, in
 each step. A fixed point needs none. Its sweeps gain one power of h each, those of equation (3.19) of H.
-Marthinsen's thesis too, because momenta are computed within a sweep; were they unknowns beside the
-velocities, two sweeps would gain one.
+Marthinsen's thesis (*Lie group integrators*) too, because momenta are computed within a sweep; were they
+unknowns beside the velocities, two sweeps would gain one.
 
-All are tried: the executor (:mod:`codegen.run.execute`) makes a few steps from the initial state, of the
-length that the usage example takes. It makes the sweeps and matrices that emitted code makes; these are
-weighed by their operations. A solver that also converges in steps :data:`LONGER` times as long, in few
-sweeps, is preferred: near its limit a method fails at a user's next step size.
+The solver of least predicted time is chosen. A trial (:mod:`codegen.run.trial`) counts the sweeps and
+matrices of the first :data:`STEPS` steps of the usage example. The cost model (:mod:`codegen.run.step_cost`),
+which was fitted to measurements of emitted C, predicts the time of a step from them.
+``benchmarks/solver_choice.py`` compares the choices with the fastest solver measured.
 
-Where there are more than :data:`MANY` unknowns, in one block or several, a fixed point that needs at most
-:data:`FEW` sweeps is accepted: products with the inverse cost most of what the fewer sweeps of Newton's
-method save, or more, and its matrices are longer than the step. For long steps chords are not tried where
-Newton's method works on residuals and converges.
+Robust solvers come first. A solver is robust if it also converges in a step :data:`LONGER` times as long, in
+at most :data:`SWEEPS` sweeps. A fixed point may converge at the step of the example and fail at a somewhat
+longer one: the number of its sweeps grows without bound towards the limit h L = 1, and a user's next step
+size is not known. Newton's method has no such limit where the equations are linear. So a solver that is not
+robust is taken only where none is.
+
+Kernels of many unknowns take long to build and try. Before a kernel is built, its cost is estimated from
+below; where a robust solver is known that costs less, it is left out. Trials of more than :data:`LARGE`
+unknowns make fewer steps.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from codegen.errors import MethodError
-from codegen.ir.angle_depth import chain
 from codegen.ir.differentiate import NotDifferentiable
-from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Kernel, Loop
+from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Kernel
 from codegen.ir.program import Program
-from codegen.kernel.operations import matrix_of, operations
-from codegen.kernel.schedule import METHODS, arrange
-from codegen.kernel.translate import is_long, to_kernel
-from codegen.run.execute import Machine
-from codegen.run.floats import EmittedFloats
-from codegen.run.plan import STATISTICS, Plan
-from codegen.run.precision import DOUBLE
-from codegen.run.terms import OK, STATUSES
-from codegen.run.unit import unit_of
+from codegen.kernel.newton import SMALL
+from codegen.kernel.schedule import METHODS
+from codegen.kernel.translate import to_kernel
+from codegen.run.step_cost import WEIGHTS, Amounts, StepCost, inversion
+from codegen.run.trial import Trial, Trials
 from codegen.scene.problem import Problem
 from orderconds.errors import UnknownName
 
@@ -42,48 +42,45 @@ AUTO = "auto"
 CHOICES = (AUTO, NEWTON, CHORD, FIXED_POINT)
 """What a caller may ask for."""
 
-STEPS, LONGER, PARTS = 20, 8, 100
-"""Steps of a trial; how much longer steps of the second trial are; how many steps make the scene's span."""
+ASKED = "as asked for"
+"""The reason for a solver that the caller named."""
+
+STEPS, FEW_STEPS, LONGER = 20, 5, 8
+"""Steps of a trial, those of a large one, and how much longer the one step of the second trial is."""
 
 SWEEPS = 20
-"""The most sweeps that a longer step may take."""
+"""The most sweeps that a robust solver takes in the longer step."""
 
-MANY, FEW = 20, 5.0
-"""In how many sweeps fixed points must find more than so many unknowns to be taken at once."""
-
-WEIGHTS = {"add": 1, "mul": 1, "div": 4}
-"""What operations cost; calls cost :data:`CALL`."""
-CALL = 15
-
-RELIABLE = {NEWTON: 0.8}
-"""How much less a solver must cost: how long a matrix serves depends on where the motion is."""
-
-
-MEASURED = f"counted over the first {STEPS} steps of the example"
-"""What the numbers of a reason are: the executor makes the sweeps of emitted code in these steps."""
+LARGE = 64
+"""With more unknowns, a trial makes few steps, and none by continuation in h, of thousands of sweeps."""
 
 
 @dataclass(frozen=True)
 class Choice:
-    """How one block is solved, and why."""
+    """How one block is solved, and why; ``compared`` has a sentence on each solver that was considered."""
 
     label: str
     unknowns: int
     solver: str
     reason: str
+    compared: tuple[str, ...] = ()
 
     def text(self) -> str:
-        """Say it in words."""
-        return f"{self.label}: {METHODS[self.solver]}, {self.unknowns} unknowns ({self.reason})"
+        """Return the sentence of the header.
 
+        >>> Choice("stage 1", 3, "newton", "as asked for").text()
+        "stage 1: Newton's method, 3 unknowns; as asked for"
+        """
+        return f"{self.label}: {METHODS[self.solver]}, {self.unknowns} unknowns; {self.reason}"
 
-@dataclass(frozen=True)
-class _Trial:
-    """What a few steps took: sweeps a step by block, matrices a step and block, and whether all were made."""
-
-    sweeps: tuple[float, ...]
-    matrices: float
-    good: bool
+    def as_json(self) -> dict[str, str | int]:
+        """Return the entry of the manifest."""
+        return {
+            "label": self.label,
+            "unknowns": self.unknowns,
+            "solver": self.solver,
+            "reason": self.reason,
+        }
 
 
 def known_solver(name: str) -> str:
@@ -109,188 +106,227 @@ def solved(
     """
     known_solver(asked)
     fixed = iterated or to_kernel(program, scene)
-    labels = [loop.label for loop in fixed.loops]
-    if not labels:
+    if not fixed.loops:
         return fixed, ()
-    if asked == FIXED_POINT:
-        return fixed, _choices(fixed, dict.fromkeys(labels, "asked for"))
-    tried = _Tried(scene, initial)
     if asked == AUTO:
-        tried.add(FIXED_POINT, fixed)
-        if tried.soon():
-            return fixed, _choices(fixed, tried.reasons_for_fixed_points())
-    refused: dict[str, str] = {}
-    for solver in (NEWTON, CHORD):
-        if asked not in (AUTO, solver):
-            continue
-        if solver == CHORD and (fixed.outlined or is_long(fixed.body)) and tried.serves(NEWTON):
-            continue
-        try:
-            kernel = to_kernel(program, scene, dict.fromkeys(labels, solver))
-        except (NotDifferentiable, ZeroDivisionError) as error:
-            refused[solver] = str(error)
-            continue
-        if asked == solver:
-            return kernel, _choices(kernel, dict.fromkeys(labels, "asked for"))
-        tried.add(solver, kernel)
-    if asked in refused:
+        return _Selection(program, scene, initial, fixed).chosen()
+    if asked == FIXED_POINT:
+        return fixed, _choices(fixed, ASKED)
+    try:
+        kernel = to_kernel(program, scene, {loop.label: asked for loop in fixed.loops})
+    except (NotDifferentiable, ZeroDivisionError) as error:
         raise MethodError(
-            f"{METHODS[asked]} for {program.name}: {refused[asked]}",
+            f"{METHODS[asked]} for {program.name}: {error}",
             where=scene.name,
             expected="functions whose derivatives are known",
             hint=f"ask for --solver {FIXED_POINT}",
-        )
-    if len(tried.kernels) == 1:
-        return fixed, _choices(fixed, dict.fromkeys(labels, refused[NEWTON]))
-    chosen, reasons = tried.compared()
-    alike = set(chosen.values())
-    kernel = tried.kernels[alike.pop()] if len(alike) == 1 else to_kernel(program, scene, chosen)
-    return kernel, _choices(kernel, reasons)
+        ) from error
+    return kernel, _choices(kernel, ASKED)
 
 
-def _choices(kernel: Kernel, reasons: Mapping[str, str]) -> tuple[Choice, ...]:
-    return tuple(
-        Choice(loop.label, len(loop.unknowns), loop.solver, reasons[loop.label]) for loop in kernel.loops
-    )
+def _choices(kernel: Kernel, reason: str) -> tuple[Choice, ...]:
+    return tuple(Choice(loop.label, len(loop.unknowns), loop.solver, reason) for loop in kernel.loops)
 
 
-class _Tried:
-    """Kernels of one program by solver, each with its trials in usual and in longer steps."""
-
-    def __init__(self, scene: Problem, initial: tuple[float, ...]) -> None:
-        self.scene, self.initial = scene, initial
-        self.kernels: dict[str, Kernel] = {}
-        self.usual: dict[str, _Trial] = {}
-        self.far: dict[str, _Trial] = {}
-        self.work: dict[str, dict[str, dict[str, int]]] = {}
-
-    def add(self, solver: str, kernel: Kernel) -> None:
-        """Try a kernel."""
-        trials = _Trials(kernel, self.scene, self.initial)
-        self.kernels[solver] = kernel
-        self.usual[solver], self.far[solver] = trials.run(1), trials.run(LONGER)
-        self.work[solver] = operations(arrange(kernel))
-
-    def soon(self) -> bool:
-        """Whether fixed points solve a long step's many unknowns in few sweeps, and a longer step's at all.
-
-        A matrix of so many unknowns in one block costs more than all sweeps that a longer step may take.
-        """
-        usual, far = self.usual[FIXED_POINT], self.far[FIXED_POINT]
-        sizes = [len(loop.unknowns) for loop in self.kernels[FIXED_POINT].loops]
-        lasts = max(far.sweeps) <= SWEEPS or min(sizes) > MANY
-        if sum(sizes) <= MANY or not usual.good:
-            return False
-        return (max(usual.sweeps) <= FEW and far.good and lasts) or self._cheapest()
-
-    def _cheapest(self) -> bool:
-        """Whether Newton's method would cost more with two sweeps and one matrix in all steps of a trial."""
-        fixed, least = 0.0, 0.0
-        for k, loop in enumerate(self.kernels[FIXED_POINT].loops):
-            each, n = _weight(self.work[FIXED_POINT][loop.label]), len(loop.unknowns)
-            fixed += self.usual[FIXED_POINT].sweeps[k] * each
-            least += 2 * (each + 2 * n**2) + 2 * n**3 / STEPS
-        return fixed <= least
-
-    def reasons_for_fixed_points(self) -> dict[str, str]:
-        """Return the reason for each block where nothing else was tried."""
-        part = "substep" if self.kernels[FIXED_POINT].substeps else "step"
-        return {
-            loop.label: f"{self._sweeps(FIXED_POINT, k)} a {part}; no matrix of so many unknowns was tried; "
-            f"{MEASURED}"
-            for k, loop in enumerate(self.kernels[FIXED_POINT].loops)
-        }
-
-    def serves(self, solver: str) -> bool:
-        """Whether a solver was tried that works on residuals in every block, and converges."""
-        return (
-            solver in self.kernels
-            and self.usual[solver].good
-            and all(loop.newton is not None and loop.newton.residuals for loop in self.kernels[solver].loops)
-        )
-
-    def compared(self) -> tuple[dict[str, str], dict[str, str]]:
-        """Return the solver that serves each block best, and the reason for each block."""
-        kernels, usual, far = self.kernels, self.usual, self.far
-        able = [s for s in kernels if usual[s].good]
-        sure = [s for s in able if far[s].good and max(far[s].sweeps) <= SWEEPS] or able
-        chosen, reasons = {}, {}
-        for k, loop in enumerate(kernels[FIXED_POINT].loops):
-            cost, texts = {}, {}
-            for solver in kernels:
-                cost[solver] = usual[solver].sweeps[k] * _weight(self.work[solver][loop.label])
-                texts[solver] = self._sweeps(solver, k)
-                if solver != FIXED_POINT:
-                    matrix = _matrix(kernels[solver].loops[k], self.work[solver])
-                    matrices = usual[solver].matrices if solver == NEWTON else 1.0
-                    cost[solver] += matrices * matrix
-                    texts[solver] += f" and {matrices:.2f} matrices of {matrix}"
-                if solver not in sure:
-                    lasting = (
-                        f"takes {max(far[solver].sweeps):.0f} sweeps"
-                        if far[solver].good
-                        else "does not converge"
-                    )
-                    texts[solver] = (
-                        f"{lasting} with steps {LONGER} times as long"
-                        if solver in able
-                        else "does not converge"
-                    )
-            newton = kernels[NEWTON].loops[k].newton if NEWTON in kernels else None
-            compared = newton is not None and newton.residuals and NEWTON in able
-            best = (
-                NEWTON
-                if compared
-                else min(sure, key=lambda s: cost[s] / RELIABLE.get(s, 1.0))
-                if sure
-                else NEWTON
-            )
-            others = [f"{METHODS[s]}: {text}" for s, text in texts.items() if s != best]
-            chosen[loop.label] = best
-            part = "substep" if kernels[FIXED_POINT].substeps else "step"
-            reasons[loop.label] = "; ".join([f"{texts[best]} a {part}", *others, MEASURED])
-        return chosen, reasons
-
-    def _sweeps(self, solver: str, k: int) -> str:
-        """Spell what the sweeps over a block cost."""
-        each = _weight(self.work[solver][self.kernels[solver].loops[k].label])
-        return f"{self.usual[solver].sweeps[k]:.1f} sweeps of {each} operations"
+def unknowns_of(kernel: Kernel) -> int:
+    """Return the number of unknowns of all blocks."""
+    return sum(len(loop.unknowns) for loop in kernel.loops)
 
 
-def _matrix(loop: Loop, work: Mapping[str, Mapping[str, int]]) -> int:
-    """Return what a matrix costs with its inversion."""
-    assert loop.newton is not None
-    inversion = 0 if loop.newton.inverted else 2 * len(loop.unknowns) ** 3
-    return _weight(work[matrix_of(loop.label)]) + inversion
+def trial_steps(kernel: Kernel) -> int:
+    """Return how many steps a trial of usual steps makes."""
+    return STEPS if unknowns_of(kernel) <= LARGE else FEW_STEPS
 
 
-def _weight(counts: Mapping[str, int]) -> int:
-    return sum(n * WEIGHTS.get(name, CALL) for name, n in counts.items())
-
-
-class _Trials:
-    """A kernel carried out from the initial state, with the sweeps and matrices that emitted code makes.
-
-    A step that does not converge is tried again without the solutions before it, and no more: one that needs
-    continuation is too long for its solver.
-    """
+class Candidate:
+    """A kernel with its cost and its trials: one of usual steps, and one of a longer step."""
 
     def __init__(self, kernel: Kernel, scene: Problem, initial: tuple[float, ...]) -> None:
-        self.plan = Plan(replace(kernel, estimate=None, vary=None), DOUBLE, tries=1)
-        self.machine = Machine(unit_of(self.plan), EmittedFloats(chain=chain(kernel)))
-        self.initial, self.span, self.repeated = initial, scene.span, max(1, len(kernel.substeps))
-        self.values = [float(scene.parameters[p.text]) for p in self.plan.parameters]
+        self.kernel, self.cost = kernel, StepCost(kernel)
+        trials = Trials(kernel, scene, initial)
+        self.usual = trials.run(trial_steps(kernel))
+        self.far = trials.run(1, LONGER) if self.usual.converged else None
 
-    def run(self, longer: int) -> _Trial:
-        """Make steps, ``longer`` times as long as usual: several where they are not."""
-        first, last = self.span
-        number, blocks = len(self.plan.kernel.inputs), len(self.plan.kernel.loops)
-        counts, state = self.machine.record(STATISTICS), list(self.initial)
-        time = [float(first)] if self.plan.time else []
-        signals = [lambda t: (0.0,) * number] if number else []
-        steps, h = STEPS if longer == 1 else 1, float(longer * (last - first) / PARTS)
-        arguments = [state, *time, h, steps, *self.values, *signals, None, 0, counts, None]
-        status = self.machine.call("run", *arguments)
-        parts = steps * self.repeated
-        matrices = counts.matrices / parts / blocks if self.plan.newton else 0.0
-        return _Trial(tuple(n / parts for n in counts.sweeps), matrices, status == STATUSES.index(OK))
+    @property
+    def robust(self) -> bool:
+        """Whether it also converges in a longer step."""
+        return self.far is not None and self.far.converged and self.far.most <= SWEEPS
+
+    def block(self, k: int) -> float:
+        """Return the predicted nanoseconds that a block adds to a step."""
+        return self.cost.block(k, self.usual.sweeps[k], self.usual.matrices[k]).cost(WEIGHTS)
+
+    def step(self) -> float:
+        """Return the predicted nanoseconds of a step."""
+        return self.cost.step(self.usual.sweeps, self.usual.matrices)
+
+    def text(self, k: int) -> str:
+        """Return what the trials say about a block."""
+        if self.far is None:
+            return f"does not converge in {self.usual.steps} steps of h = {self.usual.h:.6g}"
+        found = f"{counted(self.usual, k)}, predicted {self.block(k):.0f} ns"
+        if self.robust:
+            return found
+        if not self.far.converged:
+            return f"{found}; does not converge in a step of {LONGER} h"
+        return f"{found}; takes {self.far.most} sweeps in a step of {LONGER} h"
+
+
+def counted(trial: Trial, k: int) -> str:
+    """Return how many sweeps and matrices a block took."""
+    text = amount(trial.sweeps[k], "sweep", "sweeps")
+    if trial.matrices[k]:
+        text += f" and {amount(trial.matrices[k], 'matrix', 'matrices')}"
+    return f"{text} a step"
+
+
+def amount(x: float, one: str, several: str) -> str:
+    """Write a number with at most two decimals and its noun.
+
+    >>> [amount(x, "matrix", "matrices") for x in (1.0, 0.35, 2.0)]
+    ['1 matrix', '0.35 matrices', '2 matrices']
+    """
+    number = f"{x:.2f}".rstrip("0").rstrip(".")
+    return f"{number} {one if number == '1' else several}"
+
+
+def measured(trial: Trial, k: int) -> str:
+    """Return the counts of a block, with the steps in which they were measured."""
+    return f"{counted(trial, k)}, measured over the first {trial.steps} steps of h = {trial.h:.6g}"
+
+
+class _Selection:
+    """The choice for one program: candidates by solver; the solvers left out, with the reason."""
+
+    def __init__(self, program: Program, scene: Problem, initial: tuple[float, ...], fixed: Kernel) -> None:
+        self.program, self.scene, self.initial, self.fixed = program, scene, initial, fixed
+        self.candidates = {FIXED_POINT: Candidate(fixed, scene, initial)}
+        self.left_out: dict[str, str] = {}
+        self.refused: dict[str, str] = {}
+
+    def chosen(self) -> tuple[Kernel, tuple[Choice, ...]]:
+        """Return the kernel and the choice for each block."""
+        for solver in (NEWTON, CHORD):
+            self.consider(solver)
+        able = {s: c for s, c in self.candidates.items() if c.usual.converged}
+        if not able:
+            return self.by_continuation()
+        robust = {s: c for s, c in able.items() if c.robust} or able
+        blocks = range(len(self.fixed.loops))
+        best = [min(robust, key=lambda s: robust[s].block(k)) for k in blocks]
+        candidate = self.combined(robust, best)
+        fastest = [min(able, key=lambda s: able[s].block(k)) for k in blocks]
+        reasons = []
+        for k, loop in enumerate(candidate.kernel.loops):
+            reason = measured(candidate.usual, k)
+            if fastest[k] not in robust:
+                reason += f"; {METHODS[fastest[k]]}: would be faster, but {self.weakness(fastest[k])}"
+            elif NEWTON in self.refused:
+                reason += f"; Newton's method is not possible: {self.refused[NEWTON]}"
+            elif not candidate.robust:
+                reason += f"; {self.weakness(loop.solver)}: longer steps may fail"
+            reasons.append(reason)
+        return candidate.kernel, self.choices(candidate.kernel, reasons)
+
+    def consider(self, solver: str) -> None:
+        """Build and try the kernel of a solver, unless it cannot be the best.
+
+        Of many unknowns, chords need not be tried once Newton's method converges, robust or not: they invert
+        a matrix in each step.
+        """
+        large = unknowns_of(self.fixed) > LARGE
+        known = [
+            c.step()
+            for s, c in self.candidates.items()
+            if c.robust or (large and s == NEWTON and c.usual.converged)
+        ]
+        least = self.least(solver)
+        if known and min(known) <= least:
+            self.left_out[solver] = f"not tried: would take at least {least:.0f} ns a step"
+            return
+        try:
+            kernel = self.kernel(dict.fromkeys((loop.label for loop in self.fixed.loops), solver))
+        except (NotDifferentiable, ZeroDivisionError) as error:
+            self.refused[solver] = str(error)
+            self.left_out[solver] = f"not possible: {error}"
+            return
+        self.candidates[solver] = Candidate(kernel, self.scene, self.initial)
+
+    def kernel(self, solvers: Mapping[str, str]) -> Kernel:
+        """Return the kernel with the solver of each block."""
+        return to_kernel(self.program, self.scene, solvers)
+
+    def least(self, solver: str) -> float:
+        """Return what a step costs at least with a matrix, in nanoseconds: one sweep of each block.
+
+        A sweep is that of the fixed point with a product by the inverse. Chords invert a matrix in each step,
+        Newton's method one in all steps of a trial; small ones are inverted by formulas, whose operations are
+        not known before.
+        """
+        total = self.candidates[FIXED_POINT].cost.amounts(
+            [float(self.parts)] * len(self.fixed.loops), [0.0] * len(self.fixed.loops)
+        )
+        for loop in self.fixed.loops:
+            n = len(loop.unknowns)
+            total += Amounts(arithmetic=2 * n * n).times(self.parts)
+            if n > SMALL:
+                total += inversion(n).times(self.parts / (1 if solver == CHORD else trial_steps(self.fixed)))
+        return total.cost(WEIGHTS)
+
+    @property
+    def parts(self) -> int:
+        """How often a step solves each block."""
+        return max(1, len(self.fixed.substeps))
+
+    def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
+        """Return the candidate with the best solver of each block: one that was tried where these agree."""
+        uniform = robust[min(robust, key=lambda s: robust[s].step())]
+        if len(set(best)) == 1:
+            return robust[best[0]]
+        solvers = {loop.label: s for loop, s in zip(self.fixed.loops, best, strict=True)}
+        mixed = Candidate(self.kernel(solvers), self.scene, self.initial)
+        return mixed if mixed.robust or (mixed.usual.converged and not uniform.robust) else uniform
+
+    def by_continuation(self) -> tuple[Kernel, tuple[Choice, ...]]:
+        """Return the choice where no solver converges at once: the cheapest that does by continuation in h.
+
+        Where that fails too, or is not tried, it is Newton's method, or the fixed point where there is none.
+        """
+        kernels = {s: c.kernel for s, c in self.candidates.items()}
+        small = unknowns_of(self.fixed) <= LARGE
+        trials = {
+            s: Trials(k, self.scene, self.initial, True).run(STEPS) for s, k in kernels.items() if small
+        }
+        able = [s for s, trial in trials.items() if trial.converged]
+        costs = {s: self.candidates[s].cost.step(trials[s].sweeps, trials[s].matrices) for s in able}
+        solver = (
+            min(able, key=costs.__getitem__)
+            if able
+            else next(s for s in (NEWTON, FIXED_POINT) if s in kernels)
+        )
+        usual = self.candidates[solver].usual
+        failed = f"no solver converges in the first {usual.steps} steps of h = {usual.h:.6g}"
+        reasons = []
+        for k in range(len(self.fixed.loops)):
+            if able:
+                reasons.append(f"{failed} at once: by continuation in h, {counted(trials[solver], k)}")
+            else:
+                reasons.append(f"{failed}{', nor by continuation in h' * small}: take shorter steps")
+        return kernels[solver], self.choices(kernels[solver], reasons)
+
+    def weakness(self, solver: str) -> str:
+        """Say why a candidate that converges is not robust."""
+        far = self.candidates[solver].far
+        assert far is not None
+        if not far.converged:
+            return f"does not converge in a step of {LONGER} h"
+        return f"takes {far.most} sweeps in a step of {LONGER} h"
+
+    def choices(self, kernel: Kernel, reasons: list[str]) -> tuple[Choice, ...]:
+        """Return the choice for each block of the kernel."""
+        found = []
+        for k, (loop, reason) in enumerate(zip(kernel.loops, reasons, strict=True)):
+            figures = {s: c.text(k) for s, c in self.candidates.items()} | self.left_out
+            compared = tuple(f"{METHODS[s]}: {text}" for s, text in figures.items())
+            found.append(Choice(loop.label, len(loop.unknowns), loop.solver, reason, compared))
+        return tuple(found)

@@ -16,9 +16,10 @@ from pathlib import Path
 
 import pytest
 
-from codegen.emitter import STEPS, compile_method
+from codegen.emitter import compile_method
 from codegen.lab.runner import Interpreted
 from codegen.regenerate import entries
+from codegen.run.trial import PARTS
 from tests.promises import ulps, usage_lines, usage_program
 
 GENERATED = Path(__file__).parents[2] / "generated"
@@ -36,7 +37,7 @@ ROUNDING_ULPS = 2048
 @cache
 def expected(scene: str, method: str) -> tuple[float, ...]:
     """Where the interpreter is at the end of the span, by the steps of the examples."""
-    return Interpreted(compile_method(scene, method)).final(STEPS)
+    return Interpreted(compile_method(scene, method)).final(PARTS)
 
 
 def copied(folder: Path, entry: dict[str, object], place: Path) -> str:
@@ -65,7 +66,7 @@ def test_c_is_built_by_the_line_in_its_header_and_its_example_runs(folder, entry
         assert (made.returncode, made.stderr) == (0, "")
     answer = subprocess.run([tmp_path / "run"], capture_output=True, text=True, check=False)
     first, *numbers = answer.stdout.splitlines()
-    assert (answer.returncode, first) == (0, f"status 0 after {STEPS} steps")
+    assert (answer.returncode, first) == (0, f"status 0 after {PARTS} steps")
     assert ulps([float(x) for x in numbers], expected(entry["scene"], entry["method"])) <= ROUNDING_ULPS
 
 

@@ -18,6 +18,7 @@ from codegen.run.execute import Machine
 from codegen.run.floats import EmittedFloats
 from codegen.run.plan import Plan
 from codegen.run.precision import DOUBLE, Precision
+from codegen.run.solver_choice import amount
 from codegen.run.terms import OK, STATUSES
 from codegen.run.unit import unit_of
 from tests.promises import ulps
@@ -109,11 +110,11 @@ def test_the_header_states_the_sweeps_of_emitted_code(case):
     scene, method, _, frame = SOLVED[case]
     made = compiled(scene, method, "auto", frame)
     _, counts = emitted(made, "c")
-    parts = STEPS * max(1, len(made.kernel.substeps))
     for choice, sweeps in zip(made.solvers, counts.sweeps, strict=True):
-        assert choice.reason.startswith(f"{sweeps / parts:.1f} sweeps of ")
+        stated = amount(sweeps / STEPS, "sweep", "sweeps")
         if choice.solver == NEWTON:
-            assert f" and {counts.matrices / parts / len(made.solvers):.2f} matrices of " in choice.reason
+            stated += f" and {amount(counts.matrices / STEPS / len(made.solvers), 'matrix', 'matrices')}"
+        assert choice.reason.startswith(f"{stated} a step, measured over the first {STEPS} steps of h = ")
 
 
 def test_fifty_digits_are_solved_to_fifty_digits():

@@ -1,15 +1,23 @@
-"""Which solver a block gets: the cheaper one that settles, and any that is asked for."""
+"""Which solver a block gets: the robust one of least predicted time, and any that is asked for."""
 
 from __future__ import annotations
 
 from functools import cache
 
 import pytest
+from sympy import Matrix, Rational
 
-from codegen.emitter import compile_method, emit
+from codegen.commands.emit import explanation
+from codegen.emitter import compile_method, emit, emit_compiled, start_of
+from codegen.groups import LeftMultiplication, Rn
 from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON
-from codegen.run.solver_choice import CHOICES
+from codegen.run import solver_choice
+from codegen.run.solver_choice import CHOICES, FEW_STEPS, LARGE, STEPS, Candidate
+from codegen.run.step_cost import Amounts, StepCost
+from codegen.scene import FieldScene
 from orderconds.errors import UnknownName
+
+TRIED = f"measured over the first {STEPS} steps of h = "
 
 
 @cache
@@ -17,29 +25,155 @@ def compiled(scene, method, solver="auto"):
     return compile_method(scene, method, solver=solver)
 
 
-def test_a_stiff_scene_is_solved_by_newtons_method():
-    (choice,) = compiled("stiff_driven_spin", "rkmk(0):gauss1").solvers
+def heat(points, duration):
+    """The heat equation on a line of points, in units of their distance."""
+    group = Rn(points)
+    u = group.point("u")
+    padded = [0, *u, 0]
+    field = Matrix([padded[k] - 2 * padded[k + 1] + padded[k + 2] for k in range(points)])
+    return FieldScene(
+        title="Heat equation",
+        name="heat",
+        group=group,
+        action=LeftMultiplication(),
+        y=u,
+        f=field,
+        y0=[Rational(k * (points + 1 - k), points) for k in range(1, points + 1)],
+        span=(0, duration),
+        velocity=field,
+    )
+
+
+def chosen_from(scene, monkeypatch):
+    """The choice for gauss2 on a scene of one block, and the solvers of the kernels built for it."""
+    built = []
+    made = solver_choice.to_kernel
+
+    def counting(program, problem, solvers):
+        built.append(set(solvers.values()))
+        return made(program, problem, solvers)
+
+    monkeypatch.setattr(solver_choice, "to_kernel", counting)
+    (choice,) = compile_method(scene, "ambient:gauss2").solvers
+    return choice, built
+
+
+def test_a_stiff_linear_scene_is_solved_by_newtons_method(monkeypatch):
+    """With 64 unknowns the fixed point fails; chords, which invert a matrix in each step, are not built."""
+    choice, built = chosen_from(heat(32, 800), monkeypatch)
+    assert (choice.solver, choice.unknowns) == (NEWTON, LARGE)
+    assert choice.compared[0] == f"fixed point: does not converge in {STEPS} steps of h = 8"
+    assert choice.reason.startswith("2 sweeps and 0.05 matrices a step")
+    assert built == [{NEWTON}]
+
+
+def test_a_fixed_point_that_fails_in_longer_steps_yields_to_newtons_method(monkeypatch):
+    """At the step of the example the fixed point converges and would be faster."""
+    choice, built = chosen_from(heat(32, 20), monkeypatch)
     assert choice.solver == NEWTON
-    assert "fixed point: does not converge" in choice.reason
+    assert choice.reason.endswith("; fixed point: would be faster, but does not converge in a step of 8 h")
+    assert built == [{NEWTON}]
+
+
+def test_trials_of_many_unknowns_make_few_steps(monkeypatch):
+    choice, built = chosen_from(heat(36, 800), monkeypatch)
+    assert choice.solver == NEWTON
+    assert f"measured over the first {FEW_STEPS} steps" in choice.reason
+    assert built == [{NEWTON}]
+
+
+def test_no_kernel_is_built_beside_a_cheap_fixed_point_of_many_unknowns(monkeypatch):
+    choice, built = chosen_from(heat(36, 1), monkeypatch)
+    assert choice.solver == FIXED_POINT
+    assert [": not tried: would take at least " in line for line in choice.compared] == [False, True, True]
+    assert built == []
+
+
+@pytest.mark.parametrize("method", ["vcg:midpoint", "vcf:cf4", "vrkmk(2):gauss2", "ambient:gauss2"])
+def test_the_chosen_solver_is_the_robust_one_of_least_predicted_time(method):
+    sides = {s: compiled("dipole", method, s) for s in (FIXED_POINT, NEWTON, CHORD)}
+    tried = {s: Candidate(made.kernel, made.problem, start_of(made.scene)) for s, made in sides.items()}
+    (choice,) = compiled("dipole", method).solvers
+    assert choice.solver == min((s for s in tried if tried[s].robust), key=lambda s: tried[s].step())
+
+
+def test_a_prediction_grows_with_every_sweep_and_matrix():
+    made = compiled("dipole", "vrkmk(2):gauss2", NEWTON)
+    cost = StepCost(made.kernel)
+    assert cost.step([1], [0]) < cost.step([2], [0]) < cost.step([2], [1])
+    twice = cost.block(0, 2, 1) + cost.block(0, 2, 1)
+    assert cost.block(0, 4, 2) == twice
+    assert cost.amounts([0], [0]) + cost.block(0, 2, 1) == cost.amounts([2], [1])
+
+
+def test_the_inverse_that_is_not_a_formula_costs_the_cube_of_its_size():
+    for method, cubes in (("vcg:midpoint", 0), ("vrkmk(2):gauss2", 6**3)):
+        made = compiled("dipole", method, NEWTON)
+        assert StepCost(made.kernel).block(0, 0, 1).cubes == cubes
+    made = compiled("dipole", "vcg:midpoint", FIXED_POINT)
+    assert StepCost(made.kernel).block(0, 0, 1) == Amounts()
+
+
+def test_a_scene_that_no_solver_solves_says_so_in_the_header():
+    made = compiled("stiff_driven_spin", "rkmk(0):gauss1")
+    (choice,) = made.solvers
+    assert choice.solver == NEWTON
+    assert choice.reason == (
+        f"no solver converges in the first {STEPS} steps of h = 0.05, nor by continuation in h: "
+        "take shorter steps"
+    )
+    assert words_of_header(made).count(choice.text()) == 1
+
+
+def test_a_scene_that_is_solved_by_continuation_says_so():
+    (choice,) = compiled("stiff_driven_spin", "ambient:gauss2").solvers
+    assert choice.solver == NEWTON
+    assert choice.reason == (
+        f"no solver converges in the first {STEPS} steps of h = 0.05 at once: by continuation in h, "
+        "15.5 sweeps and 7.6 matrices a step"
+    )
 
 
 def test_a_scene_near_the_limit_of_fixed_points_is_solved_by_newtons_method():
     (choice,) = compiled("heavy_top", "vcg:midpoint").solvers
     assert (choice.solver, choice.unknowns) == (NEWTON, 6)
-    assert "fixed point: does not converge with steps 8 times as long" in choice.reason
+    assert "does not converge in a step of 8 h" in choice.compared[0]
 
 
 def test_many_unknowns_that_change_slowly_are_iterated():
     (choice,) = compiled("linear_oscillator", "rk:gauss2").solvers
     assert (choice.solver, choice.unknowns) == (FIXED_POINT, 16)
-    assert "operations a step; Newton's method: " in choice.reason
+    assert choice.reason == f"4 sweeps a step, {TRIED}0.03"
+
+
+def words_of_header(made):
+    """The words of an emitted C file, with the borders of its comment left out."""
+    artifact = emit_compiled(made, "c")
+    source = artifact.files[f"{artifact.manifest['module']}.c"]
+    return " ".join(source.replace("\n *", "\n").split())
+
+
+def test_figures_of_other_solvers_are_in_the_explanation_alone():
+    made = compiled("dipole", "vcf:cf4")
+    (choice,) = made.solvers
+    assert choice.text() in words_of_header(made)
+    assert choice.reason.endswith(f"{TRIED}0.005")
+    assert [line.partition(":")[0] for line in choice.compared] == [
+        "fixed point",
+        "Newton's method",
+        "Newton's method with the matrix to first order in h",
+    ]
+    told = explanation(made)
+    for line in choice.compared:
+        assert line in told
+        assert line not in words_of_header(made)
 
 
 @pytest.mark.parametrize("solver", [NEWTON, CHORD, FIXED_POINT])
-def test_what_is_asked_for_is_done_and_told(solver):
+def test_the_solver_that_is_asked_for_is_emitted(solver):
     made = compiled("heavy_top", "vcg:alexander2", solver)
     assert {loop.solver for loop in made.kernel.loops} == {solver}
-    assert [c.reason for c in made.solvers] == ["asked for"] * 2
+    assert [c.reason for c in made.solvers] == ["as asked for"] * 2
     emission = emit("heavy_top", "vcg:alexander2", solver=solver)
     assert emission.manifest["interface"]["solvers"] == [solver] * 2
     assert [c["solver"] for c in emission.manifest["solvers"]] == [solver] * 2

@@ -1,0 +1,132 @@
+"""The cost model: predicted CPU time of a step, from its operations and its numbers of sweeps and matrices.
+
+A prediction is a sum of amounts times :data:`WEIGHTS`:
+
+- operations (:mod:`codegen.kernel.operations`): those of a step once, those of a sweep and of a matrix as
+  often as they are made;
+- each unknown costs something in a step, for the warm start, and in a sweep, for the stopping rule;
+- a sweep of Newton's method that compares images with unknowns costs a correction more: the next sweep waits
+  for the product with the inverse. Where residuals are compared, the change of the unknowns is that product
+  in any case;
+- a matrix that is not inverted by a formula costs the cube of its size: the inversion.
+
+Evidence: ``benchmarks/solver_choice.py`` times emitted C of the implicit methods on every scene of the
+gallery, with each solver, and writes predictions beside measurements into ``benchmarks/README.md``.
+``python benchmarks/solver_choice.py --fit`` prints the weights that fit its measurements best: non-negative
+least squares of relative errors. The length of the critical path as one more amount made the median error
+smaller by less than one part in a hundred, and no choice better: sweeps follow one another, and a long sweep
+has a long critical path.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import astuple, dataclass
+
+from codegen.ir.kernel import Kernel, Loop
+from codegen.kernel.operations import STEP, matrix_of, operations
+from codegen.kernel.schedule import arrange
+
+Work = Mapping[str, Mapping[str, int]]
+"""Counts of operations by part of a step (:func:`codegen.kernel.operations.operations`)."""
+
+
+@dataclass(frozen=True)
+class Amounts:
+    """How much of each kind of work there is; as weights, nanoseconds for one of each.
+
+    ``unknowns`` are those of a step, ``swept`` those of all its sweeps; ``arithmetic`` counts additions and
+    products, ``calls`` functions; ``corrections`` are sweeps of Newton's method that compare images with
+    unknowns, ``cubes`` sums of n^3 over inversions of n x n matrices.
+    """
+
+    unknowns: float = 0.0
+    swept: float = 0.0
+    arithmetic: float = 0.0
+    divisions: float = 0.0
+    calls: float = 0.0
+    corrections: float = 0.0
+    cubes: float = 0.0
+
+    def __add__(self, other: Amounts) -> Amounts:
+        return Amounts(*(a + b for a, b in zip(astuple(self), astuple(other), strict=True)))
+
+    def times(self, factor: float) -> Amounts:
+        """Return a multiple."""
+        return Amounts(*(factor * x for x in astuple(self)))
+
+    def cost(self, weights: Amounts) -> float:
+        """Return the sum of amounts times weights.
+
+        >>> Amounts(unknowns=3, calls=1).cost(Amounts(unknowns=2, calls=10))
+        16.0
+        """
+        return float(sum(a * b for a, b in zip(astuple(self), astuple(weights), strict=True)))
+
+
+WEIGHTS = Amounts(
+    unknowns=2.1, swept=1.7, arithmetic=0.097, divisions=1.5, calls=3.4, corrections=6.1, cubes=0.26
+)
+"""Nanoseconds of each on the machine that fitted them; choices depend on their ratios alone."""
+
+
+def of_operations(counts: Mapping[str, int]) -> Amounts:
+    """Return the amounts of counted operations.
+
+    >>> of_operations({"add": 2, "mul": 3, "div": 1, "stumpff_12": 4}) == Amounts(
+    ...     arithmetic=5, divisions=1, calls=4
+    ... )
+    True
+    """
+    arithmetic, divisions = counts.get("add", 0) + counts.get("mul", 0), counts.get("div", 0)
+    calls = sum(counts.values()) - arithmetic - divisions
+    return Amounts(arithmetic=arithmetic, divisions=divisions, calls=calls)
+
+
+def of_step(kernel: Kernel, work: Work) -> Amounts:
+    """Return the amounts of one step without its sweeps and matrices."""
+    unknowns = max(1, len(kernel.substeps)) * sum(len(loop.unknowns) for loop in kernel.loops)
+    return of_operations(work[STEP]) + Amounts(unknowns=unknowns)
+
+
+def of_sweep(loop: Loop, work: Work) -> Amounts:
+    """Return the amounts of one sweep."""
+    corrected = loop.newton is not None and not loop.newton.residuals
+    return of_operations(work[loop.label]) + Amounts(swept=len(loop.unknowns), corrections=int(corrected))
+
+
+def of_matrix(loop: Loop, work: Work) -> Amounts:
+    """Return the amounts of one matrix with its inversion, nothing for a fixed point."""
+    if loop.newton is None:
+        return Amounts()
+    return of_operations(work[matrix_of(loop.label)]) + inversion(
+        0 if loop.newton.inverted else len(loop.unknowns)
+    )
+
+
+def inversion(n: int) -> Amounts:
+    """Return the amounts of inverting an n x n matrix."""
+    return Amounts(cubes=n**3)
+
+
+class StepCost:
+    """The predicted cost of a kernel's steps; sweeps and matrices are numbers a step, by block."""
+
+    def __init__(self, kernel: Kernel) -> None:
+        self.kernel, self.work = kernel, operations(arrange(kernel))
+
+    def amounts(self, sweeps: Sequence[float], matrices: Sequence[float]) -> Amounts:
+        """Return the amounts of a step."""
+        total = of_step(self.kernel, self.work)
+        for k, (n, made) in enumerate(zip(sweeps, matrices, strict=True)):
+            total += self.block(k, n, made)
+        return total
+
+    def block(self, k: int, sweeps: float, matrices: float) -> Amounts:
+        """Return the amounts that one block adds."""
+        loop = self.kernel.loops[k]
+        return of_sweep(loop, self.work).times(sweeps) + of_matrix(loop, self.work).times(matrices)
+
+    def step(self, sweeps: Sequence[float], matrices: Sequence[float]) -> float:
+        """Return the predicted nanoseconds of a step."""
+        return self.amounts(sweeps, matrices).cost(WEIGHTS)

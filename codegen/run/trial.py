@@ -1,0 +1,79 @@
+"""Trials: a kernel run for a few steps from the initial state, with its sweeps and matrices counted.
+
+The executor (:mod:`codegen.run.execute`) carries out the statements that printers write, so that a trial
+makes the sweeps and matrices of the emitted program.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from codegen.ir.angle_depth import chain
+from codegen.ir.kernel import CHORD, NEWTON, Kernel
+from codegen.run.execute import Machine
+from codegen.run.floats import EmittedFloats
+from codegen.run.plan import STATISTICS, Plan
+from codegen.run.precision import DOUBLE
+from codegen.run.terms import OK, STATUSES
+from codegen.run.unit import unit_of
+from codegen.scene.problem import Problem
+
+PARTS = 100
+"""How many steps of the usage example make the scene's span."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """Counts of ``steps`` steps of size ``h``.
+
+    ``sweeps`` and ``matrices`` are numbers a step, by block; ``most`` is the largest number of sweeps over
+    one block in one step or substep; ``converged`` says whether all steps were made.
+    """
+
+    steps: int
+    h: float
+    sweeps: tuple[float, ...]
+    matrices: tuple[float, ...]
+    most: int
+    converged: bool
+
+
+class Trials:
+    """The trials of one kernel.
+
+    A step whose equations do not converge is tried again without the solutions before it, and no more; with
+    ``continuation`` it is reached through shorter steps, as in the emitted program.
+    """
+
+    def __init__(
+        self, kernel: Kernel, scene: Problem, initial: tuple[float, ...], continuation: bool = False
+    ) -> None:
+        plain = replace(kernel, estimate=None, vary=None)
+        self.plan = Plan(plain, DOUBLE, tries=None if continuation else 1)
+        self.machine = Machine(unit_of(self.plan), EmittedFloats(chain=chain(kernel)))
+        self.initial, self.span = initial, scene.span
+        self.values = [float(scene.parameters[p.text]) for p in self.plan.parameters]
+
+    def run(self, steps: int, longer: int = 1) -> Trial:
+        """Make steps that are ``longer`` times as long as those of the usage example."""
+        first, last = self.span
+        number, loops = len(self.plan.kernel.inputs), self.plan.kernel.loops
+        counts, state = self.machine.record(STATISTICS), list(self.initial)
+        time = [float(first)] if self.plan.time else []
+        signals = [lambda t: (0.0,) * number] if number else []
+        h = float(longer * (last - first) / PARTS)
+        arguments = [state, *time, h, steps, *self.values, *signals, None, 0, counts, None]
+        status = self.machine.call("run", *arguments)
+        newton = [loop.solver for loop in loops].count(NEWTON)
+        of_solver = {
+            NEWTON: counts.matrices / steps / newton if newton else 0.0,
+            CHORD: float(max(1, len(self.plan.kernel.substeps))),
+        }
+        return Trial(
+            steps,
+            h,
+            tuple(n / steps for n in counts.sweeps),
+            tuple(of_solver.get(loop.solver, 0.0) for loop in loops),
+            counts.most,
+            status == STATUSES.index(OK),
+        )
