@@ -262,7 +262,7 @@ class _Translation:
         outlined: tuple[Function, ...] = ()
         # Assignments, not operations: lines of code fill the instruction cache.
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
-        # Rewritten chains are spread over the whole step, so no trees are left to repeat.
+        # Rewritten chains no longer contain the results of trees, so nothing could be replaced by calls.
         if long and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)
