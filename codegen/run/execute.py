@@ -6,10 +6,10 @@ a run of many steps does not traverse the statements again.
 
 >>> from codegen.ir.domain import FloatDomain
 >>> from codegen.run.language import Assign, Function, Return, Unit, While
->>> from codegen.run.terms import Kind, count, real
+>>> from codegen.run.terms import Kind, count, real, whole
 >>> x, n, root = real("x"), count("n"), real("root")
 >>> halve = While(n < 6, (Assign(root, 0.5 * (root + x / root)), Assign(n, n + 1)))
->>> body = (Assign(root, x), Assign(n, n - n), halve, Return(root))
+>>> body = (Assign(root, x), Assign(n, whole(0)), halve, Return(root))
 >>> heron = Function("heron", "", (x,), body, Kind.REAL)
 >>> Machine(Unit((), (), (), (heron,)), FloatDomain(0.0)).call("heron", 2.0)
 1.414213562373095
