@@ -8,7 +8,7 @@ from codegen.run.language import Array, Assign, Call, For, Function, If, Return,
 from codegen.run.precision import DOUBLE
 from codegen.run.terms import Kind, count, number, real, whole
 
-X, Y, N, I = real("x"), real("y"), count("n"), count("i")
+X, Y, N, INDEX = real("x"), real("y"), count("n"), count("i")
 STATE, OUT = real("state", 3), real("out", 3)
 
 
@@ -53,8 +53,8 @@ def test_loops() -> None:
     add = Assign(Y, Y + X)
     text = lines(
         Assign(Y, number(0.0)),
-        For(I, N, (add,)),
-        For(I, N, (add,), reverse=True),
+        For(INDEX, N, (add,)),
+        For(INDEX, N, (add,), reverse=True),
         While(Y < 9.0, (add,), at_least_once=True),
         Return(Y),
         returns=Kind.REAL,

@@ -1,4 +1,4 @@
-"""Functions in Python do what their statements say: neighbours together, guards, loops with the test at the end."""
+"""Functions in Python do what their statements say: copies, guards, loops with the test at the end."""
 
 from __future__ import annotations
 
@@ -56,7 +56,8 @@ def test_an_arithmetic_error_is_a_status_or_a_nan() -> None:
     divided = (Assign(Y, 1.0 / X), Return(code(OK)))
     assert compiled(Function("f", "", (X,), divided, Kind.STATUS, RAISES_STATUS))(0.0) == 2
     value = compiled(Function("f", "", (X,), (Return(1.0 / X),), Kind.REAL, RAISES_NAN))(0.0)
-    assert isinstance(value, float) and math.isnan(value)
+    assert isinstance(value, float)
+    assert math.isnan(value)
     out = [1.0] * 4
     compiled(Function("f", "", (OUT, X), (Assign(OUT[0], 1.0 / X),), None, RAISES_NAN))(out, 0.0)
     assert all(map(math.isnan, out))
