@@ -175,10 +175,10 @@ def emit(
     known_precision(precision)
     named = {"scene": bare(scene) if isinstance(scene, str) else scene.name}
     named["method"] = bare(method) if isinstance(method, str) else method.label
-    made = compile_method(
+    compiled = compile_method(
         scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian
     )
-    return emit_compiled(made, target, prefix, named, precision=precision)
+    return emit_compiled(compiled, target, prefix, named, precision=precision)
 
 
 def emit_compiled(
@@ -204,19 +204,43 @@ def emit_compiled(
     )
     order = order or certified_order(method, scene)
     options = [f"--prefix {chosen}"] if prefix else []
-    options += ["--frame body"] if body else []
-    options += ["--adaptive"] if method.adaptive else []
+    words = ["orderconds emit", quoted(named["scene"]), "--method", quoted(named["method"])]
+    words += ["--target", target, *options, *options_of(compiled, precision), "-o", "."]
+    recipe = recipe_of(compiled, order, " ".join(words), single)
+    about = {
+        "scene": scene.name,
+        "method": method.label,
+        "family": method.family_label,
+        "tableau": method.tableau.name,
+        "source": method.tableau.source,
+        "order": order.order,
+        "certificate": order.certificate,
+        "initial": list(recipe.initial),
+        "span": [float(t) for t in scene.span],
+        "left_out": list(recipe.left_out),
+        "solvers": [choice.as_json() for choice in compiled.solvers],
+    }
+    return emit_kernel(compiled.kernel, recipe, target, chosen, about, precision)
+
+
+def options_of(compiled: Compiled, precision: str) -> list[str]:
+    """Return the options, but for the prefix, that the command of a module needs."""
+    scene = compiled.scene
+    options = ["--frame body"] if scene.body_group is not None else []
+    options += ["--adaptive"] if compiled.method.adaptive else []
     options += ["--jacobian"] if compiled.kernel.vary is not None else []
-    options += [f"--precision {precision}"] if single else []
+    options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]
     options += [f"--parameter {p}={value}" for p, value in scene.fixed]  # of an input its default
-    options += [f"--input {name}" for name in scene.inputs]
-    words = ["orderconds emit", quoted(named["scene"]), "--method", quoted(named["method"])]
-    words += ["--target", target]
-    command = " ".join([*words, *options, "-o", "."])
+    return [*options, *(f"--input {name}" for name in scene.inputs)]
+
+
+def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, single: bool) -> Recipe:
+    """Return what the header of a module says."""
+    scene, method = compiled.scene, compiled.method
     first, last = scene.span
-    recipe = Recipe(
+    return Recipe(
         title=f"{scene.title}: one step by {method.label}",
         facts=(
             ("method", f"family {method.family_label}, tableau {method.tableau.name}"),
@@ -237,20 +261,6 @@ def emit_compiled(
         command=command,
         version=__version__,
     )
-    about = {
-        "scene": scene.name,
-        "method": method.label,
-        "family": method.family_label,
-        "tableau": method.tableau.name,
-        "source": method.tableau.source,
-        "order": order.order,
-        "certificate": order.certificate,
-        "initial": list(recipe.initial),
-        "span": [float(first), float(last)],
-        "left_out": list(recipe.left_out),
-        "solvers": [choice.as_json() for choice in compiled.solvers],
-    }
-    return emit_kernel(compiled.kernel, recipe, target, chosen, about, precision)
 
 
 def emit_kernel(

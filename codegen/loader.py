@@ -422,23 +422,23 @@ def like(state: State, values: Sequence[Any]) -> State:
 
 
 def load(source: Artifact | str | Path, module: str = "", target: str = "") -> Integrator:
-    """Return the integrator of an emission, or of a module in a folder that holds a manifest.
+    """Return the integrator of an artifact, or of a module in a folder that holds a manifest.
 
     ``module`` and ``target`` choose among the folder's modules where it has several. C is compiled, or taken
     from the cache. Errors: CompilerMissing, CompileError, InputError for a folder without such a module.
     """
-    emission = source if isinstance(source, Artifact) else read(Path(source), module, target)
+    artifact = source if isinstance(source, Artifact) else read(Path(source), module, target)
     try:
-        interface = Interface.from_json(emission.manifest["interface"])
-        defaults = dict(emission.manifest["defaults"])
+        interface = Interface.from_json(artifact.manifest["interface"])
+        defaults = dict(artifact.manifest["defaults"])
     except (KeyError, TypeError, ValueError, AttributeError):
         raise InputError(
-            f"the manifest's entry for {emission.key[0]} is not as emit wrote it", hint="emit it again"
+            f"the manifest's entry for {artifact.key[0]} is not as emit wrote it", hint="emit it again"
         ) from None
-    if emission.manifest["target"] == "c":
+    if artifact.manifest["target"] == "c":
         try:
-            return CompiledIntegrator(interface, defaults, build(emission.files))
+            return CompiledIntegrator(interface, defaults, build(artifact.files))
         except (OSError, AttributeError):  # no library, or one without the symbols, with the digest of one
             pass
-        return CompiledIntegrator(interface, defaults, build(emission.files, again=True))
-    return InterpretedIntegrator(interface, defaults, emission.files[f"{interface.module}.py"])
+        return CompiledIntegrator(interface, defaults, build(artifact.files, again=True))
+    return InterpretedIntegrator(interface, defaults, artifact.files[f"{interface.module}.py"])

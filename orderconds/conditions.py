@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import Any
 
 from orderconds.formula import Formula, named
-from orderconds.formula.rendering import latex_fraction
+from orderconds.formula.notation import latex_fraction
 
 
 @dataclass(frozen=True)
@@ -64,8 +64,10 @@ class OrderCondition:
         """Return the equation as ``sympy.Eq`` (SymPy is imported here)."""
         import sympy
 
+        from orderconds.formula.sympy_form import export
+
         rhs = sympy.Rational(self.rhs.numerator, self.rhs.denominator)
-        return sympy.Eq(self.formula.sympy(), rhs, evaluate=False)
+        return sympy.Eq(export(self.formula), rhs, evaluate=False)
 
     def as_json(self) -> dict[str, object]:
         """Return the JSON object of ``orderconds derive --format json``; a dependent one has its relation."""

@@ -56,6 +56,7 @@ def simplified(word: Word) -> Word:
             key = (f.function, f.scale, f.order)
             powers[key] = powers.get(key, 0) + f.power
     for (function, scale, order), n in list(powers.items()):
+        # exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t): one function in place of two.
         if function == "dexp" and n > 0 and rate == -scale:
             powers[function, scale, order] -= 1
             powers[function, -scale, order] = powers.get((function, -scale, order), 0) + 1

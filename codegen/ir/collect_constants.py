@@ -1,9 +1,8 @@
-"""Numbers gathered: 1 + 3/2 (3/2 - 2 x) becomes 13/4 - 3 x, and 3/2 a - 3/2 b becomes 3/2 (a - b).
+"""Constants collected: 1 + 3/2 (3/2 - 2 x) becomes 13/4 - 3 x, and 3/2 a - 3/2 b becomes 3/2 (a - b).
 
-Exact. Each expression is a combination, with rational coefficients, of others that are none; numbers are
-taken out of products and powers, and put into numerators: 3/2 (1/sqrt x)^3 becomes (3/2)/(x sqrt x), whose
-value is there two or three products earlier. What is flat may share less: the result is taken where it is
-shorter.
+Exact. Each expression becomes a linear combination of expressions that are no combinations. Numbers move out
+of products and powers, and into numerators: 3/2 (1/sqrt x)^3 becomes (3/2)/(x sqrt x), which is ready two or
+three products earlier. Expanded sums may share less, so the result is kept where it has fewer operations.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ Sum = dict[int, tuple[Number, Expr]]
 def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ...]:
     """Return the roots with numbers gathered, or as they are where that takes no fewer operations.
 
-    What is ``kept``, or a number times that, stays as it is where it stands in them.
+    What is ``kept``, or a number times that, is not expanded.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -96,7 +95,7 @@ class _Gathering:
     numerators: dict[int, Number] = field(default_factory=dict)
 
     def whole(self, root: Expr) -> Expr:
-        """Return one expression anew."""
+        """Return one expression with its constants collected."""
         for node in walk([root], stop=lambda n: n.id in self.sums):
             if node.id not in self.sums:
                 self.sums[node.id] = self._sum(node)

@@ -2,7 +2,7 @@
 
 One implementation of every group operation serves all of them: floats, mpmath numbers, truncated power
 series in h, and expressions (whose evaluation is code generation). A domain supplies what operators on its
-scalars cannot: constants, named functions, the step h, and when a fixed-point iteration stands still.
+scalars cannot: constants, named functions, the step h, and when a fixed-point iteration has converged.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class Domain(Protocol):
         """Return the value of a function of :data:`codegen.ir.expr.FUNCTIONS`."""
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return whether an iteration stands still, and the size of its last change for the next call."""
+        """Return whether an iteration has converged, and the size of its last change for the next call."""
 
 
 class Differenced(Domain, Protocol):

@@ -172,7 +172,7 @@ class Space:
         return self._make("sub", (a, b))
 
     def mul(self, a: Expr, b: Expr) -> Expr:
-        """Return a b; a constant factor stands first."""
+        """Return a b; a constant factor comes first."""
         if b.op == "const":
             a, b = b, a
         if a is self.zero or b is self.zero:
@@ -300,7 +300,7 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
 
 
 def power(x: Scalar, n: int) -> Scalar:
-    """Return x**n, n >= 1, by squaring, left to right: printers spell the same products."""
+    """Return x**n, n >= 1, by squaring, left to right: printers write the same products."""
     result = x
     for bit in bin(n)[3:]:
         result = result * result
@@ -310,7 +310,7 @@ def power(x: Scalar, n: int) -> Scalar:
 
 
 def text(root: Expr) -> str:
-    """Spell an expression for people."""
+    """Return an expression as text for people."""
     parts: dict[int, str] = {}
     infix = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
     for node in walk([root]):

@@ -1,6 +1,6 @@
 """Exact numbers in programs: an element together with its ring, hashable, rounded once by a printer.
 
-Tableau coefficients stay exact (rational, algebraic) or certified (balls) until they are spelled; a
+Tableau coefficients stay exact (rational, algebraic) or certified (balls) until they are printed; a
 :class:`Number` is how programs carry them. Two numbers are equal when their rings give equal keys, so that
 equal coefficients of a ball tableau (the same name in the file) are seen as equal although balls never
 prove equality: their difference is 0 and their quotient 1, and a factor 1 widens no ball.

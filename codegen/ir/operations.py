@@ -131,6 +131,7 @@ class Linear(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the sum; terms with equal coefficients are added before they are scaled."""
+        # Emitted code inherits this order of operations: one product for each distinct coefficient.
         groups: dict[Coefficient, list[Value]] = {}
         for c, x in zip(self.coefficients, args, strict=True):
             groups.setdefault(c, []).append(x)

@@ -1,11 +1,11 @@
 """Step programs: one step of a method on a scene, in Lie group terms, before any coordinates.
 
-Values have one of five kinds: ``Real``, ``Alg`` (the Lie algebra), ``Dual`` (its dual), ``Group`` and
-``Point`` (the manifold acted on). A program is single assignment. Equations that depend on one another stand
-in a :class:`Solve` block: its unknowns, the body computed from them, and the images that must equal them. A
-method is lowered to *one* block holding all its stages; the passes find out what is sequential.
+A value has one of five kinds (:class:`codegen.ir.values.Kind`). Each variable is assigned once. Equations
+that depend on one another form a :class:`Solve` block: its unknowns, the body computed from them, and the
+images that must equal them. A method is lowered to *one* block with all its stages; the passes find the
+order in which stages can be solved one after the other.
 
-Not supported here: branches on data, loops other than blocks, more than one group in a program.
+There are no branches on data, no loops other than blocks, and no second group in a program.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ EMBEDDED = "embedded"
 
 
 SPACE, BODY = "space", "body"
-"""Whose momentum it is that a program's statements take and give."""
+"""The frame of the momentum that a program's statements read and return."""
 
 
 @dataclass(frozen=True)
@@ -104,9 +104,9 @@ class Substep:
 class Program:
     """One step: inputs, statements, and the new state, named as the inputs that it replaces.
 
-    With ``substeps`` a step is the statements made for each of them, one after the other. In the ``frame``
-    :data:`BODY` the statements take m = Ad*_q mu for mu and give the new m: a step begins with that, and
-    ends with mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m, where q', m' are the new q and m.
+    With ``substeps`` a step executes the statements once for each of them, in order. In the ``frame``
+    :data:`BODY` the statements read m = Ad*_q mu in place of mu and return the new m'. A step then computes m
+    first, and mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m last, where q' is the new q.
     """
 
     name: str
@@ -125,17 +125,17 @@ class Program:
                 yield from statement.body
 
     def counts(self) -> dict[str, int]:
-        """Return how often each operation stands in the program (once for a block's sweep), sorted."""
+        """Return how often each operation occurs, sorted by name; of a block, in one sweep."""
         total: dict[str, int] = {}
         for assign in self.assigns():
             total[assign.operation.name] = total.get(assign.operation.name, 0) + 1
         return dict(sorted(total.items()))
 
     def text(self) -> str:
-        """Spell the program, one statement a line."""
+        """Return the program as text, one statement a line."""
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
         lines += [f"  for h = ({step.fraction.text()}) h:" for step in self.substeps]
-        lines += ["  with Adt(q, mu) for mu:"] if self.frame == BODY else []
+        lines += ["  with Ad*(q, mu) for mu:"] if self.frame == BODY else []
         for statement in self.body:
             if isinstance(statement, Assign):
                 lines.append("  " + statement.text())
@@ -236,7 +236,7 @@ class Builder:
         return targets
 
     def take(self) -> tuple[Assign, ...]:
-        """Return the assignments appended so far and start anew, names staying taken."""
+        """Return the assignments appended so far and forget them; their names stay taken."""
         body = tuple(self.body)
         self.body.clear()
         return body

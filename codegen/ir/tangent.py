@@ -9,9 +9,9 @@ from codegen.ir.expr import Expr, walk
 
 
 def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ...]:
-    """Return the derivatives of roots where symbols change at the rates ``seeds``, all others stand still.
+    """Return the derivatives of roots where symbols change at the rates ``seeds``, all others are constant.
 
-    :class:`codegen.ir.differentiate.NotDifferentiable` where a function stands in the way.
+    :class:`codegen.ir.differentiate.NotDifferentiable` where a function has no derivative.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x, y, dx = s.sym("x"), s.sym("y"), s.sym("dx")

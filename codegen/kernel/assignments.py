@@ -48,12 +48,18 @@ class Assignments:
                 if name in read:
                     value = self._place(x, self.body, inside, k)
                     inside.append(Let(name, value))
-            made = self._newton(block) if block.matrix and not block.leading else before
-            anew = made is not None and (made.residuals or self._is_short(k))
-            if anew:
+            matrix = self._newton(block) if block.matrix and not block.leading else before
+            recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
+            if recomputed:
                 self._forget(k)
             loop = Loop(
-                block.label, block.unknowns, starts, tuple(inside), images, newton=made, read_anew=anew
+                block.label,
+                block.unknowns,
+                starts,
+                tuple(inside),
+                images,
+                newton=matrix,
+                read_anew=recomputed,
             )
             self.body.append(loop)
         self.outputs = tuple(self._place(x, self.body, [], -1) for x in self.roots)

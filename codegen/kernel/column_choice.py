@@ -1,7 +1,7 @@
-"""The fastest way to compute a group's products: tried on the kernel, chosen by its operations and chains.
+"""The choice among variants of a group: each is compiled, and the one with the shortest step is kept.
 
-A rotation matrix has a column to spare: it is the cross product of the other two. Which column that is best,
-or whether all three should be turned, depends on what the scene reads of the attitude.
+A column of a rotation matrix is the cross product of the other two. Which column to compute so, or whether to
+rotate all three, depends on the columns that the scene reads.
 """
 
 from __future__ import annotations
@@ -20,14 +20,16 @@ from codegen.kernel.translate import AS_WRITTEN, COMBINED, ORDERED, SHORTENED, t
 from codegen.scene.problem import Problem
 
 CALL = 10
-"""How many operations a call of a function counts for."""
+"""The operations that a function call counts as; chosen with ``benchmarks/emitted.py``."""
 
 WIDTH = 8
-"""How many operations a processor makes while an addition takes its time, beside those that it waits for."""
+"""Independent operations that a processor completes during one addition.
+
+Chosen with ``benchmarks/emitted.py``."""
 
 
 def fastest(program: Program, scene: Problem) -> Kernel:
-    """Return the kernel of a program in that variant of the group which promises the shortest step.
+    """Return the kernel of a program in the variant of the group with the shortest step.
 
     Only explicit programs of flows, and fields on T*G, have variants of the group.
     """
@@ -39,6 +41,7 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     parted = None if scene.inputs else part(program, scene)  # inputs are sampled step by step
     core = program if parted is None else parted.core
     candidates: list[tuple[Kernel, Problem, int]] = []
+    # Each variant is compiled twice: reordering alone, and with the critical path shortened.
     for group in scene.group.variants():
         problem = replace(scene, group=group)
         for chains in (ORDERED, SHORTENED):

@@ -1,10 +1,10 @@
-"""Short chains: what waits for a function's value is written so that it waits as little as it can.
+"""Shorten the critical path after each function call.
 
-A processor makes many products at once, but a step of flows is one chain from each angle to the next: through
-sine and cosine, the turned attitude, the kicked momentum, the next angle. Whatever is linear in the values c
-that come last, as k (m - g (d + c_1 v + c_2 w)), becomes k (m - g d) - c_1 (k g v) - c_2 (k g w), where three
-operations follow c in place of six. That is exact, costs a few products more, and is done on the longest
-chain alone, by the least times that operations take.
+A processor executes several products at a time, but a step of flows is one chain of dependent operations:
+from an angle through its sine and cosine, the rotated attitude and the kicked momentum to the next angle. The
+values c of functions come last on that chain. An expression that is linear in them,
+k (m - g (d + c_1 v + c_2 w)), becomes k (m - g d) - c_1 (k g v) - c_2 (k g w): three operations follow c, not
+six. This is exact and costs a few more products, so only the longest chain is rewritten.
 """
 
 from __future__ import annotations
@@ -16,20 +16,26 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.kernel import Kernel, Let
 
 TIMES = {"const": 0, "sym": 0, "neg": 0, "add": 1, "sub": 1, "mul": 1, "pow": 1, "div": 4, "call": 6}
-"""How long operations take, in units of an addition."""
+"""Latency of operations, in units of an addition.
+
+On x86 processors additions and products of doubles take about four cycles, a division about 14. The latency
+of a function is that of its polynomial. ``benchmarks/emitted.py`` times the steps that result."""
 
 ATOMS = frozenset({"call", "div"})
-"""Operations whose values come late."""
+"""Operations with a long latency."""
 
 SLACK = 1
-"""How far from the longest chain an expression may be that is rewritten."""
+"""How much shorter than the longest chain a chain may be and still be rewritten, in units of an addition.
+
+Otherwise a chain of nearly the same length stays, and becomes the critical path. The splittings of
+fast_heavy_top in ``benchmarks/emitted.py`` time this."""
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
 """A sum over late values (None: no such factor), each multiplied by sign, steps and constants, the rest."""
 
 
 def chain(kernel: Kernel) -> int:
-    """Return how long a step takes at least, were everything else done beside the longest chain."""
+    """Return the length of the critical path: the time of a step without any limit on parallel operations."""
     ready: dict[int, int] = {}
     for let in kernel.lets():
         ready[let.value.space.sym(let.name).id] = _measured(let.value, ready)
@@ -37,10 +43,11 @@ def chain(kernel: Kernel) -> int:
 
 
 def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
-    """Return assignments in the order in which they can be ready, to within a function's time.
+    """Return assignments in the order in which they can be ready, to within the latency of a function.
 
-    A processor looks only some hundred instructions ahead: what could be done beside the longest chain must
-    stand beside it. A finer order would tear apart what reads the same values, and registers are few.
+    A processor looks some hundred instructions ahead, so operations that can run beside the longest chain
+    must be near it in the text. A finer order would separate operations that read the same values, and there
+    are few registers.
     """
     ready: dict[int, int] = {}
     times = []
@@ -85,6 +92,7 @@ class _Chains:
         self.nodes = list(walk(self.roots))
         for node in self.nodes:
             self._measure(node)
+        # Users before arguments: the longest chain that follows each node.
         for node in reversed(self.nodes):
             after = self.follow.setdefault(node.id, 0) + TIMES[node.op]
             for arg in node.args:
@@ -98,7 +106,7 @@ class _Chains:
         self.fixed[node.id] = all(self.fixed[a.id] for a in node.args) if node.args else own
 
     def rewritten(self) -> tuple[Expr, ...]:
-        """Return the roots anew."""
+        """Return the rewritten roots."""
         ends = self._ends() if self.spread else frozenset()
         for node in self.nodes:
             args = [self.new[a.id] for a in node.args]
@@ -107,6 +115,7 @@ class _Chains:
             self.new[node.id] = plain
             if node.id in ends and node.op in ("add", "sub", "mul"):
                 short = self._expression(self._sum(node, self.level[node.id]), node.space)
+                # A sum over late values has more products, so it is taken only if it is ready earlier.
                 if self.ready[short.id] < self.ready[plain.id]:
                     self.new[node.id] = short
         return tuple(self.new[r.id] for r in self.roots)
@@ -148,6 +157,7 @@ class _Chains:
             return total
         if node.op == "mul":
             a, b = node.args
+            # Only one factor may be late, else the product is not linear in the late values.
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:

@@ -1,8 +1,8 @@
-"""What a run of many steps puts off: the first flow of each step, and flows that commute with all others.
+"""Flows deferred across steps: the leading flow of a step, and flows that commute with all others.
 
-Where a step of a splitting ends with the flow that the next one begins with, the two are one; only before the
-first step is the beginning made alone. A part that commutes with every other is not made in the steps at all
-but once for all of them. Both are exact: :class:`codegen.ir.kernel.Deferred` says what equals what.
+Where a step of a splitting ends with the flow that the next step begins with, the two are joined; the leading
+flow is applied once before the first step. A part that commutes with every other one is applied once for all
+steps. Both are exact; :class:`codegen.ir.kernel.Deferred` states the identities.
 """
 
 from __future__ import annotations
@@ -34,11 +34,12 @@ class Parted:
 
 
 def part(program: Program, scene: Problem) -> Parted | None:
-    """Return a splitting's program in parts, or None where nothing can be put off."""
+    """Return a splitting's program in parts, or None where no flow can be deferred."""
     letters = word(program)
     if letters is None:
         return None
     commute = commuting(scene)
+    # A flow for another time than h, or of a part with time, depends on its place in the step.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
     kept = [letter for letter in letters if letter.part not in free]
@@ -62,7 +63,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
 
 
 def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = AS_WRITTEN) -> Kernel:
-    """Return the kernel of a program's core with what it puts off."""
+    """Return the kernel of a program's core with its deferred flows."""
     begin, finish = (
         None if program is None else to_kernel(program, scene, chains=chains)
         for program in (parted.begin, parted.finish)
@@ -95,6 +96,7 @@ def _joined(
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
             if head.part == tail.part and i < j and timely:
                 pairs.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
+    # One leading time serves all deferred flows, so their durations must be the same.
     return [pair for pair in pairs if pair[2:] == pairs[0][2:]]
 
 

@@ -168,15 +168,15 @@ class Solved:
             if node.id not in self.known:
                 args = tuple(self.known[a.id] for a in node.args)
                 same = all(a is b for a, b in zip(args, node.args, strict=True))
-                self.known[node.id] = node if same else self._made(node, args)
+                self.known[node.id] = node if same else self._rebuilt(node, args)
         return self.known[root.id]
 
-    def _made(self, node: Expr, args: tuple[Expr, ...]) -> Expr:
+    def _rebuilt(self, node: Expr, args: tuple[Expr, ...]) -> Expr:
         match node.op:
             case "pow":
                 return self.space.pow(args[0], node.payload)
             case "call":
                 return self.space.call(node.payload, *args)
             case op:
-                made: Expr = getattr(self.space, op)(*args)
-                return made
+                rebuilt: Expr = getattr(self.space, op)(*args)
+                return rebuilt

@@ -11,7 +11,7 @@ from codegen.kernel.schedule import (
     Beginning,
     Invocation,
     Iteration,
-    Joint,
+    SharedCall,
     Simple,
     arrange,
 )
@@ -106,7 +106,7 @@ def _counted(
         if isinstance(statement, Invocation):
             total = _plus(total, functions[statement.function])
             roots += statement.arguments
-        elif isinstance(statement, Joint):
+        elif isinstance(statement, SharedCall):
             total = _plus(total, {statement.function: 1})
             roots.append(statement.argument)
         else:

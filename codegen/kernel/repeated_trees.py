@@ -1,7 +1,8 @@
-"""Trees: assignments of a program that are computed together, for functions that several places call.
+"""Repeated trees: assignments that one outlined function computes together.
 
-The pair that saves most lines is joined first: a value that one operation alone uses is computed with it.
-Trees have one key where they do the same to other operands, with other coefficients in their sums.
+A value that a single operation reads can be computed with that operation. The pair that saves most lines is
+joined first. Trees with the same key apply the same operations to other operands, with other coefficients in
+their sums.
 """
 
 from __future__ import annotations
@@ -18,15 +19,15 @@ from codegen.ir.scene_operations import FLOWS
 from codegen.ir.values import Coefficient, Var
 
 NEVER = (Advance, Zero, Identity, *FLOWS)
-"""Operations that are not outlined: hardly any work, or flows, whose steps are timed as a whole."""
+"""Operations that are not outlined: they cost next to nothing, or are flows, which are scheduled together."""
 
 NODES = 3
-"""About how many operations stand on a line."""
+"""Operations on a line of emitted code, on average over the gallery."""
 
 Values = tuple[Expr, ...]
 
 Key = Hashable
-"""What trees of one shape have in common."""
+"""A value that is equal for trees of one shape."""
 
 PairKey = tuple[Key, Key, Key]
 """The keys of two trees and of the tree that they are joined to."""
@@ -34,7 +35,7 @@ PairKey = tuple[Key, Key, Key]
 
 @dataclass(frozen=True)
 class Execution:
-    """An assignment as it was executed: values of its arguments, its results, and where it stands."""
+    """An assignment as it was executed: values of its arguments, its results, and its block."""
 
     assign: Assign
     args: tuple[Values, ...]
@@ -126,6 +127,7 @@ class Trees:
                     j = owner[user]
                     joined = self.key(self._join(trees[i], trees[j]))
                     pairs.setdefault((keys[i], keys[j], joined), []).append((i, j))
+            # Greedy: the pair of shapes that saves most lines is joined wherever it occurs.
             best, saved = None, 0
             for key, places in pairs.items():
                 gain = self._gain(key, places, count)
@@ -149,6 +151,7 @@ class Trees:
         if k < 2:
             return 0
         i, j = places[0]
+        # Trees of a shape that also occur elsewhere stay functions of their own: their lines are copied.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
         return k * 3 - copies
 
@@ -177,7 +180,7 @@ class Trees:
             self._users.setdefault(v, []).append(None)
 
     def _only_user(self, i: int) -> int | None:
-        """Return the one assignment that uses what the assignment makes, if it stands in the same place."""
+        """Return the one assignment that uses what the assignment makes, if it is in the same block."""
         users = {u for v in self.executions[i].assign.targets for u in self._users.get(v, [])}
         if len(users) != 1:
             return None

@@ -1,6 +1,6 @@
 """Kernel to printable statements: Stumpff functions of one argument computed together, powers as products.
 
-A target's template sees five kinds of statement: :class:`Assignment`, :class:`Joint` (one call, several
+A target's template sees five kinds of statement: :class:`Assignment`, :class:`SharedCall` (one call, several
 results), :class:`Invocation` (the same of a function), :class:`Beginning` and :class:`Iteration`. What a loop
 computes on the way is not reused after it.
 """
@@ -32,7 +32,7 @@ class Assignment:
 
 
 @dataclass(frozen=True)
-class Joint:
+class SharedCall:
     """names[i] = c_(orders[i])(argument), all from one call."""
 
     names: tuple[str, ...]
@@ -60,7 +60,7 @@ class Invocation:
         return tuple(f"{self.name}.{k}" for k in range(self.results))
 
 
-Simple = Assignment | Joint | Invocation
+Simple = Assignment | SharedCall | Invocation
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,7 @@ class Arrangement:
 
     def functions(self) -> tuple[str, ...]:
         """Return the functions called, sorted: scalar ones and sets of Stumpff functions."""
-        called = {s.function for s in self._simple() if isinstance(s, Joint)}
+        called = {s.function for s in self._simple() if isinstance(s, SharedCall)}
         made = {function.name for function, _ in self.outlined}
         names = {n.payload for n in walk(self.expressions()) if n.op == "call"}
         called |= {name for name in names if name.partition(".")[0] not in made}
@@ -199,7 +199,7 @@ def _iteration(
 def _values(statement: Simple) -> tuple[Expr, ...]:
     if isinstance(statement, Invocation):
         return statement.arguments
-    return (statement.argument if isinstance(statement, Joint) else statement.value,)
+    return (statement.argument if isinstance(statement, SharedCall) else statement.value,)
 
 
 def _taken(kernel: Kernel) -> dict[str, int]:
@@ -277,7 +277,7 @@ class _Scope:
                 case "pow":
                     self.known[node.id] = self._power(args[0], node.payload)
                 case "call" if node.payload in STUMPFF:
-                    self._joint(node, args[0])
+                    self._shared_call(node, args[0])
                 case "call" if node.payload.partition(".")[0] in self.outlined:
                     self._invoke(node, args)
                 case "call":
@@ -288,10 +288,10 @@ class _Scope:
                     self.known[node.id] = getattr(space, op)(*args)
         return self.known[root.id]
 
-    def _joint(self, node: Expr, argument: Expr) -> None:
+    def _shared_call(self, node: Expr, argument: Expr) -> None:
         orders = self.orders[node.args[0].id]
         names = tuple(self._fresh(f"c{k}") for k in orders)
-        self.pending.append(Joint(names, orders, argument))
+        self.pending.append(SharedCall(names, orders, argument))
         for k, name in zip(orders, names, strict=True):
             self.results[name] = k
             call = node.space.call(f"stumpff{k}", node.args[0])

@@ -184,12 +184,12 @@ class _Translation:
     def ended(self, start: State) -> tuple[State, State]:
         """Return the new state, and that of an embedded method, after all statements."""
         state = tuple(map(self.domain.space.sym, self.scene.symbols))
-        found = []
+        ends = []
         for embedded in (False, True):
             parts = (v for n, v in self.program.outputs if (n == EMBEDDED) is embedded)
             values = tuple(x for v in parts for x in flatten(v.kind, self.env[v]))
-            found.append(self.frames.end(self.domain, state, start, values))
-        outputs, lower = found
+            ends.append(self.frames.end(self.domain, state, start, values))
+        outputs, lower = ends
         if self.chains in (COMBINED, SHORTENED):
             constant = frozenset({"h", LEAD, ELAPSED, *self.scene.runtime})
             outputs = critical_path.run(outputs, constant, spread=self.chains == SHORTENED)
@@ -218,7 +218,7 @@ class _Translation:
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
         body, ends, outlined = self.ordered((*outputs, *errors))
         durations = [v.name for v in self.program.inputs if v.name in (LEAD, ELAPSED)]
-        made = Kernel(
+        kernel = Kernel(
             *(self.program.name, fields, (TIME, "h", *self.scene.runtime, *durations)),
             *(body, ends[: len(outputs)]),
             substeps=self.program.substeps,
@@ -226,8 +226,8 @@ class _Translation:
             carried=self.frames.carried(self.domain),
         )
         if errors:
-            made = replace(made, estimate=Estimate(ends[len(outputs) :], 0))
-        return _sampled(made, self.scene, self.domain)
+            kernel = replace(kernel, estimate=Estimate(ends[len(outputs) :], 0))
+        return _sampled(kernel, self.scene, self.domain)
 
     def ordered(self, ends: State) -> tuple[tuple[Let | Start | Loop, ...], State, tuple[Function, ...]]:
         """Return the body and outputs of the kernel, with outlined functions where these make it shorter."""

@@ -79,7 +79,7 @@ class Lowering(ABC):
 
         By default this is so where T*G is a vector space and the tableau is symplectic.
         """
-        from orderconds.tableau.properties import symplectic
+        from orderconds.tableau.method_properties import symplectic
 
         tableau = method.tableau
         return bool(scene.group.abelian) and symplectic(tableau.abelian(), tableau.ring) is True

@@ -53,6 +53,7 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
         for i, stage in enumerate(tableau.stages):
             points.append(product(stage, str(i + 1), points))
             entries = [x for row in stage.exponentials for x in row]
+            # The time of a stage is that of its start and the sum of its own coefficients.
             own = reduce(add, entries, method.tableau.ring.zero)
             times.append(own if stage.start is None else own + times[stage.start])
             result.append(stages.f(f"f{i + 1}", points[i], times[i]))

@@ -1,4 +1,4 @@
-"""Discrete gradient methods on groups, thesis section 2.6: they keep the energy exactly.
+"""Discrete gradient methods on groups, section 2.6 of Marthinsen's thesis: they keep the energy exactly.
 
 x1 = exp(h xi).x0 with xi = i_D omega at the midpoint exp(h xi/2).x0, where omega is the scene's bivector
 (:mod:`codegen.scene.energy`) and D a trivialised discrete differential, <D, eta> = H(x1) - H(x0), eta = h xi.
@@ -95,6 +95,7 @@ def _check_bivector(scene: Problem, method: Method) -> None:
         gamma = differential(scene, orbit.domain, y)
         image = bivector(scene, orbit.domain, y, gamma)
         f = scene.apply(orbit.domain, "field", None, (y,))[0]
+        # The bivector formula divides by |gamma|^2; it is right only where gamma = 0 implies f = 0.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             raise MethodError(
                 f"{method.label} on {scene.name}, whose energy is the same in all directions of the group",

@@ -1,6 +1,6 @@
 """Lowerings that compose exact flows: a step is a word in the flows of a Hamiltonian's parts, on T*G.
 
-Time moves with the flows of one summand that does not depend on it, and stands still in all others.
+Time moves with the flows of one summand that does not depend on it, and is constant in all others.
 """
 
 from __future__ import annotations

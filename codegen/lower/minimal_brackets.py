@@ -16,7 +16,7 @@ from orderconds.ring.protocol import Ring
 from orderconds.series.brackets import BracketProgram, Row
 
 _KNOWN: dict[tuple[Ring, tuple[str, ...]], BracketProgram] = {}
-"""Programs by ring and spelled coefficients: lowering and the certificate ask for the same one."""
+"""Programs by ring and coefficients as text: lowering and the certificate ask for the same one."""
 
 
 def bracket_program(method: Method) -> BracketProgram:
@@ -46,6 +46,7 @@ def bracket_program(method: Method) -> BracketProgram:
             expected=f"an order up to {highest}",
             hint=f"write rkmk({order - 2}):{name}",
         )
+    # The bracket program is found by a search, so it is kept for the certificate.
     ring = method.ring
     key = (ring, tuple(ring.text(x) for row in (*tableau.A, tableau.b) for x in row))
     if key not in _KNOWN:

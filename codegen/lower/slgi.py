@@ -1,4 +1,4 @@
-"""Symplectic Lie group integrators on T*G, the family of thesis section 2.5; one stage is the theta-method.
+"""Symplectic Lie group integrators on T*G, section 2.5 of Marthinsen's thesis; one stage is the theta-method.
 
 With X_i = h sum_j a_ij xi_j, Y = h sum_j b_j xi_j, Q_i = exp(X_i) q0, (xi_i, n_i) = f(Q_i, M_i) and nu_j =
 Ad*_{exp X_j} n_j,

@@ -62,6 +62,7 @@ class Stages:
         update: Callable[[], dict[str, Var]],
     ) -> Program:
         """Assemble and verify: starts, one block with the images' body, the update; outputs by input name."""
+        # The order of appending is the order of the program: starts, body of the block, update.
         first = tuple(starts())
         before = self.builder.take()
         last = tuple(images())

@@ -69,10 +69,12 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
+    # From one group to half of them: the narrowest repeated method gives the most substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
         ends = cuts[::wide]
         groups = [range(i, j) for i, j in pairwise(ends)]
         sums = [_sum([b[j] for j in group]) for group in groups]
+        # A group whose weights add to zero is no step of any length.
         if any(x.is_zero for x in sums):
             continue
         scaled = [

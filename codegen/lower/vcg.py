@@ -1,4 +1,4 @@
-"""Variational Crouch-Grossman methods on T*G, thesis eq. (3.18) with the momentum in the form (3.19).
+"""Variational Crouch-Grossman methods on T*G, equation (3.18) of Marthinsen's thesis, momenta by (3.19).
 
 Everything is taken relative to q0, where the coadjoint action of q0 drops out: with e^j = exp(h b_j xi_j)
 e^{j-1}, E_i^j = exp(h a_ij xi_j) E_i^{j-1}, e^0 = E_i^0 = 1, E_i = E_i^s, Q_i = E_i q0, nu_j = Ad*_{E_j} n_j,
@@ -61,7 +61,7 @@ def _program(scene: Problem, method: Method) -> Program:
         for j in range(s):
             terms.append((stages.times_h(b[j]), carried(nu[j])))
             a = A[j][i]
-            if a.is_zero:
+            if a.is_zero:  # stage j does not depend on xi_i
                 continue
             x = build.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-a), xi[i])])
             moved = build.adjoint(f"m{i + 1}", E[j][i], nu[j], inverse=True)

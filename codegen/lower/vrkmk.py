@@ -1,4 +1,4 @@
-"""Variational Runge-Kutta-Munthe-Kaas methods on T*G, thesis eq. (3.16).
+"""Variational Runge-Kutta-Munthe-Kaas methods on T*G, equation (3.16) of Marthinsen's thesis.
 
 With Q_i = exp(X_i) q0, (xi_i, n_i) = f(Q_i, M_i) and P*_(r)(x, xi) the dual of the derivative of
 dexp^{-1}_{(r),x} xi by x, the equations are
@@ -11,8 +11,8 @@ dexp^{-1}_{(r),x} xi by x, the equations are
 
 Given all v_i and m_i the scene is evaluated once a stage and everything else follows: they are the unknowns.
 Where a_ji = 0 for all j <= i, m_i follows from Lambda and later stages; then Lambda is an unknown and m_i is
-none. What no equation reads, the passes take out. The sum m_i is written out in mu0, n_j and m_j, so that the
-terms cancel that cancel on an abelian group.
+none. The passes remove values that no equation reads. The sum m_i is expanded in mu0, n_j and m_j, because
+its terms cancel on an abelian group.
 """
 
 from __future__ import annotations

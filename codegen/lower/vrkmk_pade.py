@@ -1,4 +1,4 @@
-"""VRKMK with dexp^{-1} replaced by the inverse of dexp cut off: thesis section 3.4.1, alternative approach.
+"""VRKMK with dexp^{-1} replaced by the inverse of dexp cut off: section 3.4.1 of Marthinsen's thesis.
 
 The unknowns v_i satisfy dexp_{(r),X_i} v_i = xi_i, where dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)! and X_i =
 h sum_j a_ij v_j; so no multipliers are needed. With R*_(r)(x, v) the dual of the derivative of dexp_{(r),x} v

@@ -1,8 +1,8 @@
 """Blocks: the strongly connected components of the stage graph, each solved alone and in order.
 
-Exact. An edge leads from each assignment to those that read its values; an unknown stands for its image. A
-component without a cycle becomes plain assignments, one with a cycle a block of its own unknowns. So explicit
-methods lose their solver, and a composition tableau is solved stage by stage.
+Exact. An edge leads from each assignment to those that read its values; an unknown is represented by its
+image. A component without a cycle becomes plain assignments, one with a cycle a block of its own unknowns. So
+explicit methods lose their solver, and a composition tableau is solved stage by stage.
 """
 
 from __future__ import annotations
@@ -30,6 +30,7 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     """Return the statements of one block in order; ``names`` maps unknowns to their images from now on."""
     import networkx
 
+    # Outside a block its unknowns are replaced by their images, also in the starts of later blocks.
     start = {u: names.get(s, s) for u, s in zip(block.unknowns, block.starts, strict=True)}
     image = _resolved(dict(zip(block.unknowns, block.images, strict=True)), start)
     maker = {target: k for k, assign in enumerate(block.body) for target in assign.targets}
@@ -42,11 +43,13 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
                 graph.add_edge(source, k)
     condensed = networkx.condensation(graph)
     members = {c: sorted(condensed.nodes[c]["members"]) for c in condensed}
+    # Among orders that are possible take that of the program, so that emitted text is stable.
     order = networkx.lexicographical_topological_sort(condensed, key=lambda c: members[c][0])
     result: list[Statement] = []
     for component in order:
         inside = set(members[component])
         assigns = [block.body[k] for k in members[component]]
+        # An unknown belongs to the component that computes its image, if the component reads it.
         own = [
             u for u in block.unknowns if maker.get(image[u]) in inside and any(u in a.args for a in assigns)
         ]

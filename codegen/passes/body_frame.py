@@ -68,7 +68,7 @@ class _Framing:
     program: Program
     names: dict[Var, Var] = field(default_factory=dict)
     relative: dict[Var, Var | None] = field(default_factory=dict)
-    """Of elements Q = q E: what stands for E, None where it is the identity."""
+    """The E of elements Q = q E, None where it is the identity."""
 
     def run(self) -> Program:
         program = self.program
@@ -135,6 +135,7 @@ class _Framing:
         build, (xi, n), element = self.build, assign.targets, assign.args[0]
         E, time = self.relative[element], assign.args[2:]
         (M,) = self._now(assign.args[1:2])
+        # Ad*_Q = Ad*_E Ad*_q for Q = q E~, and the program's momenta are already Ad*_q of those in space.
         P = M if E is None else build.adjoint(f"P{xi.name}", E, M)
         W = build.add(BodyVelocity(bool(time)), f"W{xi.name}", element, P, *time)
         N = build.add(BodyForce(bool(time)), f"N{n.name}", element, P, *time)

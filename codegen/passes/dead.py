@@ -36,6 +36,7 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     maker = {target: assign for assign in block.body for target in assign.targets}
     wanted = [v for v in (*block.unknowns, *maker) if v in live]
     needed: set[Var] = set()
+    # A live unknown needs its image, and the image whatever it is computed from.
     while wanted:
         var = wanted.pop()
         if var in needed:

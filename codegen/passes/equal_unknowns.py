@@ -1,8 +1,8 @@
-"""Unknowns with the same image: one unknown stands for all of them.
+"""Unknowns with the same image: one of them represents all.
 
 Exact. At a solution unknowns that must equal the same value are equal, so the block is solved for the first
-of them, from its start. Stages with equal rows of coefficients become one stage once sharing has seen that
-their equations are the same.
+of them, from its start. Stages with equal rows of coefficients become one stage after
+:mod:`codegen.passes.value_numbering` has found that their equations are the same.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def run(program: Program) -> Program:
 
 
 def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]:
-    """Return (unknown, start, image) for the first unknown of each image, and what stands for the others."""
+    """Return (unknown, start, image) for the first unknown of each image, and a map of the others to it."""
     first: dict[Var, Var] = {}
     pairs: list[tuple[Var, Var, Var]] = []
     twins: dict[Var, Var] = {}

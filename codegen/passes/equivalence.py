@@ -88,6 +88,7 @@ class Reference:
             if count and step > last / APART:
                 continue
             solutions: dict[Var, Value] = {}
+            # A step that does not settle is too long; a shorter one is tried.
             try:
                 after = self._run(program, step, inputs, SWEEPS, solutions)
             except FAILURES:

@@ -37,6 +37,7 @@ def run(program: Program, scene: Problem) -> Program:
         return program
     commute = commuting(scene)
     kept: list[Letter] = []
+    # Each flow moves back as far as it commutes with the flows that it passes.
     for letter in letters:
         at = _before(kept, letter, commute)
         if at is not None:

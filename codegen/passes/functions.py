@@ -38,6 +38,7 @@ def rows(program: Program, scene: Problem) -> Program:
     names = scene.state[0].symbols
     read = {n.payload for n in walk([*scene.body.velocity, *scene.body.force]) if n.op == "sym"}
     side = round(len(names) ** 0.5)
+    # Rows of q exp(x) are separate only if all numbers that are read are in one row.
     if len({k // side for k, name in enumerate(names) if name in read}) > 1:
         return program
     fields = {a.args[0] for a in program.assigns() if isinstance(a.operation, BodyVelocity | BodyForce)}
@@ -71,6 +72,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         parts = [_function_of(rewriter, arg, x) for arg in source.args]
         if len(parts) > 1 and all(part is not None for part in parts):
             return _distributed(rewriter, source, [p for p in parts if p is not None], word)
+    # Where other operations use the group element, the exponential is computed anyway.
     if adjoint and rewriter.uses.get(assign.args[0], 0) > 1:
         return rewriter.emit(assign)
     return _emit(rewriter, assign, x, word, v)

@@ -1,7 +1,7 @@
 """Numbers taken out of linear maps and sums of sums: L(c x) = c L(x), and a sum inside a sum is one sum.
 
-Exact. A map is left with the value that other operations share, the number joins the coefficients of the sum
-that reads the map. Terms that stand in several sums in one proportion are added first, once for all of them.
+Exact. The map is applied to the value that other operations share; the number joins the coefficients of the
+sum that reads the map. Terms that several sums contain in one proportion are added once for all of them.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
 
 Pattern = tuple[tuple[int, Coefficient], ...]
-"""In which sums a value stands, and with what coefficient relative to the first."""
+"""The sums that a value is a term of, and its coefficient relative to the first."""
 
 
 def run(program: Program) -> Program:
@@ -68,11 +68,13 @@ def _added(program: Program) -> Program:
 
 def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     sums = {k: a for k, a in enumerate(body) if len(a.terms) > 1}
+    # Values with the same pattern of sums and relative coefficients can be added once.
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
+        # A value twice in one sum would have to be removed twice.
         distinct = len({k for k, _ in places}) == len(places)
         if len(places) > 1 and distinct and all(c.power >= 0 for _, c in relative):
             groups.setdefault((v.kind.value, relative), []).append((v, unit))

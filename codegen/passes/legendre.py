@@ -123,30 +123,31 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
 
 
 def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
-    """Append everything on a path computed from its unknown: what stands for each value, and for the base."""
-    stands: dict[Var, Var] = {}
+    """Append everything on a path computed from its unknown: each value, and the base."""
+    replaced: dict[Var, Var] = {}
     value = route.unknown
-    stands[(route.outward[-1] if route.outward else route.velocity).targets[0]] = value
+    replaced[(route.outward[-1] if route.outward else route.velocity).targets[0]] = value
     for assign in reversed(route.outward):
         value = _undone(build, assign, value)
-        stands[assign.args[-1]] = value
+        replaced[assign.args[-1]] = value
     value = build.add(Legendre(), "p", value)
-    stands[route.velocity.args[1]] = value
+    replaced[route.velocity.args[1]] = value
     for assign in reversed(route.inward):
         value = _undone(build, assign, value)
-        stands[assign.args[-1]] = value
-    return stands, value
+        replaced[assign.args[-1]] = value
+    return replaced, value
 
 
 def _residual(block: Solve, route: Path, build: Builder) -> Var:
     """Append what the momentum from the unknown exceeds the other by, in the frame where that costs less."""
-    stands, computed = _values(build, route)
+    replaced, computed = _values(build, route)
     given = route.base
+    # P is then a sum of functions of one ad, which costs less than the momentum before the adjoint map.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
         given = route.inward[0].targets[0]
-    return build.lin("residual", Kind.DUAL, [(ONE, given), (MINUS_ONE, stands.get(given, computed))])
+    return build.lin("residual", Kind.DUAL, [(ONE, given), (MINUS_ONE, replaced.get(given, computed))])
 
 
 def _function_of_one(block: Solve, route: Path) -> bool:
@@ -167,13 +168,14 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     """Return the block with the values on a path taken from its unknown wherever else they are used."""
-    stands, _ = _values(build, route)
+    replaced, _ = _values(build, route)
     fresh = build.take()
+    # The base is computed from other stages; replacing it would add operations and save none.
     if route.inward and route.base not in block.unknowns:
-        del stands[route.base]  # a sum of many terms, which no other operation needs from the velocity
+        del replaced[route.base]  # a sum of many terms, which no other operation needs from the velocity
     own = {a.targets[0] for a in (*route.outward, route.velocity, *route.inward)}
     body = [
-        a if a.targets[0] in own else replace(a, args=tuple(stands.get(x, x) for x in a.args))
+        a if a.targets[0] in own else replace(a, args=tuple(replaced.get(x, x) for x in a.args))
         for a in block.body
     ]
     sorted_body = ordered((*body, *fresh))

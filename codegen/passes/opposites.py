@@ -23,6 +23,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         source, element = rewriter.definitions.get(x), rewriter.definitions.get(g)
         if source is not None and source.operation == operation.opposite() and source.args[0] == g:
             return (source.args[1],)
+        # Ad_{exp x} y = y if x and y are multiples of one value, because [x, x] = 0.
         own = element is not None and isinstance(element.operation, Exp) and not operation.dual
         if own and element is not None and _line(rewriter, element.args[0]) == _line(rewriter, x):
             return (x,)

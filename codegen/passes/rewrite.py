@@ -34,7 +34,7 @@ class Rewriter:
         return replace(self.program, body=body, outputs=outputs)
 
     def now(self, var: Var) -> Var:
-        """Return what stands for var now."""
+        """Return the variable that replaces var, var itself where none does."""
         return self.names.get(var, var)
 
     def emit(self, assign: Assign) -> tuple[Var, ...]:

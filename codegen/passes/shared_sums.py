@@ -71,6 +71,7 @@ def _worthwhile(program: Program) -> set[Share]:
                 shares.setdefault((first.operation, first.args[:-1]), {})[share] = None
         for combinations in shares.values():
             values = {v for share in combinations for v, _ in share}
+            # One map a combination replaces one map a value: worth it if there are fewer combinations.
             if len(combinations) < len(values):
                 worthwhile |= {share for share in combinations if len(share) > 1}
     return worthwhile
@@ -87,6 +88,7 @@ def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coeff
     for terms in groups.values():
         if len({v for v, _ in terms}) < len(terms):
             continue
+        # Normalised by its first term, a combination is recognised in any multiple.
         _, unit = min(terms, key=lambda term: (term[1].power, term[0].name))
         ordered = sorted(terms, key=lambda term: (term[1].power, term[0].name))
         share = tuple((v, Coefficient(c.value / unit.value, c.power - unit.power)) for v, c in ordered)

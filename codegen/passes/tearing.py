@@ -27,6 +27,7 @@ def run(program: Program) -> Program:
             continue
         inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
         block = replace(statement, starts=now(statement.starts), body=inner, images=now(statement.images))
+        # Momenta and forces first: without them the block is solved for velocities, which are continued best.
         for unknown in sorted(block.unknowns, key=lambda u: u.kind is Kind.ALG):
             smaller = _without(block, unknown)
             if smaller is not None:

@@ -26,38 +26,38 @@ LEVELS = {
 
 @dataclass(frozen=True)
 class Text:
-    """The text of a term in pieces, between which a line may be broken, and how strongly it binds."""
+    """The text of a term in segments, between which a line may be broken, and how strongly it binds."""
 
-    pieces: tuple[str, ...]
+    segments: tuple[str, ...]
     level: int = ATOM
 
     @property
     def line(self) -> str:
         """The text on one line."""
-        return " ".join(self.pieces)
+        return " ".join(self.segments)
 
     def within(self, level: int) -> tuple[str, ...]:
-        """Return the pieces, in parentheses where the text binds less than ``level``."""
+        """Return the segments, in parentheses where the text binds less than ``level``."""
         if self.level >= level:
-            return self.pieces
-        return closed("(", self.pieces, ")")
+            return self.segments
+        return closed("(", self.segments, ")")
 
 
-def closed(start: str, pieces: tuple[str, ...], end: str) -> tuple[str, ...]:
-    """Return pieces with a text before the first and one behind the last."""
-    if len(pieces) == 1:
-        return (f"{start}{pieces[0]}{end}",)
-    return (f"{start}{pieces[0]}", *pieces[1:-1], f"{pieces[-1]}{end}")
+def closed(start: str, segments: tuple[str, ...], end: str) -> tuple[str, ...]:
+    """Return segments with a text before the first and one behind the last."""
+    if len(segments) == 1:
+        return (f"{start}{segments[0]}{end}",)
+    return (f"{start}{segments[0]}", *segments[1:-1], f"{segments[-1]}{end}")
 
 
 SHORT, LONG = 48, 80
 """How long an operand, and a comparison, may be that no line breaks within."""
 
 
-def joined(pieces: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
-    """Return pieces as one where they are short together."""
-    line = " ".join(pieces)
-    return (line,) if len(line) <= most else pieces
+def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
+    """Return segments as one where they are short together."""
+    line = " ".join(segments)
+    return (line,) if len(line) <= most else segments
 
 
 class Infix(ABC):
@@ -85,11 +85,11 @@ class Infix(ABC):
         left, right = map(self.text, term.args)
         if level in (AND, OR):
             tight = {OR: COMPARED, AND: NOT}[level]
-            first = left.pieces if left.level == level else left.within(tight)
+            first = left.segments if left.level == level else left.within(tight)
             return Text((*first, *closed(f"{word} ", right.within(tight), "")), level)
         first = left.within(level if level in (SUM, PRODUCT) else SUM)
-        pieces = (*first, *closed(f"{word} ", joined(right.within(level + 1)), ""))
-        return Text(joined(pieces, LONG) if level == COMPARED else pieces, level)
+        segments = (*first, *closed(f"{word} ", joined(right.within(level + 1)), ""))
+        return Text(joined(segments, LONG) if level == COMPARED else segments, level)
 
     @abstractmethod
     def negated(self, test: Term) -> Text:

@@ -8,11 +8,11 @@ from codegen.run.language import Call, Unit, statements, terms
 
 def functions_of(unit: Unit) -> tuple[str, ...]:
     """Return the functions that kernels call, in expressions and jointly, sorted."""
-    found: set[str] = set()
+    names: set[str] = set()
     for function in unit.functions:
         for term in terms(function.body):
             if term.value is not None:
-                found |= {n.payload for n in walk([term.value]) if n.op == "call"}
+                names |= {n.payload for n in walk([term.value]) if n.op == "call"}
         calls = (s.function for s in statements(function.body) if isinstance(s, Call))
-        found |= {name for name in calls if name not in unit.parts and name != "sample"}
-    return tuple(sorted(found))
+        names |= {name for name in calls if name not in unit.parts and name != "sample"}
+    return tuple(sorted(names))

@@ -21,18 +21,18 @@ from codegen.run.warm_start import begun
 
 def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: bool = True) -> list[Statement]:
     """Return the statements of a kernel, in order, with ``after_loops`` behind the last loop."""
-    found: list[Statement] = []
+    sequence: list[Statement] = []
     statements = plan.arrangement.statements
     last = max((k for k, s in enumerate(statements) if isinstance(s, Iteration)), default=-1)
     for place, statement in enumerate(statements):
         if isinstance(statement, Iteration):
-            found += sweeps(plan, statement, counting)
-            found += after_loops if place == last else ()
+            sequence += sweeps(plan, statement, counting)
+            sequence += after_loops if place == last else ()
         elif isinstance(statement, Beginning):
-            found.append(begun(plan, statement))
+            sequence.append(begun(plan, statement))
         else:
-            found += simple(statement)
-    return found
+            sequence += simple(statement)
+    return sequence
 
 
 def loaded(symbols: Sequence[str], array: Term, read: Iterable[str]) -> list[Statement]:
@@ -43,15 +43,15 @@ def loaded(symbols: Sequence[str], array: Term, read: Iterable[str]) -> list[Sta
 
 def outputs(arrangement: Arrangement, symbols: Sequence[str]) -> tuple[list[Statement], list[Term]]:
     """Return the statements that name a kernel's outputs, and the names; those that have one keep it."""
-    found: list[Statement] = []
+    sequence: list[Statement] = []
     named: list[Term] = []
     for symbol, output in zip(symbols, arrangement.outputs, strict=True):
         if output.op == "sym" and output.payload not in symbols:
             named.append(own(output.payload))
             continue
         named.append(own(f"new {symbol}"))
-        found.append(Assign(named[-1], value(output)))
-    return found, named
+        sequence.append(Assign(named[-1], value(output)))
+    return sequence, named
 
 
 def stored(array: Term, values: Sequence[Term]) -> list[Statement]:
@@ -61,13 +61,13 @@ def stored(array: Term, values: Sequence[Term]) -> list[Statement]:
 
 def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
     """Return the statements that ask for the run-time inputs at each time, and name what is read of them."""
-    found: list[Statement] = []
+    sequence: list[Statement] = []
     read, n = plan.arrangement.symbols(), len(plan.kernel.inputs)
     for number, sample in enumerate(plan.kernel.samples, 1):
         values = real(f"inputs_{number}", n)
-        found += [Array(values), Call("sample", (inputs, value(sample.time)), (values,))]
-        found += loaded(sample.symbols, values, read)
-    return found
+        sequence += [Array(values), Call("sample", (inputs, value(sample.time)), (values,))]
+        sequence += loaded(sample.symbols, values, read)
+    return sequence
 
 
 def outlined(function: Outlined, arrangement: Arrangement) -> Function:

@@ -92,6 +92,7 @@ class _Continuation:
             While(going_on, (*self.attempt(), *self.adapted())),
             If(negated(self.done), (Return(self.failure),)),
             Assign(state, self.trial),
+            # The solutions before the last one are those of shorter steps, and no guide.
             Assign(plan.memory.field("known", Kind.COUNT), whole(1)),
             no_failure(plan),
             Return(code(OK)),

@@ -62,15 +62,15 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     """Return all functions of a unit with deferred flows, the public ones last."""
     deferred = plan.kernel.deferred
     assert deferred is not None
-    found = [_core(plan, ADVANCE, "One step without the deferred flows.")]
+    sequence = [_core(plan, ADVANCE, "One step without the deferred flows.")]
     if deferred.begin is not None:
-        found.append(
+        sequence.append(
             _core(_plan(plan, deferred.begin), BEGIN, "Leading flow, applied once before the first step.")
         )
     if deferred.finish is not None:
         about = "Flows that commute with all others, applied once for many steps."
-        found.append(_core(_plan(plan, deferred.finish), FINISH, about))
-    return (*found, _Deferring(plan, deferred).step(), _Deferring(plan, deferred).run())
+        sequence.append(_core(_plan(plan, deferred.finish), FINISH, about))
+    return (*sequence, _Deferring(plan, deferred).step(), _Deferring(plan, deferred).run())
 
 
 def _plan(plan: Plan, kernel: Kernel) -> Plan:
@@ -175,7 +175,7 @@ class _Deferring:
             Assign(self.moving, state),
             Assign(self.complete, state),
             Assign(self.good, truth(True)),
-            While(both(self.good, self.asked > DONE), self.one()),
+            While(both(self.good, DONE < self.asked), self.one()),
             Assign(self.again, negated(self.good)),
             If(self.again, failed),
         )
@@ -186,19 +186,19 @@ class _Deferring:
         last = (DONE + 1).equals(self.asked)
         t = exact_time(TIME, DONE, STEP)
         elapsed = narrow(wide(LATE) * wide(STEP))
-        found: list[Statement] = [
+        sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),
             Assign(LATE, LATE + 1),
             Assign(self.stop, either(self.shown, self.careful, last, LATE.equals(LONGEST))),
         ]
         if deferred.begin is not None:
             begin = tuple(self.call(BEGIN, deferred.begin, t, elapsed))
-            found += [
+            sequence += [
                 Assign(self.lead, select(self.stop, self.last, self.later) * STEP),
                 If(negated(self.begun), begin),
                 Assign(self.begun, negated(self.stop)),
             ]
-        found += self.call(ADVANCE, self.plan.kernel, t, elapsed)
+        sequence += self.call(ADVANCE, self.plan.kernel, t, elapsed)
         taken = (
             Assign(LATE, whole(0)),
             Assign(self.complete, self.moving),
@@ -209,5 +209,5 @@ class _Deferring:
             Assign(self.good, all_finite(self.moving)),
             If(self.good, taken),
         ]
-        found += [If(self.stop, tuple(ended)), If(self.good, (Assign(DONE, DONE + 1),))]
-        return tuple(found)
+        sequence += [If(self.stop, tuple(ended)), If(self.good, (Assign(DONE, DONE + 1),))]
+        return tuple(sequence)

@@ -88,21 +88,21 @@ class Machine:
 
     def number(self, x: float) -> Any:
         """Return a float as a scalar of the domain."""
-        if not math.isfinite(x):
+        if not math.isfinite(x):  # no ring has it; it only bounds comparisons
             return x
         fraction = Fraction(x)
         return self.domain.rational(fraction.numerator, fraction.denominator)
 
     def record(self, name: str) -> Any:
         """Return a record whose fields are all zero."""
-        found = SimpleNamespace()
-        self.clear(found, name)
-        return found
+        record = SimpleNamespace()
+        self.clear(record, name)
+        return record
 
-    def clear(self, found: Any, name: str) -> None:
+    def clear(self, record: Any, name: str) -> None:
         """Set every field of a record to zero."""
         for term, _ in self.unit.record(name).fields:
-            setattr(found, term.text, self.zero(term.shape, term.kind))
+            setattr(record, term.text, self.zero(term.shape, term.kind))
 
     def zero(self, shape: Sequence[int], kind: Kind, record: str = "") -> Any:
         """Return zeros of a shape."""
@@ -289,8 +289,8 @@ class _Compiler:
 
         def run(env: Environment) -> bool:
             passed = [value(env) for value in given]
-            found = library(*passed) if library is not None else [machine.call(function, *passed)]
-            for store, x in zip(stores, found, strict=False):
+            results = library(*passed) if library is not None else [machine.call(function, *passed)]
+            for store, x in zip(stores, results, strict=False):
                 store(env, x)
             return False
 
@@ -323,14 +323,14 @@ class _Compiler:
 
     def constant(self, term: Term) -> Value:
         """Return a constant; a flag or count is a Python number."""
-        found: Any = None
+        value: Any = None
         if term.op == "status":
-            found = STATUSES.index(term.text)
+            value = STATUSES.index(term.text)
         elif term.op == "infinity":
-            found = math.inf
+            value = math.inf
         elif term.op == "number":
-            found = self.machine.number(term.number) if term.kind is Kind.REAL else int(term.number)
-        return lambda env: found
+            value = self.machine.number(term.number) if term.kind is Kind.REAL else int(term.number)
+        return lambda env: value
 
     def logical(self, op: str, args: Sequence[Value]) -> Value:
         if op == "not":
@@ -432,9 +432,9 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
         return lambda n, matrix: [_inverted(n, matrix)]
     if function.startswith("stumpff_"):
         orders = [int(k) for k in function.removeprefix("stumpff_")]
-        joint = getattr(domain, "joint", None)
-        if joint is not None:
-            return lambda z: joint(orders, z)
+        together = getattr(domain, "together", None)
+        if together is not None:
+            return lambda z: together(orders, z)
         return lambda z: [domain.call(f"stumpff{k}", z) for k in orders]
     return None
 

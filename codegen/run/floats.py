@@ -23,7 +23,7 @@ class EmittedFloats(FloatDomain):
         super().__init__(h)
         self.limit = limit(DOUBLE, chain)
 
-    def joint(self, orders: Sequence[int], z: float) -> list[float]:
+    def together(self, orders: Sequence[int], z: float) -> list[float]:
         """Return c_k(z) of some orders, computed together."""
         if z <= TINY and len(orders) < 3:
             return [_short(k, z, "tiny") for k in orders]
@@ -58,18 +58,18 @@ class EmittedFloats(FloatDomain):
         if function.startswith("signed_stumpff"):
             k = int(function[-1])
             if z >= 0:
-                return self.joint([k], z)[0]
+                return self.together([k], z)[0]
             r = math.sqrt(-z)
             return math.cosh(r) if k == 0 else math.sinh(r) / r
         if function.startswith("stumpff"):
-            return self.joint([int(function[-1])], z)[0]
+            return self.together([int(function[-1])], z)[0]
         if function.startswith("slope"):
             return self._slope(int(function[-1]), z)
         return super().call(function, *args)
 
     def _slope(self, k: int, z: float) -> float:
         if z > 1.0:
-            before, c = self.joint([k - 1, k], z)
+            before, c = self.together([k - 1, k], z)
             return 0.5 * (before - float(k) * c) / z
         *rest, total = slopes(k)
         for term in reversed(rest):

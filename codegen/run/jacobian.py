@@ -91,9 +91,9 @@ class _Jacobian:
     def function(self) -> Function:
         """Return the whole."""
         plan, dim = self.plan, self.dim
-        found = real("jacobian", dim * dim)
+        matrix = real("jacobian", dim * dim)
         given = (self.given,) if plan.held else ()
-        entry = Assign(found[dim * self.row + self.column], self.vector[self.row])
+        entry = Assign(matrix[dim * self.row + self.column], self.vector[self.row])
         inner: tuple[Statement, ...] = (
             Array(self.vector, zero=True),
             Assign(self.vector[self.column], number(1.0)),
@@ -110,7 +110,7 @@ class _Jacobian:
             While(both(STATUS.equals(code(OK)), self.column < dim), inner),
             Return(STATUS),
         ]
-        parameters = (plan.state(), *plan.moment(), *plan.parameters, *given, found)
+        parameters = (plan.state(), *plan.moment(), *plan.parameters, *given, matrix)
         return Function("jacobian", "", parameters, tuple(body), Kind.STATUS, public=True)
 
     def single(self) -> list[Statement]:

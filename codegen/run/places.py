@@ -29,10 +29,10 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
     A kernel that carries a variation along has it as its last field, and in an array of its own.
     """
     whole = sum(len(f.symbols) for f in kernel.state if f.name != VARIATION)
-    found: list[Place] = []
+    result: list[Place] = []
     start = 0
     for f in kernel.state:
         n = len(f.symbols)
-        found.append(Place("vector", 0, n, n) if f.name == VARIATION else Place("state", start, n, whole))
+        result.append(Place("vector", 0, n, n) if f.name == VARIATION else Place("state", start, n, whole))
         start += n
-    return tuple(found)
+    return tuple(result)

@@ -41,35 +41,35 @@ class Declarations:
 
 def declarations(function: Function, identifiers: Identifiers) -> Declarations:
     """Return where a function's variables are declared; arrays and indices of loops declare themselves."""
-    found = Declarations()
-    _Scopes(identifiers, found).place(function.body, _variables(function, identifiers))
-    return found
+    result = Declarations()
+    _Scopes(identifiers, result).place(function.body, _variables(function, identifiers))
+    return result
 
 
 def _variables(function: Function, identifiers: Identifiers) -> dict[str, Term]:
     """Return the scalars that a function assigns, in order, which are neither parameters nor arrays."""
-    found: dict[str, Term] = {}
+    result: dict[str, Term] = {}
 
     def collect(body: Body) -> None:
         for statement in body:
             if isinstance(statement, Assign | Call):
                 for target in assigned(statement):
                     if target.op == "name" and not target.shape and not target.record:
-                        found.setdefault(identifiers.variable(target), target)
+                        result.setdefault(identifiers.variable(target), target)
             for inner in blocks(statement):
                 collect(inner)
 
     collect(function.body)
     for parameter in function.parameters:
-        found.pop(identifiers.of(parameter), None)
-    return found
+        result.pop(identifiers.of(parameter), None)
+    return result
 
 
 class _Scopes:
     """The analysis of one function."""
 
-    def __init__(self, identifiers: Identifiers, found: Declarations) -> None:
-        self.identifiers, self.found = identifiers, found
+    def __init__(self, identifiers: Identifiers, result: Declarations) -> None:
+        self.identifiers, self.result = identifiers, result
         self.cached: dict[int, frozenset[str]] = {}
 
     def place(self, body: Body, variables: dict[str, Term]) -> None:
@@ -96,15 +96,15 @@ class _Scopes:
 
     def deeper(self, body: Body, places: list[int], name: str) -> list[Body]:
         """Return the inner blocks to which a variable belongs, none where it belongs to this one."""
-        found: list[Body] = []
+        result: list[Body] = []
         for k in places:
             statement = body[k]
-            if name in self.own(statement):
+            if name in self.own(statement):  # a test or a value of this block reads it
                 return []
-            found += [block for block in blocks(statement) if self.within(block, name)]
-        if len(found) > 1 and not all(self.begins(block, name) for block in found):
+            result += [block for block in blocks(statement) if self.within(block, name)]
+        if len(result) > 1 and not all(self.begins(block, name) for block in result):
             return []
-        return found
+        return result
 
     def begins(self, body: Body, name: str) -> bool:
         """Whether a body assigns a variable before it reads it."""
@@ -129,9 +129,9 @@ class _Scopes:
         direct_first = isinstance(first, Assign) and self.assignments(first, name) > 0
         called = isinstance(first, Call) and len(first.results) == 1 and self.assignments(first, name) > 0
         if (direct_first or called) and name not in {self.identifiers.variable(x) for x in reads(first)}:
-            self.found.by.setdefault(id(first), {})[name] = times == 1
+            self.result.by.setdefault(id(first), {})[name] = times == 1
         else:
-            self.found.before.setdefault(id(first), []).append((name, variable))
+            self.result.before.setdefault(id(first), []).append((name, variable))
 
     def assignments(self, statement: Statement, name: str) -> int:
         """Return how many assignments to a variable stand in a statement."""
@@ -150,9 +150,9 @@ class _Scopes:
     def mentioned(self, statement: Statement) -> frozenset[str]:
         """Return the variables that a statement and its inner blocks mention."""
         if id(statement) not in self.cached:
-            found = set(self.own(statement))
+            result = set(self.own(statement))
             for block in blocks(statement):
                 for inner in block:
-                    found |= self.mentioned(inner)
-            self.cached[id(statement)] = frozenset(found)
+                    result |= self.mentioned(inner)
+            self.cached[id(statement)] = frozenset(result)
         return self.cached[id(statement)]

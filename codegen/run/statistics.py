@@ -38,7 +38,7 @@ def counters(plan: Plan) -> tuple[Function, ...]:
         If(sweeps > most, (Assign(most, sweeps),)),
         If(failed, (Assign(last, block + 1),)),
     )
-    found = [
+    functions = [
         Function(
             "count_sweeps",
             "Add the sweeps over one block in one step.",
@@ -49,8 +49,8 @@ def counters(plan: Plan) -> tuple[Function, ...]:
     if plan.newton:
         matrices = statistics.field("matrices", Kind.COUNT)
         body = (If(given(statistics), (Assign(matrices, matrices + 1),)),)
-        found.append(Function("count_matrix", "Add one matrix.", (statistics,), body))
-    return tuple(found)
+        functions.append(Function("count_matrix", "Add one matrix.", (statistics,), body))
+    return tuple(functions)
 
 
 def count_sweeps(plan: Plan, block: int, sweeps: Term = SWEEPS) -> Statement:

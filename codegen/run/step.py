@@ -99,14 +99,15 @@ def _errors(plan: Plan) -> list[Statement]:
 
 def _aged(plan: Plan) -> list[Statement]:
     """Return the statements that count for how many steps an inverse for residuals has served."""
-    found: list[Statement] = []
+    sequence: list[Statement] = []
     for k, loop in enumerate(plan.kernel.loops, 1):
         if loop.newton is None or not loop.newton.period:
             continue
-        made, period = plan.memory.field(f"made_{k}", Kind.COUNT), loop.newton.period
-        older = whole(0) if period == 1 else select((made % period) > 0, made + 1, 0)
-        found.append(Assign(made, older))
-    return found
+        served, period = plan.memory.field(f"made_{k}", Kind.COUNT), loop.newton.period
+        # 0 asks the next step for a new matrix.
+        older = whole(0) if period == 1 else select((served % period) > 0, served + 1, 0)
+        sequence.append(Assign(served, older))
+    return sequence
 
 
 def exact_time(start: Term, steps: Term, h: Term) -> Term:
@@ -120,13 +121,13 @@ def substep_tables(plan: Plan) -> tuple[Table, ...]:
         return ()
     n, rounded = plan.parts, plan.format.round
     fractions = tuple(rounded(step.fraction) for step in plan.kernel.substeps)
-    found = [Table(real("fraction", n), (fractions,), "The parts of a step, in units of h.")]
+    sequence = [Table(real("fraction", n), (fractions,), "The parts of a step, in units of h.")]
     if plan.time:
         offsets = tuple(rounded(step.offset) for step in plan.kernel.substeps)
-        found.append(
+        sequence.append(
             Table(real("offset", n), (offsets,), "The beginnings of the parts of a step, in units of h.")
         )
-    return tuple(found)
+    return tuple(sequence)
 
 
 def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:

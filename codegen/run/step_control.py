@@ -96,7 +96,7 @@ class _Controlled:
     t, h = real("t", 1, cell=True), real("h", 1, cell=True)
     end, limit = real("end"), count("limit")
     accepted, rejected = (count(name, 1, optional=True, cell=True) for name in ("accepted", "rejected"))
-    made, refused, shrunk = count("made"), count("refused"), flag("shrunk")
+    accepted_steps, refused, shrunk = count("made"), count("refused"), flag("shrunk")
     now, length, before = real("now"), real("size"), real("before")
     left, last, taken, following = real("left"), flag("last"), real("taken"), real("then")
     norm, wish, factor = real("norm"), real("wish"), real("factor")
@@ -118,7 +118,7 @@ class _Controlled:
             While(both(STATUS.equals(code(OK)), moving), self.step()),
             Assign(self.t[0], self.now),
             Assign(self.h[0], self.length),
-            If(given(self.accepted), (Assign(self.accepted[0], self.made),)),
+            If(given(self.accepted), (Assign(self.accepted[0], self.accepted_steps),)),
             If(given(self.rejected), (Assign(self.rejected[0], self.refused),)),
             Return(STATUS),
         )
@@ -133,7 +133,7 @@ class _Controlled:
         chosen = size(self.end - self.now) / 100.0
         return (
             Assign(STATUS, code(OK)),
-            Assign(self.made, whole(0)),
+            Assign(self.accepted_steps, whole(0)),
             Assign(self.refused, whole(0)),
             Assign(self.shrunk, truth(False)),
             Assign(self.now, self.t[0]),
@@ -155,7 +155,7 @@ class _Controlled:
             Assign(self.taken, select(self.last, self.left, call("copysign", self.length, self.left))),
             Assign(self.following, select(self.last, self.end, self.now + self.taken)),
             If(
-                either(self.made + self.refused >= self.limit, stuck),
+                either(self.accepted_steps + self.refused >= self.limit, stuck),
                 (Assign(STATUS, code(LIMIT)),),
                 (*self.tried(), If(self.norm <= 1.0, self.accept(), self.refuse())),
             ),
@@ -173,6 +173,7 @@ class _Controlled:
             Assign(self.trial, state),
             *forgotten,
             Call(ADVANCE, (self.trial, *arguments), (STATUS,)),
+            # A step that fails is refused like one whose error is too large.
             Assign(self.norm, INFINITY),
             If(STATUS.equals(code(OK)), (measured,)),
         )
@@ -197,7 +198,7 @@ class _Controlled:
         return (
             Assign(state, self.trial),
             Assign(self.now, self.following),
-            Assign(self.made, self.made + 1),
+            Assign(self.accepted_steps, self.accepted_steps + 1),
             Assign(self.wish, self.rounded(SAFETY) * self.power(self.norm, -0.7) * trend),
             self.bounded(longer),
             If(

@@ -86,11 +86,11 @@ class Stopping:
 
     def before(self) -> list[Statement]:
         """Return what stands before the first sweep."""
-        found: list[Statement] = [Assign(self.previous, number(0.0))]
+        sequence: list[Statement] = [Assign(self.previous, number(0.0))]
         if self.warm:
             known = self.plan.memory.field("known", Kind.COUNT) > 0
-            found.append(Assign(self.rate, select(known, self.kept_rate, 1.0)))
-        return found
+            sequence.append(Assign(self.rate, select(known, self.kept_rate, 1.0)))
+        return sequence
 
     def measured(self, changes: Sequence[Term], unknowns: Sequence[Term]) -> list[Statement]:
         """Return the statements that measure a sweep: the changes are absolute values."""
@@ -118,15 +118,15 @@ class Stopping:
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm
-            else form.unit * SCALE * previous >= CHANGE * CHANGE
+            else CHANGE * CHANGE <= form.unit * SCALE * previous
         )
-        still = both(previous > 0.0, previous <= CHANGE)
+        still = both(previous > 0.0, CHANGE >= previous)
         return [
             Assign(flag("still"), still),
-            Assign(flag("close"), both(close * SCALE >= CHANGE, next_change)),
+            Assign(flag("close"), both(CHANGE <= close * SCALE, next_change)),
             Assign(
                 flag("settled"),
-                either(flag("close"), both(flag("still"), either(tolerance * SCALE >= CHANGE, self.lost()))),
+                either(flag("close"), both(flag("still"), either(CHANGE <= tolerance * SCALE, self.lost()))),
             ),
         ]
 
@@ -170,7 +170,7 @@ class Stopping:
                 select(
                     flag("contracts"),
                     CHANGE * (rate + LEAST_RATE) <= close * SCALE,
-                    both(SWEEPS > 1, either(tolerance * SCALE >= CHANGE, self.lost())),
+                    both(SWEEPS > 1, either(CHANGE <= tolerance * SCALE, self.lost())),
                 ),
             ),
         ]
@@ -180,13 +180,14 @@ class Stopping:
 
         ``possible`` is false where a matrix has no inverse: what looks settled then is not.
         """
+        # The number comes first: comparisons with a NaN are false, and would look like another sweep.
         settled = flag("settled") if possible is None else both(possible, flag("settled"))
         settling = select(settled, code(OK), code(NOT_CONVERGED))
         return Assign(STATUS, select(is_finite(finite), settling, code(NOT_FINITE)))
 
     def going_on(self, astray: Term | None = None) -> Term:
         """Return whether another sweep is to be made."""
-        tests = [STATUS.equals(code(NOT_CONVERGED)), self.loop.limit > SWEEPS]
+        tests = [STATUS.equals(code(NOT_CONVERGED)), SWEEPS < self.loop.limit]
         return both(*tests, *([] if astray is None else [negated(astray)]))
 
     def after(self) -> list[Statement]:

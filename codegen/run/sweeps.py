@@ -104,31 +104,31 @@ class _Loop:
     def begin(self) -> list[Statement]:
         """Return what stands before the first sweep."""
         loop = self.iteration.loop
-        found: list[Statement] = [
+        sequence: list[Statement] = [
             Note(f"{loop.label}: {METHODS[loop.solver]}, {len(loop.unknowns)} unknowns")
         ]
         starts = zip(self.unknowns, self.iteration.starts, strict=False)  # none where they begin together
-        found += [Assign(u, value(x)) for u, x in starts]
-        return [*found, *self.rule.before()]
+        sequence += [Assign(u, value(x)) for u, x in starts]
+        return [*sequence, *self.rule.before()]
 
     def computed(self) -> list[Statement]:
         """Return the body of a sweep and its images."""
-        found: list[Statement] = [Assign(SWEEPS, SWEEPS + 1)]
+        sequence: list[Statement] = [Assign(SWEEPS, SWEEPS + 1)]
         for statement in self.iteration.body:
-            found += simple(statement)
+            sequence += simple(statement)
         for image, x in zip(self.images, self.iteration.images, strict=True):
             if image.text.startswith("next "):
-                found.append(Assign(image, value(x)))
-        return found
+                sequence.append(Assign(image, value(x)))
+        return sequence
 
     def until_settled(self, body: Sequence[Statement], astray: Term | None = None) -> list[Statement]:
         """Return the loop and what follows it."""
-        found: list[Statement] = [Assign(SWEEPS, whole(0)), Assign(STATUS, code(NOT_CONVERGED))]
-        found.append(While(self.rule.going_on(astray), tuple(body), at_least_once=True))
+        sequence: list[Statement] = [Assign(SWEEPS, whole(0)), Assign(STATUS, code(NOT_CONVERGED))]
+        sequence.append(While(self.rule.going_on(astray), tuple(body), at_least_once=True))
         if self.counting:
-            found.append(count_sweeps(self.plan, self.number - 1))
-        found.append(If(STATUS.differs(code(OK)), (Return(STATUS),)))
-        return [*found, *self.rule.after()]
+            sequence.append(count_sweeps(self.plan, self.number - 1))
+        sequence.append(If(STATUS.differs(code(OK)), (Return(STATUS),)))
+        return [*sequence, *self.rule.after()]
 
 
 class _FixedPoint(_Loop):
@@ -141,6 +141,7 @@ class _FixedPoint(_Loop):
         rule, body = self.rule, self.computed()
         body += [*measured, *rule.rates(), *rule.settled(), rule.decided(finite)]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
+        # The last sweep leaves the unknowns as they were: body values that are read later belong to them.
         again = (Assign(rule.previous, CHANGE), *taken)
         body.append(If(STATUS.equals(code(NOT_CONVERGED)), again))
         return [*self.begin(), *self.until_settled(body)]
@@ -148,11 +149,11 @@ class _FixedPoint(_Loop):
     def narrow(self) -> tuple[list[Statement], Term]:
         """Return the statements that measure each change, and what is finite if all are."""
         changes = self.named("change")
-        found: list[Statement] = [
+        sequence: list[Statement] = [
             Assign(change, size(x - u))
             for change, x, u in zip(changes, self.images, self.unknowns, strict=True)
         ]
-        return [*found, *self.rule.measured(changes, self.unknowns)], total(changes)
+        return [*sequence, *self.rule.measured(changes, self.unknowns)], total(changes)
 
     def wide(self) -> tuple[list[Statement], Term]:
         """Return the same of many unknowns, by a loop over arrays."""
@@ -164,14 +165,14 @@ class _FixedPoint(_Loop):
             Assign(most, greatest([most, moved])),
             Assign(all_changes, all_changes + moved),
         )
-        found: list[Statement] = [
+        sequence: list[Statement] = [
             Array(before, tuple(self.unknowns)),
             Array(after, tuple(self.images)),
             Assign(most, number(0.0)),
             Assign(all_changes, number(0.0)),
             For(i, whole(n), body),
         ]
-        return [*found, *self.rule.measured([most], self.unknowns)], all_changes
+        return [*sequence, *self.rule.measured([most], self.unknowns)], all_changes
 
 
 class _Newton(_Loop):
@@ -190,11 +191,11 @@ class _Newton(_Loop):
 
     @property
     def making(self) -> Term:
-        """Whether a matrix is to be made in this sweep."""
+        """Whether a matrix is to be computed in this sweep."""
         return flag(f"make_{self.number}")
 
     @property
-    def made(self) -> Term:
+    def served(self) -> Term:
         """For how many steps the matrix of the memory has served, 0 where there is none."""
         return self.plan.memory.field(f"made_{self.number}", Kind.COUNT)
 
@@ -212,47 +213,49 @@ class _Newton(_Loop):
     def by_images(self) -> list[Statement]:
         """Return the loop where images are compared with unknowns."""
         rule, residuals, changes = self.rule, self.named("residual"), self.named("change")
-        found, body = self.begin(), self.computed()
+        sequence, body = self.begin(), self.computed()
         for residual, x, u in zip(residuals, self.images, self.unknowns, strict=True):
             body.append(Assign(residual, x - u))
         finite = total(residuals)
         if self.kept:
-            found.append(Assign(self.making, negated(self.made > 0)))
-            found.append(Assign(flag("astray"), truth(False)))
+            sequence.append(Assign(self.making, negated(self.served > 0)))
+            sequence.append(Assign(flag("astray"), truth(False)))
             body.append(If(both(self.making, is_finite(finite)), tuple(self.renewed())))
         else:
-            found += self.prepared()
+            sequence += self.prepared()
         body += self.product(changes, residuals)
         body += rule.measured([size(x) for x in changes], self.unknowns)
         body += rule.rates()
+        # Scale is measured before the correction: a first guess of zero then is not close to anything.
         body += self.corrected(changes)
         body += rule.settled()
-        body.append(rule.decided(finite, self.made > 0 if self.kept and not self.newton.inverted else None))
+        body.append(rule.decided(finite, self.served > 0 if self.kept and not self.newton.inverted else None))
         if self.kept:
             astray = both(flag("still"), self.making)
             if not self.newton.inverted:
-                astray = either(astray, negated(self.made > 0))
+                astray = either(astray, negated(self.served > 0))
             body.append(Assign(flag("astray"), astray))
             slow = number(Newton.CONTRACTION) * rule.previous
-            body.append(Assign(self.making, both(slow > 0.0, slow < CHANGE)))
+            body.append(Assign(self.making, both(slow > 0.0, CHANGE > slow)))
         body.append(Assign(rule.previous, CHANGE))
-        return [*found, *self.until_settled(body, flag("astray") if self.kept else None)]
+        return [*sequence, *self.until_settled(body, flag("astray") if self.kept else None)]
 
     def by_residuals(self) -> list[Statement]:
         """Return the loop where the images are what is to vanish."""
         rule, changes = self.rule, [own(c) for c in self.newton.changes]
-        found, body = self.begin(), self.computed()
+        sequence, body = self.begin(), self.computed()
         inverted = not self.newton.inverted
-        found.append(Assign(self.making, negated(self.made > 0)))
+        sequence.append(Assign(self.making, negated(self.served > 0)))
         body.append(If(self.making, tuple(self.renewed())))
         body += self.product(changes, self.images)
         body += rule.sums(changes, self.unknowns)
         body += self.corrected(changes)
         body += rule.settled_by_residuals()
-        body.append(rule.decided(CHANGE, self.made > 0 if inverted else None))
+        body.append(rule.decided(CHANGE, self.served > 0 if inverted else None))
+        # A second matrix in one step would cost more than the sweeps that it saves.
         body.append(Assign(self.making, truth(False)))
         body.append(Assign(rule.previous, CHANGE))
-        return [*found, *self.until_settled(body, negated(self.made > 0) if inverted else None)]
+        return [*sequence, *self.until_settled(body, negated(self.served > 0) if inverted else None)]
 
     def corrected(self, changes: Sequence[Term]) -> list[Statement]:
         """Return the statements that add the changes."""
@@ -260,12 +263,12 @@ class _Newton(_Loop):
 
     def renewed(self) -> list[Statement]:
         """Return the statements that make the matrix of the memory and invert it."""
-        found = self.entries()
+        sequence = self.entries()
         if self.newton.inverted:
-            return [*found, Assign(self.made, whole(1)), *self.matrix_counted()]
-        found.append(Call("invert", (whole(len(self.unknowns)), self.inverse), (self.made,)))
+            return [*sequence, Assign(self.served, whole(1)), *self.matrix_counted()]
+        sequence.append(Call("invert", (whole(len(self.unknowns)), self.inverse), (self.served,)))
         counted = self.matrix_counted()
-        return [*found, *([If(self.made > 0, tuple(counted))] if counted else [])]
+        return [*sequence, *([If(self.served > 0, tuple(counted))] if counted else [])]
 
     def matrix_counted(self) -> list[Statement]:
         """Return the statement that counts a matrix."""
@@ -273,27 +276,27 @@ class _Newton(_Loop):
 
     def prepared(self) -> list[Statement]:
         """Return the statements that make the matrix of one step and invert it, before its sweeps."""
-        found = self.entries()
+        sequence = self.entries()
         if self.newton.inverted:
-            return found
+            return sequence
         n, inverted = len(self.unknowns), count(f"inverted_{self.number}")
-        found = [Array(self.inverse), *found, Call("invert", (whole(n), self.inverse), (inverted,))]
-        found.append(Assign(STATUS, code(NOT_CONVERGED)))
+        sequence = [Array(self.inverse), *sequence, Call("invert", (whole(n), self.inverse), (inverted,))]
+        sequence.append(Assign(STATUS, code(NOT_CONVERGED)))
         singular = inverted.equals(0)
         if self.counting:
-            found.append(If(singular, (count_sweeps(self.plan, self.number - 1, whole(0)),)))
-        return [*found, If(singular, (Return(STATUS),))]
+            sequence.append(If(singular, (count_sweeps(self.plan, self.number - 1, whole(0)),)))
+        return [*sequence, If(singular, (Return(STATUS),))]
 
     def entries(self) -> list[Statement]:
         """Return the statements that compute the entries of the matrix."""
-        found: list[Statement] = []
+        sequence: list[Statement] = []
         for statement in self.iteration.newton:
-            found += simple(statement)
+            sequence += simple(statement)
         n, matrix = len(self.unknowns), [value(x) for x in self.iteration.matrix]
         if n > WIDE:
             whole_matrix = real(f"matrix_{self.number}", n * n)
-            return [*found, Array(whole_matrix, tuple(matrix)), Assign(self.inverse, whole_matrix)]
-        return [*found, *(Assign(self.cell(k), x) for k, x in enumerate(matrix))]
+            return [*sequence, Array(whole_matrix, tuple(matrix)), Assign(self.inverse, whole_matrix)]
+        return [*sequence, *(Assign(self.cell(k), x) for k, x in enumerate(matrix))]
 
     def cell(self, place: int) -> Term:
         """Return an entry of the inverse: a variable where it is written out in each step."""
@@ -314,5 +317,5 @@ class _Newton(_Loop):
             For(j, whole(n), (Assign(partial, partial + self.inverse[n * i + j] * right[j]),)),
             Assign(left[i], partial),
         )
-        found: list[Statement] = [Array(right, tuple(residuals)), Array(left), For(i, whole(n), row)]
-        return [*found, *(Assign(c, left[k]) for k, c in enumerate(changes))]
+        sequence: list[Statement] = [Array(right, tuple(residuals)), Array(left), For(i, whole(n), row)]
+        return [*sequence, *(Assign(c, left[k]) for k, c in enumerate(changes))]

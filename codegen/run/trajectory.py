@@ -157,11 +157,12 @@ def run(plan: Plan) -> Function:
         row = rows.add(state)
         if carried:
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
-        made = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
+        advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
         later = exact_time(TIME, DONE, STEP)
-        inner = (*advanced(plan, now, arguments(plan, t=later)), If(STATUS.equals(code(OK)), made))
+        inner = (*advanced(plan, now, arguments(plan, t=later)), If(STATUS.equals(code(OK)), advance))
         body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
     if carried:
+        # A momentum may be finite in the body and overflow in space: then no step counts as made.
         ended = Term("name", (), STATUS.kind, "ended")
         failed = (Assign(STATUS, code(NOT_FINITE)), Assign(DONE, whole(0)))
         finite = (Call(LEAVE, (moving, before, state), (ended,)), If(ended.differs(code(OK)), failed))

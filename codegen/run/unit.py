@@ -28,26 +28,26 @@ def unit_of(plan: Plan) -> Unit:
 
 def _steps(plan: Plan) -> list[Function]:
     """Return the functions of steps and runs, callees first."""
-    found: list[Function] = []
+    listed: list[Function] = []
     if plan.counting:
-        found += counters(plan)
+        listed += counters(plan)
     if plan.start is not None:
-        found += WarmStart(plan).functions()
+        listed += WarmStart(plan).functions()
     if is_looped(plan):
-        return [*found, *turning(plan), run(plan), step(plan)]
-    found.append(kernel_step(plan))
+        return [*listed, *turning(plan), run(plan), step(plan)]
+    listed.append(kernel_step(plan))
     if plan.start is not None:
-        found.append(continued(plan, core(plan)))
+        listed.append(continued(plan, core(plan)))
     if plan.parts:
-        found.append(composed_step(plan))
-    return [*found, *turning(plan), step(plan), run(plan)]
+        listed.append(composed_step(plan))
+    return [*listed, *turning(plan), step(plan), run(plan)]
 
 
 def _records(plan: Plan) -> tuple[Record, ...]:
-    found = [statistics_record(plan)] if plan.counting else []
-    return (*found, *([memory_record(plan)] if plan.remembers else []))
+    listed = [statistics_record(plan)] if plan.counting else []
+    return (*listed, *([memory_record(plan)] if plan.remembers else []))
 
 
 def _tables(plan: Plan) -> tuple[Table, ...]:
-    found = [differences(plan.start)] if plan.start is not None else []
-    return (*found, *substep_tables(plan))
+    listed = [differences(plan.start)] if plan.start is not None else []
+    return (*listed, *substep_tables(plan))

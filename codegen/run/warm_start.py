@@ -181,13 +181,13 @@ class WarmStart:
 
     def difference_size(self) -> Function:
         """Return the function that measures a difference."""
-        order, row, found = count("order"), real("row", self.n), real("size")
+        order, row, size_now = count("order"), real("row", self.n), real("size")
         body = (
             Array(row),
             Call("difference", (self.memory, order, whole(0), number(1.0), row)),
-            Assign(found, number(0.0)),
-            For(_I, whole(self.n), (Assign(found, found + size(row[_I])),)),
-            Return(found),
+            Assign(size_now, number(0.0)),
+            For(_I, whole(self.n), (Assign(size_now, size_now + size(row[_I])),)),
+            Return(size_now),
         )
         about = "The size of a backward difference."
         return Function("difference_size", about, (self.memory, order), body, Kind.REAL)
@@ -205,6 +205,7 @@ class WarmStart:
             Assign(self.place, place),
         ]
 
+        # Each solution is stored twice, so that the last ones are neighbours wherever the ring begins.
         for row in (place, place + self.depth):
             body.append(Assign(self.values[row], solution))
         body.append(If(self.known < self.depth, (Assign(self.known, self.known + 1),)))
@@ -235,18 +236,18 @@ class WarmStart:
 
     def chosen(self, place: Term) -> list[Statement]:
         """Return the statements that let the degree grow while the differences fall."""
-        found = real("size")
+        size_now = real("size")
 
         def measured(order: Term, name: str) -> Statement:
             return Call("difference_size", (self.memory, order), (real(name),))
 
         higher = (
             measured(self.degree + 1, "higher"),
-            Assign(flag("grows"), real("higher") < found),
+            Assign(flag("grows"), real("higher") < size_now),
         )
         lower = (
             measured(self.degree - 1, "lower"),
-            If(found > real("lower"), (Assign(self.degree, self.degree - 1),)),
+            If(size_now > real("lower"), (Assign(self.degree, self.degree - 1),)),
         )
         grows = flag("grows")
         look = (

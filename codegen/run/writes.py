@@ -8,20 +8,20 @@ from codegen.run.language import Array, Assign, Call, Function, Unit, root, stat
 def written(unit: Unit, function: Function) -> frozenset[str]:
     """Return the names of those parameters, which are arrays and records."""
     own = {p.text for p in function.parameters if p.shape or p.record}
-    found: set[str] = set()
+    changed_names: set[str] = set()
     for statement in statements(function.body):
         match statement:
             case Assign(target):
-                found.add(root(target).text)
+                changed_names.add(root(target).text)
             case Call(name, arguments, results):
-                found |= {root(r).text for r in results}
+                changed_names |= {root(r).text for r in results}
                 callee = unit.parts.get(name)
-                if callee is None:
-                    found |= {root(a).text for a in arguments if name == "invert"}
+                if callee is None:  # of the library, which changes a matrix and nothing else
+                    changed_names |= {root(a).text for a in arguments if name == "invert"}
                     continue
                 changed = written(unit, callee)
                 pairs = zip(callee.parameters, arguments, strict=True)
-                found |= {root(a).text for p, a in pairs if p.text in changed and a.op != "none"}
+                changed_names |= {root(a).text for p, a in pairs if p.text in changed and a.op != "none"}
             case Array():
                 pass
-    return frozenset(found & own)
+    return frozenset(changed_names & own)

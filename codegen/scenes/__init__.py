@@ -16,6 +16,7 @@ from pathlib import Path
 from codegen.errors import SceneError
 from codegen.scene.extended_phase_space import extended
 from codegen.scene.problem import Problem
+from codegen.scene.stiff_variant import StiffVariant
 from orderconds.errors import InputError, UnknownName
 from orderconds.input_file import read_bytes
 
@@ -97,6 +98,18 @@ def _load(name: str) -> Problem:
             hint=f"did you mean {close[0]}?" if (close := get_close_matches(name, names(), n=1)) else "",
         )
     return _run(name, path)
+
+
+def stiff_variants(scene: Problem) -> tuple[StiffVariant, ...]:
+    """Return the stiff variants that the file of a gallery scene defines, none for any other scene.
+
+    A scene of the user that has the name of a gallery scene has none.
+    """
+    if scene.name not in GALLERY:
+        return ()
+    module = import_module(f"codegen.scenes.{scene.name}")
+    own = vars(module).get("stiff_variants")
+    return tuple(own()) if own is not None and scene.roots is module.scene.roots else ()
 
 
 def _run(name: str, path: Path) -> Problem:

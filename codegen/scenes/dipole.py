@@ -4,10 +4,16 @@ H. Marthinsen's thesis, section 3.6. Gravity enters with a minus sign (the print
 only then do the energies and errors printed there come out.
 """
 
+import math
+from dataclasses import replace
+from fractions import Fraction
+
 from sympy import Matrix, Rational, diag, sqrt
 
 from codegen.groups import SO3
 from codegen.scene import HamiltonianScene, param
+from codegen.scene.run_time import with_runtime
+from codegen.scene.stiff_variant import StiffVariant
 
 G = SO3()
 g, mu = G.point("g"), G.dual("mu")
@@ -20,7 +26,7 @@ V = -e3.dot(g * e3) + beta * (1 / r[0] - 1 / r[1])
 g0 = Matrix([[1, 0, 0], [0, 0, -1], [0, 1, 0]])
 
 scene = HamiltonianScene(
-    title="Dipole on a stick, T*SO(3) (thesis section 3.6)",
+    title="Dipole on a stick, T*SO(3)",
     group=G,
     q=g,
     mu=mu,
@@ -30,3 +36,17 @@ scene = HamiltonianScene(
     mu0=g0 * I * g0.T * e2,
     span=(0, Rational(1, 2)),
 )
+
+
+def stiff_variants() -> list[StiffVariant]:
+    """Return dipoles that pass the fixed charge at distances of about 1/10, 1/100 and 1/1000."""
+    return [_passing(Fraction(1, d)) for d in (10, 100, 1000)]
+
+
+def _passing(gap: Fraction) -> StiffVariant:
+    # The charges of the dipole are at sqrt(1 + a^2) from the pivot; 15 decimals place the fixed one.
+    reach = Fraction(f"{math.sqrt(1 + float(a) ** 2):.15f}")
+    near = replace(with_runtime(scene, (f"depth={reach + gap}",)), span=(Fraction(0), Fraction(5, 2)))
+    about = f"passes the charge at {float(gap):g}"
+    # The attraction is 1/gap^2 over a length of about gap.
+    return StiffVariant(f"dipole that {about}", about, near, float(1 / gap) ** 1.5)

@@ -22,7 +22,7 @@ field = Matrix([y, -x - x**3])
 def duffing(frame: str, group: LieGroup, action: Action, f: Sequence[Expr]) -> Problem:
     """Return the scene with f(z) in the algebra of a group that acts on the plane."""
     return FieldScene(
-        title=f"Duffing's equation, {frame} (thesis section 2.2)",
+        title=f"Duffing's equation, {frame}",
         group=group,
         action=action,
         y=z,

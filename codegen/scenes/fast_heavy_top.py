@@ -9,6 +9,7 @@ from sympy import Matrix, Rational, diag, eye
 
 from codegen.groups import SO3
 from codegen.scene import HamiltonianScene
+from codegen.scene.stiff_variant import StiffVariant
 
 G = SO3()
 g, mu = G.point("g"), G.dual("mu")
@@ -34,3 +35,27 @@ scene = HamiltonianScene(
     n=(g * X).cross(-mass * gravity * e3) + mu.cross(w),
     invariants={"momentum_about_vertical": mu[2], "momentum_about_body_axis": mu.dot(g * X)},
 )
+
+
+def stiff_variants() -> list[StiffVariant]:
+    """Return heavy tops with inertia ratios of 1e3 and 1e6, spinning about their thin axis."""
+    return [_thin_top(ratio) for ratio in (10**3, 10**6)]
+
+
+def _thin_top(ratio: int) -> StiffVariant:
+    inertia = diag(1, 1, Rational(1, ratio))
+    kinetic = mu.dot(g * inertia.inv() * g.T * mu) / 2
+    potential = e3.dot(g * e3)
+    thin = HamiltonianScene(
+        name="thin_top",
+        group=G,
+        q=g,
+        mu=mu,
+        H=kinetic + potential,
+        parts={"T": kinetic, "V": potential},
+        q0=eye(3),
+        mu0=Matrix([Rational(1, 10), Rational(1, 5), Rational(1, 2) / ratio]),
+        span=(0, 1),
+    )
+    label = f"inertia ratio {ratio:.0e}"
+    return StiffVariant(f"top with {label}", label, thin, float(ratio) / 10)

@@ -1,13 +1,14 @@
 """Free rigid body: the angular momentum on its sphere, SO(3) acting by rotation.
 
-H. Marthinsen's thesis, section 2.8: m' = f(m) x m with f = -I^-1 m; adding alpha m to f (isotropy, eq. 2.19)
-leaves the field as it is but makes another method.
+H. Marthinsen's thesis, equation (2.8) of section 2.2: m' = f(m) x m with f = -I^-1 m. Adding alpha m to f
+(isotropy, eq. 2.19) does not change the field, but it changes the method.
 """
 
 from sympy import Matrix, Rational, cos, diag, sin
 
 from codegen.groups import SO3, Rotation
 from codegen.scene import FieldScene, param
+from codegen.scene.stiff_variant import RADIANS, StiffVariant
 
 G = SO3()
 m = G.dual("m")
@@ -16,7 +17,7 @@ alpha = param("alpha", 0)
 w = Rational(11, 10)
 
 scene = FieldScene(
-    title="Free rigid body on the sphere (thesis section 2.8)",
+    title="Free rigid body on the sphere",
     group=G,
     action=Rotation(),
     y=m,
@@ -25,3 +26,25 @@ scene = FieldScene(
     span=(0, 2),
     invariants={"radius": m.dot(m), "energy": m.dot(I.inv() * m) / 2},
 )
+
+
+def stiff_variants() -> list[StiffVariant]:
+    """Return bodies with moments of inertia 1, 1/2 and 1/ratio, for ratios of 1e3, 1e6 and 1e12."""
+    return [thin_body(ratio) for ratio in (10**3, 10**6, 10**12)]
+
+
+def thin_body(ratio: int) -> StiffVariant:
+    """Return a free rigid body with moments of inertia 1, 1/2 and 1/ratio."""
+    inertia = diag(1, Rational(1, 2), Rational(1, ratio))
+    thin = FieldScene(
+        name="thin_body",
+        group=G,
+        action=Rotation(),
+        y=m,
+        f=-inertia.inv() * m,
+        y0=Matrix([Rational(3, 5), 0, Rational(4, 5)]),
+        span=(0, min(Rational(1), Rational(RADIANS, ratio))),
+        invariants={"radius": m.dot(m), "energy": m.dot(inertia.inv() * m) / ratio},
+    )
+    label = f"inertia ratio {ratio:.0e}"
+    return StiffVariant(f"free body with {label}", label, thin, float(ratio))

@@ -26,7 +26,7 @@ def turned(real: Expr, v: Matrix) -> Matrix:
 m = turned(-q[0], m0)  # the momentum in the body
 
 scene = FieldScene(
-    title="Free rigid body with attitude, S^3 (thesis section 2.6)",
+    title="Free rigid body with attitude, S^3",
     group=G,
     action=LeftMultiplication(),
     y=q,

@@ -17,7 +17,7 @@ T = mu.dot(I.inv() * mu) / 2
 V = e3.dot(g * e3)
 
 scene = HamiltonianScene(
-    title="Heavy top as printed, T*SO(3) (thesis section 2.5)",
+    title="Heavy top as printed, T*SO(3)",
     group=G,
     q=g,
     mu=mu,

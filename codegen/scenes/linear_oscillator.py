@@ -1,15 +1,20 @@
 """Linear oscillator with a frequency that changes in time, on T*R^4: every family is classical there.
 
-H = ((omega^2 + eps sin(alpha t)) q.q + p.p)/2 with omega = 1 (Paper 3 of Bogfjellmo's thesis, Table 4.1). On
+H = ((omega^2 + eps sin(alpha t)) q.q + p.p)/2 with omega = 1 (H. Marthinsen's thesis, paper 3, Table 4.1). On
 R^n brackets vanish and exponentials are sums: RKMK, CG and CF methods are Runge-Kutta methods, variational
 ones are symplectic partitioned ones. Time enters through the stages alone, so an error in the time of a
 stage is visible at once.
 """
 
+from dataclasses import replace
+from fractions import Fraction
+
 from sympy import Matrix, Rational, Symbol, sin
 
 from codegen.groups import Rn
 from codegen.scene import HamiltonianScene, param
+from codegen.scene.run_time import with_runtime
+from codegen.scene.stiff_variant import RADIANS, StiffVariant
 
 G = Rn(4)
 q, p = G.point("q"), G.dual("p")
@@ -18,7 +23,7 @@ stiffness = omega**2 + eps * sin(alpha * Symbol("t"))
 T, V = p.dot(p) / 2, stiffness * q.dot(q) / 2
 
 scene = HamiltonianScene(
-    title="Linear oscillator with changing frequency, T*R^4 (Paper 3)",
+    title="Linear oscillator with changing frequency, T*R^4",
     group=G,
     q=q,
     mu=p,
@@ -31,3 +36,15 @@ scene = HamiltonianScene(
     n=-stiffness * q,
     invariants={"angular_momentum": q[0] * p[1] - q[1] * p[0]},
 )
+
+
+def stiff_variants() -> list[StiffVariant]:
+    """Return oscillators of frequency 1e3 and 1e6, over at most three units of time."""
+    return [_oscillator(omega) for omega in (10**3, 10**6)]
+
+
+def _oscillator(omega: int) -> StiffVariant:
+    label = f"frequency {omega:.0e}"
+    span = (Fraction(0), min(Fraction(3), Fraction(RADIANS, omega)))
+    fast = replace(with_runtime(scene, (f"omega={omega}",)), span=span)
+    return StiffVariant(f"oscillator at {label}", label, fast, float(omega))

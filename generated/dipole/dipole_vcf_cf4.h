@@ -1,4 +1,4 @@
-/* Dipole on a stick, T*SO(3) (thesis section 3.6): one step by vcf:cf4: functions and status codes. dipole_vcf_cf4.c has an example. */
+/* Dipole on a stick, T*SO(3): one step by vcf:cf4: functions and status codes. dipole_vcf_cf4.c has an example. */
 #ifndef DIPOLE_VCF_CF4_H
 #define DIPOLE_VCF_CF4_H
 

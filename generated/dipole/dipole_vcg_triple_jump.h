@@ -1,4 +1,4 @@
-/* Dipole on a stick, T*SO(3) (thesis section 3.6): one step by vcg:triple_jump: functions and status codes. dipole_vcg_triple_jump.c has an example. */
+/* Dipole on a stick, T*SO(3): one step by vcg:triple_jump: functions and status codes. dipole_vcg_triple_jump.c has an example. */
 #ifndef DIPOLE_VCG_TRIPLE_JUMP_H
 #define DIPOLE_VCG_TRIPLE_JUMP_H
 

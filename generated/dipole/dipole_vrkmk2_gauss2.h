@@ -1,4 +1,4 @@
-/* Dipole on a stick, T*SO(3) (thesis section 3.6): one step by vrkmk(2):gauss2: functions and status codes. dipole_vrkmk2_gauss2.c has an example. */
+/* Dipole on a stick, T*SO(3): one step by vrkmk(2):gauss2: functions and status codes. dipole_vrkmk2_gauss2.c has an example. */
 #ifndef DIPOLE_VRKMK2_GAUSS2_H
 #define DIPOLE_VRKMK2_GAUSS2_H
 

@@ -1,4 +1,4 @@
-/* Duffing's equation, SL(2) acting linearly (thesis section 2.2): one step by cf:cf4: functions and status codes. duffing_sl2_cf4.c has an example. */
+/* Duffing's equation, SL(2) acting linearly: one step by cf:cf4: functions and status codes. duffing_sl2_cf4.c has an example. */
 #ifndef DUFFING_SL2_CF4_H
 #define DUFFING_SL2_CF4_H
 

@@ -1,12 +1,12 @@
-"""Duffing's equation, SL(2) acting linearly (thesis section 2.2): one step by cf:cf4
+"""Duffing's equation, SL(2) acting linearly: one step by cf:cf4
 
 method:     family cf, tableau cf4
-source:     Celledoni, Marthinsen and Owren 2003; H. Marthinsen, thesis, Section
+source:     Celledoni, Marthinsen and Owren 2003; H. Marthinsen, On symplectic
+            integration in Lie groups and manifolds, PhD thesis, NTNU 2014, Section
             2.2.1
 order:      4, certificate: exact (every order condition up to it is zero in exact
             arithmetic)
-scene:      Duffing's equation, SL(2) acting linearly (thesis section 2.2), group
-            SL(2)
+scene:      Duffing's equation, SL(2) acting linearly, group SL(2)
 state:      [0..1] y: point that SL(2) acts on by linear maps
 left out:   1 evaluation of the field: equal values are computed once
             5 exponentials: exp(x).y is computed without exp(x)

@@ -465,7 +465,7 @@ int fast_heavy_top_splitting_blanes_moan_rkn4_run(double state[static 12], doubl
         memcpy(next, state, sizeof next);
         memcpy(complete, state, sizeof complete);
         int good = 1;
-        while (good && asked > step) {
+        while (good && step < asked) {
             const int shown = recording && (step + 1) % stride == 0;
             late++;
             const int stop = shown || careful || step + 1 == asked || late == 256;

@@ -585,7 +585,7 @@ def _run(state, h, steps, trajectory, stride, completed):
         next[:] = state
         complete[:] = state
         good = True
-        while good and asked > step:
+        while good and step < asked:
             shown = recording and (step + 1) % stride == 0
             late += 1
             stop = shown or careful or step + 1 == asked or late == 256

@@ -1,4 +1,4 @@
-/* Free rigid body on the sphere (thesis section 2.8): one step by cf:cf4: functions and status codes. free_rigid_body_cf4.c has an example. */
+/* Free rigid body on the sphere: one step by cf:cf4: functions and status codes. free_rigid_body_cf4.c has an example. */
 #ifndef FREE_RIGID_BODY_CF4_H
 #define FREE_RIGID_BODY_CF4_H
 

@@ -1,11 +1,12 @@
-"""Free rigid body on the sphere (thesis section 2.8): one step by cf:cf4
+"""Free rigid body on the sphere: one step by cf:cf4
 
 method:     family cf, tableau cf4
-source:     Celledoni, Marthinsen and Owren 2003; H. Marthinsen, thesis, Section
+source:     Celledoni, Marthinsen and Owren 2003; H. Marthinsen, On symplectic
+            integration in Lie groups and manifolds, PhD thesis, NTNU 2014, Section
             2.2.1
 order:      4, certificate: exact (every order condition up to it is zero in exact
             arithmetic)
-scene:      Free rigid body on the sphere (thesis section 2.8), group SO(3)
+scene:      Free rigid body on the sphere, group SO(3)
 state:      [0..2] y: point that SO(3) acts on by rotation
 left out:   1 evaluation of the field: equal values are computed once
             5 exponentials: exp(x).y is computed without exp(x)

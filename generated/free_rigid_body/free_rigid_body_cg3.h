@@ -1,4 +1,4 @@
-/* Free rigid body on the sphere (thesis section 2.8): one step by cg:cg3: functions and status codes. free_rigid_body_cg3.c has an example. */
+/* Free rigid body on the sphere: one step by cg:cg3: functions and status codes. free_rigid_body_cg3.c has an example. */
 #ifndef FREE_RIGID_BODY_CG3_H
 #define FREE_RIGID_BODY_CG3_H
 

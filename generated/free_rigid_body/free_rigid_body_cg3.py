@@ -1,10 +1,10 @@
-"""Free rigid body on the sphere (thesis section 2.8): one step by cg:cg3
+"""Free rigid body on the sphere: one step by cg:cg3
 
 method:     family cg, tableau cg3
 source:     Crouch and Grossman 1993; Hairer, Lubich and Wanner, Table IV.8.1, left
 order:      3, certificate: exact (every order condition up to it is zero in exact
             arithmetic)
-scene:      Free rigid body on the sphere (thesis section 2.8), group SO(3)
+scene:      Free rigid body on the sphere, group SO(3)
 state:      [0..2] y: point that SO(3) acts on by rotation
 left out:   1 evaluation of the field: equal values are computed once
             6 exponentials: exp(x).y is computed without exp(x)

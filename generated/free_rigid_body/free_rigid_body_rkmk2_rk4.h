@@ -1,4 +1,4 @@
-/* Free rigid body on the sphere (thesis section 2.8): one step by rkmk(2):rk4: functions and status codes. free_rigid_body_rkmk2_rk4.c has an example. */
+/* Free rigid body on the sphere: one step by rkmk(2):rk4: functions and status codes. free_rigid_body_rkmk2_rk4.c has an example. */
 #ifndef FREE_RIGID_BODY_RKMK2_RK4_H
 #define FREE_RIGID_BODY_RKMK2_RK4_H
 

@@ -1,11 +1,11 @@
 /*
- * Free rigid body on the sphere (thesis section 2.8): one step by rkmk:rk4
+ * Free rigid body on the sphere: one step by rkmk:rk4
  *
  * method:     family rkmk, tableau rk4
  * source:     Kutta 1901; Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I,
  *             Table II.1.2; with brackets: Munthe-Kaas 1998
  * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
- * scene:      Free rigid body on the sphere (thesis section 2.8), group SO(3)
+ * scene:      Free rigid body on the sphere, group SO(3)
  * state:      [0..2] y: point that SO(3) acts on by rotation
  * left out:   1 action, 1 exponential: coefficients are zero, or terms cancel
  *             1 evaluation of the field, 1 sum: equal values are computed once

@@ -1,4 +1,4 @@
-/* Free rigid body with attitude, S^3 (thesis section 2.6): one step by discrete_gradient:midpoint: functions and status codes. free_rigid_body_s3_discrete_gradient_midpoint.c has an example. */
+/* Free rigid body with attitude, S^3: one step by discrete_gradient:midpoint: functions and status codes. free_rigid_body_s3_discrete_gradient_midpoint.c has an example. */
 #ifndef FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_H
 #define FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_H
 

@@ -1,13 +1,13 @@
 /*
- * Heavy top as printed, T*SO(3) (thesis section 2.5): one step by slgi:midpoint
+ * Heavy top as printed, T*SO(3): one step by slgi:midpoint
  *
  * method:     family slgi, tableau midpoint
  * source:     Table 3.2a of Bogfjellmo and Marthinsen
  * order:      2, certificate: exact (every order condition up to it is zero in exact arithmetic)
- * scene:      Heavy top as printed, T*SO(3) (thesis section 2.5), group SO(3)
+ * scene:      Heavy top as printed, T*SO(3), group SO(3)
  * solved by:  the equations of xi1, n1: Newton's method, 6 unknowns (4.8 sweeps of 214 operations
- *             and 1.00 matrices of 812 a step; fixed point: does not settle with steps 8 times as
- *             long; Newton's method with the matrix to first order in h: takes 29 sweeps with
+ *             and 1.00 matrices of 812 a step; fixed point: does not converge with steps 8 times
+ *             as long; Newton's method with the matrix to first order in h: takes 29 sweeps with
  *             steps 8 times as long; counted over the first 20 steps of the example)
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
@@ -778,10 +778,10 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         n1_0 += change_n1_0;
         n1_1 += change_n1_1;
         n1_2 += change_n1_2;
-        const int still = previous_1 > 0.0 && previous_1 <= change;
-        const int close = 3.552713678800501e-15 * scale >= change
+        const int still = previous_1 > 0.0 && change >= previous_1;
+        const int close = change <= 3.552713678800501e-15 * scale
             && change * rate_1 <= 1.1102230246251565e-16 * scale;
-        const int settled = close || (still && (5.684341886080802e-14 * scale >= change
+        const int settled = close || (still && (change <= 5.684341886080802e-14 * scale
             || (change * fabs(h) <= 7.105427357601002e-15 * largest(state, 9)
             && change * fabs(h) <= 7.105427357601002e-15 * largest(state + 9, 3))));
         status = isfinite(residual_xi1_0 + residual_xi1_1 + residual_xi1_2 + residual_n1_0
@@ -789,7 +789,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             ? HEAVY_TOP_SLGI_MIDPOINT_OK : HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED)
             : HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE;
         astray = (still && make_1) || !(memory->made_1 > 0);
-        make_1 = 0.015625 * previous_1 > 0.0 && 0.015625 * previous_1 < change;
+        make_1 = 0.015625 * previous_1 > 0.0 && change > 0.015625 * previous_1;
         previous_1 = change;
     } while (status == HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED && sweep < 100 && !astray);
     count_sweeps(statistics, 0, sweep, status != HEAVY_TOP_SLGI_MIDPOINT_OK);

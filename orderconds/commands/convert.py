@@ -12,7 +12,8 @@ from orderconds.commands import screen
 from orderconds.commands.place import FILE, put
 from orderconds.exchange import FORMATS, export, format_of, left_out, name_of, read_data
 from orderconds.tableau import find
-from orderconds.tableau.file import bytes_of, from_data
+from orderconds.tableau.file import bytes_of
+from orderconds.tableau.record import from_data
 
 NAMES = click.Choice(list(FORMATS))
 

@@ -110,7 +110,7 @@ def _print_latex(derivation: Derivation, explain: bool) -> None:
     r"""Print one ``align*`` environment (package amsmath), trees and relations as comments."""
     from orderconds.explain.kinds import named_by
     from orderconds.formula.equations import aligned
-    from orderconds.formula.rendering import latex_fraction
+    from orderconds.formula.notation import latex_fraction
 
     rows = []
     for condition in derivation.conditions:

@@ -1,6 +1,6 @@
 """Tableaux to and from the formats of other programs: JSON, CSV, NumPy, SymPy, LaTeX, C arrays.
 
-Every import and export passes through the keys of a tableau file (:func:`orderconds.tableau.file.from_data`).
+Every import and export uses the keys of a tableau file (:func:`orderconds.tableau.record.from_data`).
 So an imported tableau obeys the same grammar, and no input is ever executed. An exported method reads back as
 exactly the same method, rounded decimals with all their digits. TOML and JSON hold everything in a file; the
 other formats hold no proof (:func:`left_out`). Foreign decimals with 12 significant digits or more count as
@@ -16,8 +16,10 @@ from typing import Protocol, cast
 
 from orderconds.errors import InputError
 from orderconds.tableau import Tableau
-from orderconds.tableau.file import MAX_NAME, bytes_of, from_data
-from orderconds.tableau.write import Data
+from orderconds.tableau.comparison import equal_coefficients
+from orderconds.tableau.file import MAX_NAME, bytes_of
+from orderconds.tableau.file_format import Data
+from orderconds.tableau.record import from_data
 
 FORMATS = {
     "toml": ("orderconds.exchange.toml_file", ".toml"),
@@ -40,7 +42,24 @@ def export(data: Data, to: str) -> bytes:
     >>> export({"name": "euler", "family": "rk", "A": [["0"]], "b": ["1"]}, "csv").decode().split()
     ['name,euler', 'family,rk', 'A,0', 'b,1']
     """
-    return _module(to).write(data)
+    content = _module(to).write(data)
+    back = read_data(content, to, f"what was written as {to}", str(data.get("name")))
+    _require_same(from_data(data), from_data(back), to)
+    return content
+
+
+def _require_same(given: Tableau, back: Tableau, to: str) -> None:
+    """Refuse a file that does not read back as the tableau that was written.
+
+    Balls are compared to the digits that both have, since a written one may be rounded otherwise.
+    """
+    same = (given.family, given.source, given.bibtex) == (back.family, back.source, back.bibtex)
+    if not (same and equal_coefficients(given, back)):
+        raise InputError(
+            f"a tableau that does not read back as the same from {to}",
+            where=given.name,
+            expected="a format that holds it, as json",
+        )
 
 
 def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Data:

@@ -17,8 +17,9 @@ from orderconds.errors import TableauError
 from orderconds.exchange.unevaluated import CoefficientTooLong, with_names_inlined
 from orderconds.ring import Balls
 from orderconds.tableau import Tableau
-from orderconds.tableau.file import from_data
-from orderconds.tableau.write import Data, written_out
+from orderconds.tableau.file_format import Data
+from orderconds.tableau.record import from_data
+from orderconds.tableau.write import written_out
 
 Row = list[str]
 Arrays = Data
@@ -105,6 +106,7 @@ def from_arrays(entries: Arrays, where: str) -> Data:
     {'family': 'composition', 'gamma': ['1'], 'base': 'symmetric-2'}
     """
     known = {*TEXTS, *ROWS, *MATRICES}
+    _verify_types(entries, where)
     if not entries.keys() - set(TEXTS):
         raise TableauError(
             "no array of coefficients", where=where, expected=f"one of {', '.join((*MATRICES, *ROWS))}"
@@ -137,6 +139,21 @@ def from_arrays(entries: Arrays, where: str) -> Data:
         order = {} if stated is None else {"order": _integer(stated, where)}
         data["embedded"] = {"b": entries["embedded_b"], **order}
     return data
+
+
+def _verify_types(entries: Arrays, where: str) -> None:
+    """Refuse an array that is no row or matrix of texts, and a text that is none."""
+    for name, value in entries.items():
+        depth = 0 if name in TEXTS else 2 if name in MATRICES else 1
+        if not _has_depth(value, depth):
+            expected = ("a text", "a row of coefficients", "rows of coefficients")[depth]
+            raise TableauError(f"{name}: {repr(value)[:60]}", where=where, expected=expected)
+
+
+def _has_depth(value: object, depth: int) -> bool:
+    if depth == 0:
+        return isinstance(value, str)
+    return isinstance(value, list) and all(_has_depth(x, depth - 1) for x in value)
 
 
 def json_table(text: str, where: str) -> Data:

@@ -9,13 +9,17 @@ import re
 
 from orderconds.errors import TableauError
 from orderconds.exchange.arrays import MATRICES, ROWS, TEXTS, Arrays, coefficient, from_arrays, to_arrays
+from orderconds.exchange.comments import escaped, unescaped
 from orderconds.exchange.nested import Cells, nested
 from orderconds.exchange.numpy_archive import nearest
-from orderconds.tableau.write import Data
+from orderconds.tableau.file_format import Data
 
 INTEGERS = ("count", "start", "embedded_order")
-_ARRAY = re.compile(r"(\w+)\s*((?:\[[^\]]*\]\s*)*)=\s*([^;]*);", re.ASCII)
-_TEXT = re.compile(r"^/\* (\w+): (.*) \*/$", re.MULTILINE)
+_ARRAY = re.compile(
+    r"(?<!\w)(\w{1,128})\s{0,9}((?:\[[^\]\[=;]{0,64}\]\s{0,9}){1,3})=\s{0,9}([^;=]*);", re.ASCII
+)
+_TEXT = re.compile(r" (\w{1,64}): (.*) ", re.DOTALL)
+_TOKEN = re.compile(r"/\*|//|[{}\"]")
 
 
 def write(data: Data) -> bytes:
@@ -27,7 +31,7 @@ def write(data: Data) -> bytes:
     entries = to_arrays(data, "C arrays")
     roots = entries.get("numbers", "{}")
     prefix = re.sub(r"\W", "_", entries["name"], flags=re.ASCII)
-    lines = [f"/* {name}: {entries[name].replace('*/', '* /')} */" for name in TEXTS if name in entries]
+    lines = [f"/* {name}: {escaped(entries[name])} */" for name in TEXTS if name in entries]
     for name, value in entries.items():
         if name in INTEGERS:
             continue
@@ -65,8 +69,11 @@ def read(content: bytes, where: str) -> Data:
         text = content.decode()
     except UnicodeDecodeError:
         raise TableauError("bytes that are no UTF-8", where=where, expected="C source") from None
-    entries: Arrays = {name: value for name, value in _TEXT.findall(text) if name in TEXTS}
-    text = _TEXT.sub("", re.sub(r"//.*", "", text))
+    text, comments = _without_comments(text, where)
+    entries: Arrays = {}
+    for comment in comments:
+        if (found := _TEXT.fullmatch(comment)) and found[1] in TEXTS and "\n" not in comment:
+            entries.setdefault(found[1], unescaped(found[2]))
     for name, brackets, value in _ARRAY.findall(text):
         key = next(
             (k for k in sorted(ROWS + MATRICES, key=len, reverse=True) if re.search(rf"(^|_){k}$", name)),
@@ -82,6 +89,45 @@ def read(content: bytes, where: str) -> Data:
             "no arrays", where=where, expected="definitions such as  double NAME_A[2][2] = {...};"
         )
     return from_arrays(entries, where)
+
+
+def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
+    """Return C source without comments and strings, but for comments in initialisers; and the comments.
+
+    Of those, the ones before the first initialiser.
+    """
+    kept: list[str] = []
+    comments: list[str] = []
+    place, depth, arrays = 0, 0, False
+    while (token := _TOKEN.search(text, place)) is not None:
+        if token[0] in "{}":
+            depth += 1 if token[0] == "{" else -1
+            arrays = True
+            end = token.end()
+            kept.append(text[place:end])
+        else:
+            kept.append(text[place : token.start()])
+            end = _end(text, token, where)
+            if token[0] == "/*" and depth > 0:
+                kept.append(text[token.start() : end].replace(";", ""))
+            elif token[0] == "/*" and not arrays:
+                comments.append(text[token.end() : end - 2])
+        place = end
+    return "".join([*kept, text[place:]]), comments
+
+
+def _end(text: str, token: re.Match[str], where: str) -> int:
+    """Return the place after a comment or a string."""
+    if token[0] == "//":
+        end = text.find("\n", token.end())
+        return len(text) if end < 0 else end
+    closing = "*/" if token[0] == "/*" else '"'
+    end = text.find(closing, token.end())
+    while closing == '"' and end > 0 and text[end - 1] == "\\":
+        end = text.find(closing, end + 1)
+    if end < 0:
+        raise TableauError("a comment or string without an end", where=where, expected="C source")
+    return end + len(closing)
 
 
 def _cells(value: Cells) -> Cells:

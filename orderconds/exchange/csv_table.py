@@ -20,7 +20,7 @@ from orderconds.exchange.arrays import (
     from_arrays,
     to_arrays,
 )
-from orderconds.tableau.write import Data
+from orderconds.tableau.file_format import Data
 
 
 def write(data: Data) -> bytes:

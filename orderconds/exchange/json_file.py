@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 
 from orderconds.errors import TableauError
-from orderconds.tableau.write import Data
+from orderconds.tableau.file_format import Data
 
 
 def write(data: Data) -> bytes:

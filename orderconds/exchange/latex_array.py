@@ -7,6 +7,7 @@ Read back are ``\begin{array}{c|cc}`` with c, A (blank cells are zeros), a rule 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
 from orderconds.errors import TableauError
 from orderconds.exchange.arrays import (
@@ -19,16 +20,19 @@ from orderconds.exchange.arrays import (
     from_arrays,
     to_arrays,
 )
+from orderconds.exchange.comments import escaped, unescaped
 from orderconds.exchange.notation import from_latex, to_latex
 from orderconds.ring import Ball, Balls, Element
 from orderconds.tableau import Tableau
-from orderconds.tableau.file import from_data
-from orderconds.tableau.write import Data
+from orderconds.tableau.file_format import Data
+from orderconds.tableau.record import from_data
 
 SHORT = Balls(64)
-_TEXT = re.compile(r"^% (\w+): (.*)$", re.MULTILINE)
-_BUTCHER = re.compile(r"\\begin\{array\}\{\s*[lcr]\s*\|[lcr\s]+\}(.*?)\\end\{array\}", re.DOTALL)
-_MATRIX = re.compile(r"([A-Za-z_\\{}]+)\s*=\s*\\begin\{[bp]matrix\}(.*?)\\end\{[bp]matrix\}", re.DOTALL)
+_TEXT = re.compile(r"% (\w{1,64}): (.*)")
+_COMMENT = re.compile(r"(?<!\\)%.*")
+_ENVIRONMENT = re.compile(r"\\(begin|end)\{(array|[bp]matrix)\}")
+_COLUMNS = re.compile(r"\{\s{0,9}[lcr]\s{0,9}\|[lcr\s]{1,200}\}")
+_NAMED = re.compile(r"([A-Za-z_\\{}]{1,64})\s{0,9}=\s{0,9}$")
 
 
 def write(data: Data) -> bytes:
@@ -45,7 +49,7 @@ def write(data: Data) -> bytes:
     <BLANKLINE>
     """
     entries = to_arrays(data, "LaTeX")
-    lines = [f"% {name}: {entries[name]}" for name in TEXTS if name in entries]
+    lines = [f"% {name}: {escaped(entries[name])}" for name in TEXTS if name in entries]
     if "A" in entries and "A_hat" not in entries:
         tableau = from_data(data)
         nodes = [_node(tableau, x) for x in tableau.abelian().c]
@@ -81,10 +85,15 @@ def read(content: bytes, where: str) -> Data:
         text = content.decode()
     except UnicodeDecodeError:
         raise TableauError("bytes that are no UTF-8", where=where, expected="LaTeX") from None
-    entries: Arrays = {name: value for name, value in _TEXT.findall(text) if name in TEXTS}
-    if butcher := _BUTCHER.search(text):
-        return from_arrays({**entries, **_butcher(butcher[1], where)}, where)
-    for name, body in _MATRIX.findall(text):
+    entries = _texts(text)
+    found = list(_environments(_COMMENT.sub("", text), where))
+    if (array := next((body for name, body in found if name is None), None)) is not None:
+        return from_arrays({**entries, **_butcher(array, where)}, where)
+    for name, body in found:
+        if name is None:
+            continue
+        if name in entries:
+            raise TableauError(f"two matrices {name}", where=where, expected="one")
         rows = _rows(body, where)
         entries[name] = rows[0] if name in ROWS and rows else rows
     if not entries.keys() - set(TEXTS):
@@ -92,6 +101,39 @@ def read(content: bytes, where: str) -> Data:
             "no tableau", where=where, expected=r"\begin{array}{c|cc} ... or A = \begin{pmatrix} ..."
         )
     return from_arrays(entries, where)
+
+
+def _texts(text: str) -> Arrays:
+    """Return the texts in the comments before the first formula."""
+    entries: Arrays = {}
+    for line in text.split("\n"):
+        if line.strip() and not line.startswith("%"):
+            break
+        if (found := _TEXT.fullmatch(line.rstrip("\r"))) and found[1] in TEXTS:
+            entries.setdefault(found[1], unescaped(found[2]))
+    return entries
+
+
+def _environments(text: str, where: str) -> Iterator[tuple[str | None, str]]:
+    """Yield the body of each Butcher array with None, of each matrix with the name before it."""
+    opened: re.Match[str] | None = None
+    for token in _ENVIRONMENT.finditer(text):
+        if token[1] == "begin":
+            if opened is not None:
+                raise TableauError("a matrix within a matrix", where=where, expected="rows of numbers")
+            opened = token
+            continue
+        if opened is None or opened[2] != token[2]:
+            raise TableauError(f"{token[0]} without a beginning", where=where, expected="rows of numbers")
+        columns = _COLUMNS.match(text, opened.end())
+        named = _NAMED.search(text, max(0, opened.start() - 84), opened.start())
+        if opened[2] == "array" and columns is not None:
+            yield None, text[columns.end() : token.start()]
+        elif opened[2] != "array" and named is not None:
+            yield named[1], text[opened.end() : token.start()]
+        opened = None
+    if opened is not None:
+        raise TableauError(f"{opened[0]} without an end", where=where, expected="rows of numbers")
 
 
 def _butcher(body: str, where: str) -> Arrays:

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, TypeAlias, cast
 from orderconds.errors import TableauError
 from orderconds.exchange.arrays import TEXTS, Arrays, coefficient, from_arrays, json_table, to_arrays
 from orderconds.exchange.nested import Cells
-from orderconds.tableau.file import from_data
-from orderconds.tableau.write import Data
+from orderconds.tableau.file_format import Data
+from orderconds.tableau.record import from_data
 
 if TYPE_CHECKING:
     from orderconds.ring.protocol import RealRing
@@ -118,6 +118,11 @@ def read(content: bytes, where: str) -> Data:
     except UNREADABLE as problem:
         raise TableauError(str(problem) or "no archive", where=where, expected="an .npz archive") from None
     entries: Arrays = {}
+    for name, value in members.items():
+        if not isinstance(value, np.ndarray):
+            raise TableauError(f"{name}: no array", where=where, expected="arrays")
+        if name.endswith(EXACT) and value.dtype.kind != "U":
+            raise TableauError(f"{name}: {value.dtype}", where=where, expected="texts")
     for name, value in members.items():
         if name.endswith(EXACT):
             continue

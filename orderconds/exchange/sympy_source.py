@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import keyword
 import re
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
@@ -11,6 +12,7 @@ from orderconds.errors import TableauError
 from orderconds.exchange.arrays import (
     MATRICES,
     ROWS,
+    TABLES,
     TEXTS,
     Arrays,
     coefficient,
@@ -18,19 +20,23 @@ from orderconds.exchange.arrays import (
     json_table,
     to_arrays,
 )
+from orderconds.exchange.comments import escaped, unescaped
 from orderconds.exchange.nested import Cells, nested
 from orderconds.exchange.notation import from_python, to_python
 from orderconds.ring.roots import place_of_root
 from orderconds.tableau import Tableau
-from orderconds.tableau.file import from_data
-from orderconds.tableau.write import Data, as_data
+from orderconds.tableau.file_format import Data
+from orderconds.tableau.record import from_data
+from orderconds.tableau.write import as_data
 
 if TYPE_CHECKING:
     from sympy import Expr, Matrix
 
 IMPORT = "from sympy import CRootOf, Float, Integer, Matrix, Poly, Rational, Symbol, sqrt"
-_TEXT = re.compile(r"^# (\w+): (.*)$", re.MULTILINE)
-_ASSIGNED = re.compile(r"^(\w+)\s*=\s*(?:\w+\()?(\[.*?\])\)?$", re.MULTILINE | re.DOTALL)
+_TEXT = re.compile(r"# (\w{1,64}): (.*)")
+_ASSIGNED = re.compile(r"^(\w{1,64})[ \t]{0,20}=[ \t]{0,20}(?:\w{1,64}\()?(?=\[)", re.MULTILINE)
+_BRACKET = re.compile(r"[\[\]]")
+_NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 
 def write(data: Data) -> bytes:
@@ -39,8 +45,8 @@ def write(data: Data) -> bytes:
     >>> print(write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode().splitlines()[-1])
     b = Matrix([[1]])
     """
-    entries = to_arrays(data, "SymPy")
-    lines = [f"# {name}: {entries[name]}" for name in TEXTS if name in entries] + [IMPORT, ""]
+    entries = to_arrays(_with_python_names(data), "SymPy")
+    lines = [f"# {name}: {escaped(entries[name])}" for name in TEXTS if name in entries] + [IMPORT, ""]
     for name, number in _defined(entries):
         lines.append(f"{name} = {to_python(number) if isinstance(number, str) else _root(*number)}")
     for name, value in entries.items():
@@ -89,9 +95,11 @@ def read(content: bytes, where: str) -> Data:
         text = content.decode()
     except UnicodeDecodeError:
         raise TableauError("bytes that are no UTF-8", where=where, expected="Python source") from None
-    entries: Arrays = {name: value for name, value in _TEXT.findall(text) if name in TEXTS}
-    for name, value in _ASSIGNED.findall(text):
+    entries = _header(text)
+    for name, value in _assigned(re.sub(r"#.*", "", text), where):
         if name in ROWS + MATRICES:
+            if name in entries:
+                raise TableauError(f"two arrays {name}", where=where, expected="one")
             cells = _cells(nested(value, "[", "]", f"{where}: {name}"))
             entries[name] = cells[0] if name in ROWS and cells and isinstance(cells[0], list) else cells
     if not entries.keys() - set(TEXTS):
@@ -99,6 +107,67 @@ def read(content: bytes, where: str) -> Data:
             "no matrices", where=where, expected="assignments such as  A = Matrix([[0, 0], [1, 0]])"
         )
     return from_arrays(entries, where)
+
+
+def _header(text: str) -> Arrays:
+    """Return the texts in the comments before the first statement."""
+    entries: Arrays = {}
+    for line in text.split("\n"):
+        if line.strip() and not line.startswith("#"):
+            break
+        if (found := _TEXT.fullmatch(line.rstrip("\r"))) and found[1] in TEXTS:
+            entries.setdefault(found[1], unescaped(found[2]))
+    return entries
+
+
+def _assigned(text: str, where: str) -> Iterator[tuple[str, str]]:
+    """Yield each name to which a list is assigned, with the text of the list."""
+    end = 0
+    for start in _ASSIGNED.finditer(text):
+        if start.start() < end:
+            raise TableauError(
+                f"an assignment to {start[1]} within a list", where=where, expected="rows of numbers"
+            )
+        end = _closing(text, start.end(), where)
+        yield start[1], text[start.end() : end]
+
+
+def _closing(text: str, start: int, where: str) -> int:
+    """Return the place after the bracket that closes the one at ``start``."""
+    depth = 0
+    for bracket in _BRACKET.finditer(text, start):
+        depth += 1 if bracket[0] == "[" else -1
+        if depth == 0:
+            return bracket.end()
+    raise TableauError("a list without an end", where=where, expected="rows of numbers")
+
+
+def _with_python_names(data: Data) -> Data:
+    """Return the keys with other names for numbers whose names Python, or the source written, uses."""
+    taken = {*keyword.kwlist, *keyword.softkwlist, *_NAME.findall(IMPORT), *MATRICES, *ROWS}
+    numbers = data.get("numbers") or {}
+    renamed = dict[str, str]()
+    for name in numbers:
+        if name in taken:
+            other = name + "_"
+            while other in taken or other in numbers or other in renamed.values():
+                other += "_"
+            renamed[name] = other
+    if not renamed:
+        return data
+
+    def spelled(x: object) -> object:
+        if isinstance(x, str):
+            return _NAME.sub(lambda m: renamed.get(m[0], m[0]), x)
+        if isinstance(x, list):
+            return [spelled(y) for y in x]
+        return {key: spelled(y) for key, y in x.items()} if isinstance(x, dict) else x
+
+    texts = {key: data[key] for key in TEXTS if key in data and key not in TABLES}
+    rest = {key: spelled(x) for key, x in data.items() if key not in texts and key not in TABLES}
+    roots = {renamed.get(name, name): x if isinstance(x, dict) else spelled(x) for name, x in numbers.items()}
+    claims = {"claims": data["claims"]} if "claims" in data else {}
+    return {**texts, **rest, "numbers": roots, **claims}
 
 
 def _cells(value: Cells) -> Cells:

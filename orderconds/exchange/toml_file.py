@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import tomllib
-
 from orderconds.errors import TableauError
 from orderconds.tableau import dumps
-from orderconds.tableau.file import from_data
-from orderconds.tableau.write import Data
+from orderconds.tableau.file_format import Data
+from orderconds.tableau.record import from_data
+from orderconds.tableau.toml_reader import parse_toml
 
 
 def write(data: Data) -> bytes:
@@ -26,6 +25,6 @@ def read(content: bytes, where: str) -> Data:
     {'name': 'm'}
     """
     try:
-        return tomllib.loads(content.decode())
+        return parse_toml(content.decode())
     except (ValueError, RecursionError) as problem:  # no TOML, no UTF-8, an integer of thousands of digits
         raise TableauError(str(problem) or "nested too deep", where=where, expected="TOML") from None

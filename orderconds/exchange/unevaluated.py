@@ -14,8 +14,9 @@ from fractions import Fraction
 from orderconds.errors import TableauError
 from orderconds.ring.protocol import Element
 from orderconds.tableau.evaluate import evaluate_in
+from orderconds.tableau.file import File
 from orderconds.tableau.grammar import MAX_TEXT, ZERO, Chain, Constant, Expression, Name, Power, spell
-from orderconds.tableau.record import File, Tableau
+from orderconds.tableau.record import Tableau
 
 ONE = Constant(Fraction(1))
 

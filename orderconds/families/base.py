@@ -26,7 +26,8 @@ from orderconds.tableau.products import Method
 if TYPE_CHECKING:
     from typing import Self
 
-    from orderconds.tableau.record import OrderClaim, Tableau
+    from orderconds.tableau.claims import OrderClaim
+    from orderconds.tableau.record import Tableau
     from orderconds.tableau.work import Work
 
 Key = Hashable
@@ -215,7 +216,7 @@ class Family(ABC):
 
     def claim(self, order: int) -> OrderClaim:
         """Return the claim that the family has this order, as files spell it."""
-        from orderconds.tableau.record import OrderClaim
+        from orderconds.tableau.claims import OrderClaim
 
         return OrderClaim(self.label(), None, order)
 

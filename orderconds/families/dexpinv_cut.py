@@ -16,9 +16,10 @@ from orderconds.errors import InputError
 from orderconds.families.base import Family, Key
 from orderconds.families.reductions import UnseenCut
 from orderconds.series.dexpinv import bernoulli
+from orderconds.tableau.claims import OrderClaim
 from orderconds.tableau.methods import RungeKutta
 from orderconds.tableau.products import Method
-from orderconds.tableau.record import OrderClaim, Tableau
+from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work, munthe_kaas_work
 
 CLAIMED = (0, 1, 2)

@@ -24,9 +24,9 @@ from orderconds.families.rk import symmetric_tableau
 from orderconds.formula import Formula
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.b_series import ElementaryWeights
+from orderconds.tableau.method_properties import symplectic_pair
 from orderconds.tableau.methods import PartitionedRungeKutta, RungeKutta
 from orderconds.tableau.products import Method
-from orderconds.tableau.properties import symplectic_pair
 from orderconds.tableau.record import Tableau
 from orderconds.trees import bicoloured
 from orderconds.trees.bicoloured import BicolouredTree

@@ -15,9 +15,9 @@ from orderconds.families.registry import register
 from orderconds.formula import Formula
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.b_series import ElementaryWeights, runge_kutta_series
+from orderconds.tableau.method_properties import symmetric
 from orderconds.tableau.methods import CommutatorFree, Composition, PartitionedRungeKutta, RungeKutta
 from orderconds.tableau.products import Method
-from orderconds.tableau.properties import symmetric
 from orderconds.tableau.record import Tableau
 from orderconds.trees.levels import Tree, children, density, text
 from orderconds.trees.rooted import rooted_trees

@@ -12,7 +12,8 @@ from typing import Self
 from orderconds.families.base import Family
 from orderconds.families.registry import register
 from orderconds.families.vrkmk import VariationalMuntheKaas
-from orderconds.tableau.record import OrderClaim, Tableau
+from orderconds.tableau.claims import OrderClaim
+from orderconds.tableau.record import Tableau
 
 
 @register

@@ -19,9 +19,9 @@ from orderconds.families.relations import RootSwitching
 from orderconds.families.rk import has_weights, symmetric_tableau
 from orderconds.ring.protocol import Element, Ring
 from orderconds.series.b_series import ElementaryWeights
+from orderconds.tableau.method_properties import symplectic
 from orderconds.tableau.methods import RungeKutta
 from orderconds.tableau.products import Method
-from orderconds.tableau.properties import symplectic
 from orderconds.tableau.record import Tableau
 from orderconds.tableau.simplifying import highest_assumptions
 from orderconds.trees.directed import (

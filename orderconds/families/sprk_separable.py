@@ -21,9 +21,9 @@ from orderconds.families.relations import RootSwitching
 from orderconds.families.rk import symmetric_tableau
 from orderconds.families.stage_form import StageForm, tableau_form
 from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.method_properties import symplectic_pair
 from orderconds.tableau.methods import PartitionedRungeKutta, RungeKutta
 from orderconds.tableau.products import Method
-from orderconds.tableau.properties import symplectic_pair
 from orderconds.tableau.record import Tableau
 from orderconds.trees.bicoloured import alternating, alternating_free_trees, moves, text
 from orderconds.trees.rooted import rooted_trees

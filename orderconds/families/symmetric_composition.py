@@ -20,9 +20,9 @@ from orderconds.families.relations import Polynomial, add, multiply
 from orderconds.families.stage_form import StageForm, refuse_explicit
 from orderconds.formula import Formula, coefficient, product
 from orderconds.ring.protocol import Ring
+from orderconds.tableau.method_properties import reads_backwards
 from orderconds.tableau.methods import Composition
 from orderconds.tableau.products import Method
-from orderconds.tableau.properties import reads_backwards
 from orderconds.tableau.record import Tableau
 from orderconds.words.compositions import compositions
 from orderconds.words.convolution import logarithm_scales

@@ -9,15 +9,19 @@ from __future__ import annotations
 import itertools
 from collections.abc import Container, Hashable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
-if TYPE_CHECKING:
-    from sympy import Expr
-
-Relation = tuple[str, str, str]
-"""``("i", "<", "j")`` or ``("i", "<=", "j")``: a restriction on two indices of one sum."""
+from orderconds.formula.notation import (
+    LATEX,
+    TEXT,
+    Notation,
+    Relation,
+    chains,
+    joined,
+    latex_fraction,
+    subscript,
+)
 
 STAGE_NAMES = ("i", "j", "k", "l", "m", "n", "p", "q", "r", "u", "v", "w")
 EXPONENTIAL_NAMES = ("I", "J", "K", "L", "M", "N", "P", "Q", "R", "U", "V", "W")
@@ -30,21 +34,11 @@ class Formula(Struct, frozen=True):
 
     def text(self) -> str:
         """Return the formula in ASCII, as ``sum_{i,j} b_i a_ij c_j``."""
-        from orderconds.formula.rendering import TEXT, render
-
-        return render(self, TEXT)
+        return _rendered(self, TEXT)
 
     def latex(self) -> str:
         """Return the formula for LaTeX's mathematics mode."""
-        from orderconds.formula.rendering import LATEX, render
-
-        return render(self, LATEX)
-
-    def sympy(self) -> Expr:
-        """Return a SymPy expression; stages run from 1 to ``s``, exponentials to ``m``."""
-        from orderconds.formula.sympy_form import export
-
-        return export(self)
+        return _rendered(self, LATEX)
 
 
 class Coefficient(Formula, frozen=True):
@@ -340,3 +334,47 @@ def _next_name(index: str, used: Container[str]) -> str:
         if name not in used:
             return name
     return next(name for name in (f"{pool[0]}{n}" for n in itertools.count(1)) if name not in used)
+
+
+def _rendered(formula: Formula, notation: Notation) -> str:
+    match formula:
+        case Coefficient(name, indices):
+            return notation.names.get(name, name) + subscript(joined(indices), notation)
+        case Product(factors):
+            return " ".join(_grouped(factor, notation) for factor in factors) or "1"
+        case Power(base, exponent):
+            raised = f"{{{exponent}}}" if notation.always_braces else str(exponent)
+            compound = isinstance(base, Product | Power) or (isinstance(base, Total) and len(base.terms) == 1)
+            inner = f"{notation.opening}{_rendered(base, notation)}{notation.closing}"
+            return f"{inner if compound else _grouped(base, notation)}^{raised}"
+        case Total(terms):
+            return _terms(terms, notation)
+        case IndexSum(indices, relations, body):
+            below = subscript(chains(indices, relations, notation), notation)
+            summand = _bracketed(body, notation) if isinstance(body, Total) else _rendered(body, notation)
+            return f"{notation.total}{below} {summand}"
+    raise TypeError(f"not a formula: {formula!r}")
+
+
+def _bracketed(formula: Formula, notation: Notation) -> str:
+    return f"{notation.opening}{_rendered(formula, notation)}{notation.closing}"
+
+
+def _grouped(formula: Formula, notation: Notation) -> str:
+    is_sum = isinstance(formula, IndexSum | Total)
+    return _bracketed(formula, notation) if is_sum else _rendered(formula, notation)
+
+
+def _terms(terms: Sequence[tuple[Fraction, Formula]], notation: Notation) -> str:
+    written = ""
+    for scale, term in terms:
+        sign = (" - " if scale < 0 else " + ") if written else ("-" if scale < 0 else "")
+        magnitude = abs(scale)
+        size = latex_fraction(magnitude) if notation.latex_fractions else str(magnitude)
+        if isinstance(term, Product) and not term.factors:
+            factor = size
+        else:
+            body = _bracketed(term, notation) if isinstance(term, Total) else _rendered(term, notation)
+            factor = body if size == "1" else f"{size} {body}"
+        written += sign + factor
+    return written or "0"

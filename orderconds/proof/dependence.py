@@ -33,7 +33,7 @@ PRIME_BITS = 61
 """Size of the primes: products of residues fit in flint's words, and small fractions need one prime."""
 
 MAX_PRIMES = 24
-"""How many primes are tried. Combinations with larger coefficients are not found."""
+"""How many primes are tried. Combinations with larger coefficients are not computed."""
 
 Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
 """A dependent condition to its combination of monomials; a coefficient is x + y sqrt(d)."""
@@ -60,13 +60,13 @@ class Dependences:
             return None
 
     def _fraction(self, condition: OrderCondition, monomial: Monomial, part: int) -> Fraction:
-        found = [modular[condition].get(monomial, (0, 0))[part] for modular in self.residues]
-        return rational_number(found, self.primes) if any(found) else Fraction(0)
+        computed = [modular[condition].get(monomial, (0, 0))[part] for modular in self.residues]
+        return rational_number(computed, self.primes) if any(computed) else Fraction(0)
 
 
 def dependences(
     family: Family,
-    spelled: Spelled,
+    formulas: Spelled,
     candidates: Sequence[Sequence[OrderCondition]],
     draws: Draws,
     surd: Surd | None,
@@ -78,16 +78,16 @@ def dependences(
     another one does not count.
     """
     everything = [c for of_order in candidates for c in of_order]
-    avoided = [n for c in constants(spelled) for n in (c.value.numerator, c.value.denominator)]
+    avoided = [n for c in constants(formulas) for n in (c.value.numerator, c.value.denominator)]
     best: Dependences | None = None
     for prime in islice(draws.primes(PRIME_BITS, avoided), MAX_PRIMES):
         try:
-            found = _modulo(_Sampling(family, spelled, everything, prime, draws, read), candidates, surd)
+            computed = _modulo(_Sampling(family, formulas, everything, prime, draws, read), candidates, surd)
         except (_NoRoot, ZeroWeight, ZeroDivisionError, ValueError):
             continue
-        if found is None:
+        if computed is None:
             continue
-        pivots, residues = found
+        pivots, residues = computed
         places = [everything.index(c) for c in pivots]
         known = [] if best is None else [everything.index(c) for c in best.pivots]
         if best is None or (-len(places), places) < (-len(known), known):
@@ -108,8 +108,8 @@ def _modulo(
     """
     prime = sampling.prime
     if surd is None:
-        pivots, found = _independent(sampling, candidates, None)
-        return pivots, {c: {m: (x, 0) for m, x in terms.items()} for c, terms in found.items()}
+        pivots, computed = _independent(sampling, candidates, None)
+        return pivots, {c: {m: (x, 0) for m, x in terms.items()} for c, terms in computed.items()}
     root = _root_modulo(surd.radicand, prime)
     (pivots, one), (others, two) = (_independent(sampling, candidates, r) for r in (root, prime - root))
     if pivots != others:
@@ -136,8 +136,8 @@ def _independent(
         for n, of_order in enumerate(candidates, start=1):
             row = [*products(generators, n), *(values[c] for c in of_order)]
             before = len(row) - len(of_order)
-            found, dependent = echelon([x.coordinates() for x in row], sampling.prime)
-            chosen = [of_order[p - before] for p in found if p >= before]
+            computed, dependent = echelon([x.coordinates() for x in row], sampling.prime)
+            chosen = [of_order[p - before] for p in computed if p >= before]
             for place, terms in dependent.items():
                 if place >= before:
                     combinations[of_order[place - before]] = {row[p].factors: x for p, x in terms.items()}
@@ -170,7 +170,7 @@ class _Sampling:
     """Conditions of a family, and where to evaluate them."""
 
     family: Family
-    spelled: Spelled
+    formulas: Spelled
     conditions: Sequence[OrderCondition]
     prime: int
     draws: Draws
@@ -180,8 +180,8 @@ class _Sampling:
         """Return the values of the conditions at so many random members and at the flow."""
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
-        known = {u.constant: ring.random(generator) for u in self.spelled.decimals()}
-        method: Any = self.spelled.method(ring, known)[0]
+        known = {u.constant: ring.random(generator) for u in self.formulas.decimals()}
+        method: Any = self.formulas.method(ring, known)[0]
         read = method if self.read is None else self.read(method, ring)
         values = self.family.evaluate(read, ring, self.conditions)
         flow = [

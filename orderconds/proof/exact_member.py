@@ -44,7 +44,7 @@ class Surd:
     root: Element
 
 
-def lone_square_root(spelled: Spelled) -> Surd | None:
+def lone_square_root(formulas: Spelled) -> Surd | None:
     """Return the only radical of a file where it is the square root of an exact rational, else None.
 
     >>> from orderconds.tableau import Tableau
@@ -54,13 +54,13 @@ def lone_square_root(spelled: Spelled) -> Surd | None:
     >>> found.radicand, found.ring.text(found.root * found.root)
     (Fraction(12, 1), '12')
     """
-    different = radicals(spelled)
+    different = radicals(formulas)
     if len(different) != 1 or different[0].exponent.denominator != 2:
         return None
-    exact = {name: x for name, x in spelled.numbers.items() if not any(c.unit for c in rounded_and_exact(x))}
+    exact = {name: x for name, x in formulas.numbers.items() if not any(c.unit for c in rounded_and_exact(x))}
     tower = Tower()
     try:
-        inside: Any = evaluate_in(tower, {"radicand": different[0].base}, exact, spelled.where)["radicand"]
+        inside: Any = evaluate_in(tower, {"radicand": different[0].base}, exact, formulas.where)["radicand"]
         if not inside.is_rational:
             return None
         radicand = inside.rational_value
@@ -102,37 +102,39 @@ class ExactMember:
 
 def exact_member(
     family: Family,
-    spelled: Spelled,
+    formulas: Spelled,
     conditions: Sequence[OrderCondition],
     draws: Draws,
     surd: Surd | None,
     read: Reading | None = None,
 ) -> ExactMember | None:
-    """Return a random member of the sub-family that ``spelled`` describes.
+    """Return a random member of the sub-family that ``formulas`` describes.
 
     None where it cannot be evaluated: its numbers explode, or a divisor is zero.
     """
     try:
-        method, ring = _member(spelled, draws, surd)
+        method, ring = _member(formulas, draws, surd)
         left = family.evaluate(method if read is None else read(method, ring), ring, conditions)
     except OUTSIDE:
         return None
     return ExactMember(ring, dict(zip(conditions, left, strict=True)), surd)
 
 
-def _member(spelled: Spelled, draws: Draws, surd: Surd | None) -> tuple[Method, Ring]:
+def _member(formulas: Spelled, draws: Draws, surd: Surd | None) -> tuple[Method, Ring]:
     if surd is None:
-        ring = RandomMember(spelled, draws)
+        ring = RandomMember(formulas, draws)
         return ring.method(), ring
-    values = evaluate_in(_Scalars(spelled, draws, surd), spelled.expressions, spelled.numbers, spelled.where)
-    return spelled.build(values, surd.ring)[0], surd.ring
+    values = evaluate_in(
+        _Scalars(formulas, draws, surd), formulas.expressions, formulas.numbers, formulas.where
+    )
+    return formulas.build(values, surd.ring)[0], surd.ring
 
 
 class _Scalars:
     """Numbers drawn over the field that a square root generates."""
 
-    def __init__(self, spelled: Spelled, draws: Draws, surd: Surd) -> None:
-        self._drawn, self._surd = RandomMember(spelled, draws), surd
+    def __init__(self, formulas: Spelled, draws: Draws, surd: Surd) -> None:
+        self._drawn, self._surd = RandomMember(formulas, draws), surd
 
     def constant(self, value: Fraction, unit: Fraction) -> Element:
         if unit:
@@ -149,7 +151,7 @@ class _Scalars:
         return self._drawn.size(x) if self._surd.ring.name == "QQ" else Tower().size(x)
 
 
-def constants(spelled: Spelled) -> Iterator[Constant]:
+def constants(formulas: Spelled) -> Iterator[Constant]:
     """Yield every constant of a file.
 
     >>> from orderconds.tableau import Tableau
@@ -158,7 +160,7 @@ def constants(spelled: Spelled) -> Iterator[Constant]:
     >>> [str(c.value) for c in constants(proof.spelled)]
     ['1/2', '1']
     """
-    for x in (*spelled.expressions.values(), *spelled.numbers.values()):
+    for x in (*formulas.expressions.values(), *formulas.numbers.values()):
         if isinstance(x, NamedRoot):
             yield from (Constant(c) for c in x.minpoly)
         else:

@@ -154,17 +154,31 @@ def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequen
     kept = {name: _spelled(value) for name, value in proof.printed.items()} or record
     lines, skipping = list[str](), False
     for line in text.splitlines():
-        if line.startswith("["):
-            skipping = line.strip() == "[proof.printed]"
+        if line.lstrip().startswith("["):
+            skipping = _header(line) == "proof.printed"
         if not skipping and not re.match(r"(pins|printed)\s*=", line):
             lines.append(line)
-    at = next(i for i, line in enumerate(lines) if line.strip() == "[proof]")
-    end = next((i for i in range(at + 1, len(lines)) if lines[i].startswith("[")), len(lines))
+    at = next((i for i, line in enumerate(lines) if _header(line) == "proof"), None)
+    if at is None:
+        raise NotProved("the proof stands in an inline table; write it as a table, under the line [proof]")
+    end = next((i for i in range(at + 1, len(lines)) if _header(lines[i])), len(lines))
     while not lines[end - 1].strip():
         end -= 1
     added = [f"pins = [{', '.join(_quoted(name) for name in pinned)}]"] if pinned else []
     added += ["", "[proof.printed]", *(f"{_key(name)} = {_quoted(x)}" for name, x in kept.items())]
     return "\n".join([*lines[:end], *added, *lines[end:]]) + "\n"
+
+
+def _header(line: str) -> str:
+    """Return the name of the table that a line of TOML begins, or an empty text.
+
+    >>> _header("[ proof . printed ]  # as the source has them"), _header('pins = ["a"]')
+    ('proof.printed', '')
+    """
+    found = re.match(r"\s*\[\[?([^\[\]#]*)\]", line)
+    if found is None:
+        return ""
+    return ".".join(part.strip().strip("\"'") for part in found[1].split("."))
 
 
 def _figures(value: Fraction, places: int) -> str:

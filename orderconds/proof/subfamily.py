@@ -24,7 +24,7 @@ from orderconds.tableau.unknowns import Spelled
 
 
 def independent_conditions(
-    family: Family, spelled: Spelled, order: int, read: Reading | None = None
+    family: Family, formulas: Spelled, order: int, read: Reading | None = None
 ) -> tuple[OrderCondition, ...]:
     """Return the family's conditions up to ``order`` that do not follow from others for this spelling.
 
@@ -34,21 +34,21 @@ def independent_conditions(
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["b1/2"], ["b1", "b2/2"]]\\nb = ["b1", "b2"]\\n'
     >>> text += '[numbers]\\nb1 = "0.4~"\\nb2 = "1 - b1"\\n[proof]\\nconditions = "vcg"\\norder = 3'
-    >>> spelled = Tableau.loads(text).proof.spelled
-    >>> [c.tree for c in independent_conditions(families.get("vcg"), spelled, 3)]
+    >>> formulas = Tableau.loads(text).proof.spelled
+    >>> [c.tree for c in independent_conditions(families.get("vcg"), formulas, 3)]
     ['o(o o)']
     """
     candidates = decisive_conditions(family, order)
     everything = tuple(c for of_order in candidates for c in of_order)
-    draws = Draws(family.label(), str(order), description(spelled))
-    surd = lone_square_root(spelled)
-    member = exact_member(family, spelled, everything, draws, surd, read)
+    draws = Draws(family.label(), str(order), description(formulas))
+    surd = lone_square_root(formulas)
+    member = exact_member(family, formulas, everything, draws, surd, read)
     if member is None:
         return everything
     kept = set(everything)
-    for found in dependences(family, spelled, candidates, draws, surd, read):
-        unverified = {c for c, combination in found.combinations() if not member.verifies(c, combination)}
-        kept = unverified.union(found.pivots)
+    for computed in dependences(family, formulas, candidates, draws, surd, read):
+        unverified = {c for c, combination in computed.combinations() if not member.verifies(c, combination)}
+        kept = unverified.union(computed.pivots)
         if not unverified:
             break
     return tuple(c for c in everything if c in kept and not member.holds(c))

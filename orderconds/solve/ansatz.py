@@ -10,18 +10,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 
-from orderconds import families
 from orderconds.errors import InputError
-from orderconds.families import Family
 from orderconds.ring.protocol import Element
-from orderconds.solve.spec import Spec
 from orderconds.tableau import Method, Tableau
 from orderconds.tableau.unknowns import RootedRing, Spelled
-
-if TYPE_CHECKING:
-    from orderconds.solve.parametrise import Layout
 
 
 @dataclass(frozen=True)
@@ -87,49 +80,11 @@ def _place(name: str) -> tuple[bool, bool, str, list[int]]:
     return (letters != "m", letters != "b", letters, [int(x) for x in name[len(letters) :].split("_") if x])
 
 
-def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found") -> Ansatz:
-    """Return the ansatz of a family, by its label, for a specification.
-
-    Raises :class:`~orderconds.errors.InputError` for options that contradict each other or that the family
-    cannot meet.
-
-    >>> found = ansatz("rk", Spec(stages=2, explicit=True, fix=("a21=1/2",)))
-    >>> found.free, found.body[2]
-    (('b1', 'b2'), 'A = [[], ["1/2"]]')
-    """
-    found = families.get(family)
-    layout = _layout(found)
-    if spec.stages < 1:
-        raise InputError(f"{spec.stages} stages", where="--stages", expected="at least one")
-    return layout.ansatz(found, spec, structure, name)
-
-
-def structures(family: str, spec: Spec) -> tuple[str, ...]:
-    """Return the structures in which a search of this family begins, the most promising first.
-
-    >>> structures("vcg", Spec(stages=3)), structures("cg", Spec(stages=3))
-    (('abscissae', 'full'), ('full',))
-    """
-    found = families.get(family)
-    return _layout(found).structures(found, spec)
-
-
-def _layout(family: Family) -> Layout:
-    from orderconds.solve.parametrise import LAYOUTS
-
-    if family.unknowns not in LAYOUTS:
-        searched = [n for n in families.names() if families.family_class(n).unknowns in LAYOUTS]
-        raise InputError(
-            f"no search in family {family.label()!r}",
-            where="solve",
-            expected=f"one of {', '.join(searched)}",
-        )
-    return LAYOUTS[family.unknowns]
-
-
 def renamed(found: Ansatz, name: str) -> Ansatz:
     """Return the same ansatz with another name in its file.
 
+    >>> from orderconds.solve.parametrise import ansatz
+    >>> from orderconds.solve.spec import Spec
     >>> renamed(ansatz("rk", Spec(stages=1)), "mine").body[0]
     'name = "mine"'
     """

@@ -31,10 +31,10 @@ from orderconds.solve.problem import Problem
 from orderconds.solve.search import CHEAP, POLISHED
 from orderconds.solve.tape import Floats
 from orderconds.tableau import CommutatorFree, Method, Stage, Tableau, dumps
+from orderconds.tableau.claims import Claims, OrderClaim
 from orderconds.tableau.grammar import Constant
 from orderconds.tableau.properties import properties
 from orderconds.tableau.random_member import radicals
-from orderconds.tableau.record import Claims, OrderClaim
 from orderconds.tableau.toml_text import toml_text
 from orderconds.tableau.write import written_out
 

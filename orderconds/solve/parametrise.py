@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from orderconds import families
 from orderconds.errors import InputError
 from orderconds.families import Family
 from orderconds.solve.abscissae import (
@@ -389,3 +390,41 @@ LAYOUTS = {
     "splitting": Layout(splitting, one_structure),
 }
 """Tableau format to its layout: :attr:`orderconds.families.Family.unknowns` names one of them."""
+
+
+def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found") -> Ansatz:
+    """Return the ansatz of a family, by its label, for a specification.
+
+    Raises :class:`~orderconds.errors.InputError` for options that contradict each other or that the family
+    cannot meet.
+
+    >>> found = ansatz("rk", Spec(stages=2, explicit=True, fix=("a21=1/2",)))
+    >>> found.free, found.body[2]
+    (('b1', 'b2'), 'A = [[], ["1/2"]]')
+    """
+    found = families.get(family)
+    layout = _layout(found)
+    if spec.stages < 1:
+        raise InputError(f"{spec.stages} stages", where="--stages", expected="at least one")
+    return layout.ansatz(found, spec, structure, name)
+
+
+def structures(family: str, spec: Spec) -> tuple[str, ...]:
+    """Return the structures in which a search of this family begins, the most promising first.
+
+    >>> structures("vcg", Spec(stages=3)), structures("cg", Spec(stages=3))
+    (('abscissae', 'full'), ('full',))
+    """
+    found = families.get(family)
+    return _layout(found).structures(found, spec)
+
+
+def _layout(family: Family) -> Layout:
+    if family.unknowns not in LAYOUTS:
+        searched = [n for n in families.names() if families.family_class(n).unknowns in LAYOUTS]
+        raise InputError(
+            f"no search in family {family.label()!r}",
+            where="solve",
+            expected=f"one of {', '.join(searched)}",
+        )
+    return LAYOUTS[family.unknowns]

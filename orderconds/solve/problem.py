@@ -15,7 +15,8 @@ from orderconds.families import Family
 from orderconds.proof.subfamily import independent_conditions
 from orderconds.ring.protocol import Element, Ring
 from orderconds.ring.traces import Trace, Traces
-from orderconds.solve.ansatz import Ansatz, ansatz
+from orderconds.solve.ansatz import Ansatz
+from orderconds.solve.parametrise import ansatz
 from orderconds.solve.spec import Spec
 from orderconds.solve.tape import Floats, Tape
 from orderconds.tableau import CommutatorFree, Method, RungeKutta

@@ -10,9 +10,9 @@ from pathlib import Path
 from orderconds.errors import InputError
 from orderconds.proof.krawczyk import NotProved
 from orderconds.solve.abscissae import WHERE
-from orderconds.solve.ansatz import structures
 from orderconds.solve.certify_solution import Found, certify_solution
 from orderconds.solve.elimination import Infeasible, infeasible
+from orderconds.solve.parametrise import structures
 from orderconds.solve.problem import Problem, find_problem
 from orderconds.solve.search import BATCH, Batch, Checkpoint, Search, batches
 from orderconds.solve.spec import Spec

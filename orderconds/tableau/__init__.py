@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from orderconds.lazy import lazy
 
 if TYPE_CHECKING:
-    from orderconds.tableau.file import load, loads
+    from orderconds.tableau.claims import Claims, OrderClaim
     from orderconds.tableau.library import available, find
     from orderconds.tableau.methods import (
         CommutatorFree,
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
         Stage,
     )
     from orderconds.tableau.products import AdjointComposition, Magnus, Method, Splitting
-    from orderconds.tableau.record import Claims, OrderClaim, Tableau
+    from orderconds.tableau.record import Tableau, load, loads
     from orderconds.tableau.write import dumps
 
 __all__ = [
@@ -46,7 +46,7 @@ __all__ = [
 
 lazy(
     __name__,
-    file=("load", "loads"),
+    claims=("Claims", "OrderClaim"),
     library=("available", "find"),
     methods=(
         "CommutatorFree",
@@ -58,6 +58,6 @@ lazy(
         "Stage",
     ),
     products=("AdjointComposition", "Magnus", "Method", "Splitting"),
-    record=("Claims", "OrderClaim", "Tableau"),
+    record=("Tableau", "load", "loads"),
     write=("dumps",),
 )

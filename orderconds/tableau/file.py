@@ -15,8 +15,10 @@ from msgspec import Struct
 
 from orderconds.errors import InputError, TableauError
 from orderconds.input_file import read_bytes
+from orderconds.ring.protocol import Ring
+from orderconds.tableau.claims import Claims, OrderClaim
 from orderconds.tableau.evaluate import Definition, NamedRoot, evaluate
-from orderconds.tableau.file_format import Claim, CutoffClaim, Format, Number, ProofEntry, RootEntry
+from orderconds.tableau.file_format import Claim, CutoffClaim, Data, Format, Number, ProofEntry, RootEntry
 from orderconds.tableau.formats import (
     FORMATS,
     CommutatorFreeFile,
@@ -26,13 +28,17 @@ from orderconds.tableau.formats import (
     StageEntry,
 )
 from orderconds.tableau.grammar import Chain, Constant, Expression, parse
-from orderconds.tableau.properties import PROPERTIES
-from orderconds.tableau.record import Claims, File, OrderClaim, Tableau
+from orderconds.tableau.method_properties import PROPERTIES
+from orderconds.tableau.methods import LowerOrder
+from orderconds.tableau.products import Method
+from orderconds.tableau.toml_reader import parse_toml
 from orderconds.tableau.unknowns import Proof, Spelled
 
 MAX_NAME = 64
 KEYS = frozenset(("family", "A", "b", "stage", "update", "low_storage", "gamma", "alpha", "exponents"))
 """A file with one of these keys is meant as a tableau."""
+_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufeff]")
+"""Characters that end lines unseen or change the direction of writing; tab and newline are none."""
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.+-]*")
 _NUMBER = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
@@ -45,16 +51,17 @@ _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
 }
 
 
-def load(path: str | Path) -> Tableau:
-    """Read the tableau file at ``path``.
+class File(Struct, frozen=True):
+    """A tableau file: its keys and values, as read and as typed, and the method, claims and proof in them."""
 
-    Raises :class:`TableauError` naming the file, the key, what was found and what was expected.
-
-    >>> from orderconds.tableau import find
-    >>> load(find("kutta3")).name
-    'kutta3'
-    """
-    return loads(text_of(path), str(path), str(path))
+    data: Mapping[str, object]
+    entry: Format
+    ring: Ring
+    method: Method
+    embedded: LowerOrder | None
+    claims: Claims
+    spelled: Spelled
+    proof: Proof | None
 
 
 def text_of(path: str | Path) -> str:
@@ -91,40 +98,38 @@ def meant_as_tableau(path: str | Path) -> bool:
     (False, True)
     """
     try:
-        return not KEYS.isdisjoint(tomllib.loads(text_of(path)))
+        return not KEYS.isdisjoint(parse_toml(text_of(path)))
     except (InputError, ValueError, RecursionError):
         return True
 
 
-def loads(text: str, where: str = "<text>", path: str | None = None) -> Tableau:
-    """Read a tableau from TOML text; ``where`` names it in messages.
+def parsed(text: str, where: str) -> Data:
+    """Return the keys and values of TOML text; ``where`` names it in messages.
 
-    >>> loads('name = "euler"\\nfamily = "rk"\\nA = [[]]\\nb = ["1"]').method
-    RungeKutta(A=((0,),), b=(1,))
+    >>> parsed('A = [[]]', "text")
+    {'A': [[]]}
     """
     try:
-        data = tomllib.loads(text)
+        return parse_toml(text)
     except tomllib.TOMLDecodeError as problem:
         raise TableauError(
-            str(problem), where=where, expected="a TOML file in which each key stands once"
+            str(problem), where=where, expected="a TOML file in which no key occurs twice"
         ) from None
     except RecursionError:
         raise TableauError("TOML nested too deep", where=where, expected="a table or list or two") from None
-    except (
-        ValueError
-    ):  # Python reads no integer of more than some thousand digits, no date outside the calendar
+    # Python reads no integer of more than some thousand digits, and no date outside the calendar.
+    except ValueError:
         raise TableauError(
-            "an integer of thousands of digits, or a date that is none",
+            "an integer of thousands of digits, or an impossible date",
             where=where,
             expected='coefficients quoted, as "1/2"',
         ) from None
-    return from_data(data, where, path)
 
 
-def from_data(data: Mapping[str, object], where: str = "<data>", path: str | None = None) -> Tableau:
-    """Return the tableau of a file's keys and values, as TOML or JSON give them.
+def read(data: Mapping[str, object], where: str) -> File:
+    """Return the content of a file from its keys and values, as TOML or JSON give them.
 
-    >>> from_data({"name": "euler", "family": "rk", "A": [[]], "b": ["1"]}).method
+    >>> read({"name": "euler", "family": "rk", "A": [[]], "b": ["1"]}, "data").method
     RungeKutta(A=((0,),), b=(1,))
     """
     entry = _converted(data, where)
@@ -138,20 +143,8 @@ def from_data(data: Mapping[str, object], where: str = "<data>", path: str | Non
     except TableauError as problem:  # which names the tableau and the key, not the file
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
-    claims, spelled = _claims(entry, where), Spelled(expressions, numbers, where, entry.build)
-    return Tableau(
-        name=entry.name,
-        family=entry.family,
-        ring=ring,
-        method=method,
-        source=entry.source,
-        bibtex=entry.bibtex,
-        claims=claims,
-        embedded=embedded,
-        path=path,
-        proof=_proof(entry, spelled),
-        file=File(data, spelled, method, embedded, claims),
-    )
+    source = Spelled(expressions, numbers, where, entry.build)
+    return File(data, entry, ring, method, embedded, _claims(entry, where), source, _proof(entry, source))
 
 
 def _converted(data: Mapping[str, object], where: str) -> Format:
@@ -209,6 +202,13 @@ def _verify_names(entry: Format, where: str) -> None:
                 f"a name of {len(name)} characters, {name[:20]!r} ...",
                 where=where,
                 expected=f"at most {MAX_NAME}",
+            )
+    for key in ("source", "bibtex"):
+        if found := _CONTROL.search(getattr(entry, key)):
+            raise TableauError(
+                f"the control character U+{ord(found[0]):04X}",
+                where=f"{where}: {key}",
+                expected="text that reads as it is written",
             )
     if not _NAME.fullmatch(entry.name):
         raise TableauError(

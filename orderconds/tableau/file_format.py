@@ -18,6 +18,7 @@ from orderconds.tableau.methods import LowerOrder, Row
 from orderconds.tableau.products import Method
 
 Coefficient = str | int
+Data = dict[str, Any]
 Places = Iterator[tuple[str, Coefficient]]
 MAX_STAGES = 200
 MAX_PARTS = 6

@@ -5,18 +5,22 @@ Each is True, False, or None where the coefficients are balls too wide to tell.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 
 from orderconds.ring import Balls
-from orderconds.ring.protocol import Element, Ring
+from orderconds.ring.protocol import Ring
+from orderconds.tableau.method_properties import (
+    DEFINITIONS,
+    Verdict,
+    reads_backwards,
+    symmetric_product,
+    symplectic_pair,
+)
 from orderconds.tableau.methods import CommutatorFree, Composition, PartitionedRungeKutta, RungeKutta
 from orderconds.tableau.palindromes import symmetric_paths
 from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
 from orderconds.tableau.record import Tableau
-from orderconds.tableau.reversal import symmetric_exponents
 from orderconds.tableau.stability import stability, stability_of_midpoints
-
-Verdict = bool | None
 
 
 def properties(tableau: Tableau) -> dict[str, Verdict]:
@@ -81,135 +85,6 @@ def _of_tableau(method: RungeKutta, ring: Ring) -> dict[str, Verdict]:
     return {name: holds(method, ring) for name, holds in DEFINITIONS.items()}
 
 
-def _all(verdicts: Iterable[Verdict]) -> Verdict:
-    """Conjunction with unknowns: False wins, then None."""
-    unknown = False
-    for verdict in verdicts:
-        if verdict is False:
-            return False
-        unknown |= verdict is None
-    return None if unknown else True
-
-
-def _equal(x: Element, y: Element, ring: Ring) -> Verdict:
-    """Decide x = y; one element (equal spellings of a file) equals itself even as a ball."""
-    return True if x is y else ring.is_zero(x - y)
-
-
-def explicit(method: RungeKutta, ring: Ring) -> Verdict:
-    """a_ij = 0 for j >= i.
-
-    >>> from orderconds.tableau import Tableau, find
-    >>> rk4 = Tableau.load(find("rk4"))
-    >>> explicit(rk4.method, rk4.ring)
-    True
-    """
-    return _all(ring.is_zero(method.A[i][j]) for i in range(method.s) for j in range(i, method.s))
-
-
-def diagonally_implicit(method: RungeKutta, ring: Ring) -> Verdict:
-    """a_ij = 0 for j > i, and not all a_ii = 0.
-
-    >>> from orderconds.tableau import Tableau, find
-    >>> gauss1 = Tableau.load(find("gauss1"))
-    >>> diagonally_implicit(gauss1.method, gauss1.ring)
-    True
-    """
-    above = _all(ring.is_zero(method.A[i][j]) for i in range(method.s) for j in range(i + 1, method.s))
-    is_explicit = explicit(method, ring)
-    return _all([above, None if is_explicit is None else not is_explicit])
-
-
-def symplectic(method: RungeKutta, ring: Ring) -> Verdict:
-    """b_i a_ij + b_j a_ji = b_i b_j (HLW Theorem VI.4.3).
-
-    >>> from orderconds.tableau import Tableau, find
-    >>> gauss2 = Tableau.load(find("gauss2"))
-    >>> symplectic(gauss2.method, gauss2.ring)
-    True
-    """
-    A, b, s = method.A, method.b, method.s
-    return _all(
-        ring.is_zero(b[i] * A[i][j] + b[j] * A[j][i] - b[i] * b[j]) for i in range(s) for j in range(i, s)
-    )
-
-
-def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
-    """b_i ahat_ij + bhat_j a_ji = b_i bhat_j, which suffices where H = T(p) + V(q) (HLW Theorem VI.4.6).
-
-    >>> from orderconds.ring import QQ
-    >>> half, one = QQ.rational(1, 2), QQ.one
-    >>> symplectic_pair(PartitionedRungeKutta(((half,),), (one,), ((half,),), (one,)), QQ)
-    True
-    """
-    A, b, A_hat, b_hat, stages = method.A, method.b, method.A_hat, method.b_hat, range(method.s)
-    return _all(
-        ring.is_zero(b[i] * A_hat[i][j] + b_hat[j] * A[j][i] - b[i] * b_hat[j])
-        for i in stages
-        for j in stages
-    )
-
-
-def symmetric(method: RungeKutta, ring: Ring) -> Verdict:
-    """a_{s+1-i,s+1-j} + a_ij = b_j (HLW Theorem V.2.3), in the order in which the stages stand.
-
-    >>> from orderconds.tableau import Tableau, find
-    >>> gauss3 = Tableau.load(find("gauss3"))
-    >>> symmetric(gauss3.method, gauss3.ring)
-    True
-    """
-    A, b, s = method.A, method.b, method.s
-    mirrored = (ring.is_zero(A[s - 1 - i][s - 1 - j] + A[i][j] - b[j]) for i in range(s) for j in range(s))
-    return _all([*mirrored, *(_equal(b[i], b[s - 1 - i], ring) for i in range(s // 2))])
-
-
-def stiffly_accurate(method: RungeKutta, ring: Ring) -> Verdict:
-    """a_sj = b_j.
-
-    >>> from orderconds.tableau import Tableau, find
-    >>> rk4 = Tableau.load(find("rk4"))
-    >>> stiffly_accurate(rk4.method, rk4.ring)
-    False
-    """
-    return _all(_equal(x, y, ring) for x, y in zip(method.A[-1], method.b, strict=True))
-
-
-def fsal(method: RungeKutta, ring: Ring) -> Verdict:
-    """First same as last: stiffly accurate, more than one stage, and the first stage is the start value.
-
-    >>> from orderconds.tableau import Tableau, find
-    >>> rk4 = Tableau.load(find("rk4"))
-    >>> fsal(rk4.method, rk4.ring)
-    False
-    """
-    first = _all(ring.is_zero(x) for x in method.A[0])
-    return _all([method.s > 1, stiffly_accurate(method, ring), first])
-
-
-DEFINITIONS: dict[str, Callable[[RungeKutta, Ring], Verdict]] = {
-    "explicit": explicit,
-    "diagonally_implicit": diagonally_implicit,
-    "symplectic": symplectic,
-    "symmetric": symmetric,
-    "fsal": fsal,
-    "stiffly_accurate": stiffly_accurate,
-}
-
-PROPERTIES = (*DEFINITIONS, "a_stable", "l_stable")
-"""Every property that a file may claim."""
-
-
-def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
-    """Whether a row of numbers is the same from its end.
-
-    >>> from orderconds.ring import QQ
-    >>> [reads_backwards([QQ.rational(n) for n in row], QQ) for row in ((1, 2, 1), (1, 2, 2))]
-    [True, False]
-    """
-    s = len(row)
-    return _all(_equal(row[i], row[s - 1 - i], ring) for i in range(s // 2))
-
-
 def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
     """Composed midpoints are symplectic and diagonally implicit by construction, whatever the steps are.
 
@@ -222,26 +97,6 @@ def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
     }
     palindrome = reads_backwards(gamma, ring)
     return {**verdicts, "diagonally_implicit": True, "symplectic": True, "symmetric": palindrome}
-
-
-def symmetric_product(method: AdjointComposition | Splitting | Magnus, ring: Ring) -> Verdict:
-    """Whether a step of length -h undoes one of length h (HLW V.3).
-
-    Of an adjoint pair alpha_{s+1-i} = beta_i; a splitting reads the same backwards; for a Magnus method nodes
-    lie symmetric about 1/2 and exponents, taken in reverse at reversed nodes, change their words' signs.
-
-    >>> from orderconds.ring import QQ
-    >>> half = QQ.rational(1, 2)
-    >>> symmetric_product(Splitting(("T", "V"), ((1, half), (0, QQ.one), (1, half))), QQ)
-    True
-    """
-    if isinstance(method, AdjointComposition):
-        pairs = zip(method.alpha, method.beta[::-1], strict=True)
-        return _all(_equal(x, y, ring) for x, y in pairs)
-    if isinstance(method, Splitting):
-        mirrored = zip(method.steps, method.steps[::-1], strict=True)
-        return _all(p == q and _equal(x, y, ring) for (p, x), (q, y) in mirrored)
-    return symmetric_exponents(method, ring)
 
 
 def _ends_at_update(method: CommutatorFree, ring: Ring) -> bool:

@@ -32,8 +32,8 @@ OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
 class RandomMember(Rationals):
     """Q, with a number drawn for each decimal and each radical of a file."""
 
-    def __init__(self, spelled: Spelled, draws: Draws | None = None) -> None:
-        self._spelled, self._draws = spelled, draws or Draws(description(spelled))
+    def __init__(self, formulas: Spelled, draws: Draws | None = None) -> None:
+        self._formulas, self._draws = formulas, draws or Draws(description(formulas))
 
     def variable(self, constant: Constant) -> fmpq:
         """Return the number that is drawn for a decimal."""
@@ -63,20 +63,20 @@ class RandomMember(Rationals):
         >>> method.b[0] / method.A[0][0]
         2
         """
-        return self._spelled.method(
-            self, {u.constant: self.variable(u.constant) for u in self._spelled.decimals()}
+        return self._formulas.method(
+            self, {u.constant: self.variable(u.constant) for u in self._formulas.decimals()}
         )[0]
 
     def _drawn(self, name: str) -> fmpq:
         return fmpq(self._draws.number(name, BITS))
 
 
-def description(spelled: Spelled) -> str:
+def description(formulas: Spelled) -> str:
     """Return a text that fixes the coefficients as functions of the decimals."""
-    return repr(([*spelled.expressions.items()], [*spelled.numbers.items()]))
+    return repr(([*formulas.expressions.items()], [*formulas.numbers.items()]))
 
 
-def radicals(spelled: Spelled) -> tuple[Power, ...]:
+def radicals(formulas: Spelled) -> tuple[Power, ...]:
     """Return the different radicals that stand in a file.
 
     >>> from orderconds.tableau import Tableau
@@ -85,7 +85,7 @@ def radicals(spelled: Spelled) -> tuple[Power, ...]:
     >>> len(radicals(proof.spelled))
     1
     """
-    definitions = (*spelled.numbers.values(), *spelled.expressions.values())
+    definitions = (*formulas.numbers.values(), *formulas.expressions.values())
     return tuple(dict.fromkeys(radical for x in definitions for radical in _radicals(x)))
 
 

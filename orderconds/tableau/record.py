@@ -6,10 +6,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from msgspec import Struct
-
 from orderconds.errors import TableauError
 from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.claims import Claims
+from orderconds.tableau.file import File, parsed, read, text_of
 from orderconds.tableau.methods import (
     CommutatorFree,
     Composition,
@@ -20,46 +20,7 @@ from orderconds.tableau.methods import (
     RungeKutta,
 )
 from orderconds.tableau.products import AdjointComposition, Method
-from orderconds.tableau.unknowns import Proof, Spelled
-
-
-@dataclass(frozen=True)
-class OrderClaim:
-    """The claim that ``family`` (with ``cutoff``, where it takes one) has exactly this order."""
-
-    family: str
-    cutoff: int | None
-    order: int
-
-    @property
-    def label(self) -> str:
-        """The family as reports name it: ``vcg``, ``rkmk(1)``."""
-        return self.family if self.cutoff is None else f"{self.family}({self.cutoff})"
-
-
-@dataclass(frozen=True)
-class Claims:
-    """What a tableau file says of its method; every entry is compared with what is computed."""
-
-    orders: tuple[OrderClaim, ...] = ()
-    properties: dict[str, bool] = field(default_factory=dict)
-
-    def order(self, family: str, cutoff: int | None = None) -> int | None:
-        """Return the claimed order of a family, or None where nothing is claimed."""
-        for claim in self.orders:
-            if (claim.family, claim.cutoff) == (family, cutoff):
-                return claim.order
-        return None
-
-
-class File(Struct, frozen=True):
-    """What a file spells: its keys and values, and the method, embedded row and claims that were read."""
-
-    data: Mapping[str, object]
-    spelled: Spelled
-    method: Method
-    embedded: LowerOrder | None
-    claims: Claims
+from orderconds.tableau.unknowns import Proof
 
 
 @dataclass(frozen=True)
@@ -76,22 +37,18 @@ class Tableau:
     embedded: LowerOrder | None = None
     path: str | None = None
     proof: Proof | None = field(default=None, compare=False)
-    """Which equations the rounded decimals solve, where the file says so."""
+    """The equations that the rounded decimals solve, where the file names them."""
     file: File | None = field(default=None, compare=False, repr=False)
-    """How the coefficients are spelled, as long as they are those of the file."""
+    """The file that was read; None once the coefficients are no longer those of a file."""
 
     @staticmethod
     def load(path: str | Path) -> Tableau:
         """Read a tableau file; raises :class:`orderconds.errors.TableauError` naming file and key."""
-        from orderconds.tableau.file import load
-
         return load(path)
 
     @staticmethod
     def loads(text: str, where: str = "<text>") -> Tableau:
         """Read a tableau from TOML text; ``where`` names it in messages."""
-        from orderconds.tableau.file import loads
-
         return loads(text, where)
 
     def over(self, ring: Ring, convert: Callable[[Element], Element] | None = None) -> Tableau:
@@ -156,6 +113,49 @@ class Tableau:
             where=self.path or self.name,
             expected="format rk, prk, cf or composition",
         )
+
+
+def load(path: str | Path) -> Tableau:
+    """Read the tableau file at ``path``.
+
+    Raises :class:`TableauError` with the file, the key, its value and the expected value.
+
+    >>> from orderconds.tableau import find
+    >>> load(find("kutta3")).name
+    'kutta3'
+    """
+    return loads(text_of(path), str(path), str(path))
+
+
+def loads(text: str, where: str = "<text>", path: str | None = None) -> Tableau:
+    """Read a tableau from TOML text; ``where`` names it in messages.
+
+    >>> loads('name = "euler"\\nfamily = "rk"\\nA = [[]]\\nb = ["1"]').method
+    RungeKutta(A=((0,),), b=(1,))
+    """
+    return from_data(parsed(text, where), where, path)
+
+
+def from_data(data: Mapping[str, object], where: str = "<data>", path: str | None = None) -> Tableau:
+    """Return the tableau of a file's keys and values, as TOML or JSON give them.
+
+    >>> from_data({"name": "euler", "family": "rk", "A": [[]], "b": ["1"]}).method
+    RungeKutta(A=((0,),), b=(1,))
+    """
+    file = read(data, where)
+    return Tableau(
+        name=file.entry.name,
+        family=file.entry.family,
+        ring=file.ring,
+        method=file.method,
+        source=file.entry.source,
+        bibtex=file.entry.bibtex,
+        claims=file.claims,
+        embedded=file.embedded,
+        path=path,
+        proof=file.proof,
+        file=file,
+    )
 
 
 def _composed(method: Method, ring: Ring) -> Method | None:

@@ -14,9 +14,9 @@ from dataclasses import asdict, dataclass
 
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.brackets import Bracket, Product, Term, spell
+from orderconds.tableau.method_properties import explicit, fsal
 from orderconds.tableau.methods import CommutatorFree, PartitionedRungeKutta, RungeKutta
 from orderconds.tableau.products import Magnus
-from orderconds.tableau.properties import explicit, fsal
 from orderconds.tableau.record import Tableau
 
 

@@ -8,6 +8,8 @@ from typing import Any
 
 from orderconds.ring.protocol import Element
 from orderconds.tableau.brackets import Combination, spell
+from orderconds.tableau.claims import Claims
+from orderconds.tableau.file_format import Data
 from orderconds.tableau.methods import (
     CommutatorFree,
     Composition,
@@ -19,10 +21,9 @@ from orderconds.tableau.methods import (
     Stage,
 )
 from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
-from orderconds.tableau.record import Claims, Tableau
+from orderconds.tableau.record import Tableau
 from orderconds.tableau.toml_text import toml_text
 
-Data = dict[str, Any]
 Spell = Callable[[Element], str]
 
 

@@ -102,6 +102,7 @@ static void stumpff_12_far(double z, double *c1, double *c2)
         *c2 = stumpff_series_2(z);
         return;
     }
+    /* the answer is no number where the angle is so large that it has no correct digit */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);

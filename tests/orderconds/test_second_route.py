@@ -15,7 +15,7 @@ import pytest
 
 from orderconds.proof.certificate import certify
 from orderconds.tableau import Tableau, available, find
-from orderconds.tableau.record import OrderClaim
+from orderconds.tableau.claims import OrderClaim
 from tests.exact_steps import GROUPS, local_error_power
 
 FAMILIES = ("cg", "cf", "rkmk", "vcg", "vrkmk", "vcf")

@@ -48,7 +48,7 @@ class Result:
     def setups(self) -> tuple[tuple[str, float, float], ...]:
         """Candidate, seconds of emission, seconds of compilation (the most over its runs)."""
         return tuple(
-            (label, rows[0].emission_seconds, max(r.compile_seconds for r in rows))
+            (label, rows[0].emit_seconds, max(r.compile_seconds for r in rows))
             for label, rows in self.entries.items()
         )
 

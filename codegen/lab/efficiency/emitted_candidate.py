@@ -53,7 +53,7 @@ class EmittedCandidate:
         self.runner = Emitted(self.compiled, self.target, certified_order(self.method, self.scene))
         self.label = self.method.label
         self.key = repr(sorted(self.runner.artifact.manifest["files"].items()))
-        self.emission_seconds = time.perf_counter() - start
+        self.emit_seconds = time.perf_counter() - start
         self.compile_seconds = 0.0
         self.overhead = math.inf
 
@@ -119,7 +119,7 @@ class EmittedCandidate:
             evaluations=None if failure else self._count(lambda o: o.evaluates_scene, steps, iterations),
             exponentials=None if failure else self._count(lambda o: o.exponentials, steps, iterations),
             iterations=None if failure else sum(iterations),
-            emission_seconds=self.emission_seconds,
+            emit_seconds=self.emit_seconds,
             compile_seconds=self.compile_seconds,
             failure=failure,
         )

@@ -49,7 +49,7 @@ class Row:
     evaluations: int | None = None
     exponentials: int | None = None
     iterations: int | None = None
-    emission_seconds: float = 0.0
+    emit_seconds: float = 0.0
     compile_seconds: float = 0.0
     failure: str = ""
 

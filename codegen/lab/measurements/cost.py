@@ -39,7 +39,7 @@ class Cost(Measurement[CostResult]):
         candidates: list[Candidate] = []
         for method in subject.compiled.measured:
             own = EmittedCandidate(scene, method.compiled.method, exact, "c", budget, method.compiled)
-            own.emission_seconds += method.seconds
+            own.emit_seconds += method.seconds
             candidates.append(own)
         candidates += [Refused(f.method, "c", f.reason) for f in subject.compiled.failures]
         candidates += [emitted(scene, m, exact, "c", budget, adaptive=True) for m in subject.adaptive]
@@ -102,7 +102,7 @@ def _operations(entries: Mapping[str, tuple[Row, ...]]) -> list[dict[str, str]]:
         if not good:
             continue
         last = good[-1]
-        emit_seconds, compile_seconds = rows[0].emission_seconds, max(r.compile_seconds for r in rows)
+        emit_seconds, compile_seconds = rows[0].emit_seconds, max(r.compile_seconds for r in rows)
         lines.append(
             {
                 "label": label,

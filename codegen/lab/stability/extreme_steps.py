@@ -232,30 +232,32 @@ def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar
 
 
 def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> list[list[float]] | None:
-    """Return the solved unknowns of each implicit block of a step of emitted Python, in the order of
-    solution.
+    """Return the solved unknowns of each implicit block of a step of emitted Python, in order.
 
-    None if the step fails.
+    None if the step fails or has no implicit block. Emitted code passes the unknowns of every substep to
+    ``_remember``, which prepares the next warm start; it is observed here.
     """
     integrator = runner.python.integrator
     assert isinstance(integrator, InterpretedIntegrator)
     module: Scalar = integrator.module
-    plain, solved = module._Memory, dict[int, list[float]]()
+    widths = [len(loop.unknowns) for loop in runner.compiled.kernel.loops]
+    if not widths:
+        return None
+    remember, solved = module._remember, dict[int, list[float]]()
 
-    def keep(self: object, unknowns: list[float]) -> None:
-        solved[id(self)] = unknowns
-        plain.keep(self, unknowns)
+    def observe(memory: object, solution: Sequence[float]) -> None:
+        solved[id(memory)] = list(solution)
+        remember(memory, solution)
 
-    module._Memory = type("_Memory", (plain,), {"keep": keep})
+    module._remember = observe
     try:
         integrator.run(list(state), h, 1, t)
     except StepFailed:
         return None
     finally:
-        module._Memory = plain
-    widths = [len(loop.unknowns) for loop in runner.compiled.kernel.loops]
+        module._remember = remember
     ends = list(accumulate(widths))
-    return [list(x[end - n : end]) for x in solved.values() for n, end in zip(widths, ends, strict=True)]
+    return [x[end - n : end] for x in solved.values() for n, end in zip(widths, ends, strict=True)]
 
 
 class Rounding(PreciseDomain):

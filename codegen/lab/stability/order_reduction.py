@@ -20,8 +20,8 @@ from codegen.emitter import compile_method
 from codegen.lab.distance import distance
 from codegen.lab.reference import Reference
 from codegen.lab.runner import Emitted, RunFailed
-from codegen.lab.stability.stiff_variants import StiffVariant
 from codegen.method import Method
+from codegen.scene.stiff_variant import StiffVariant
 
 DOUBLINGS = 15
 """Number of runs; each has twice as many steps as the one before."""

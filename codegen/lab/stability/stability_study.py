@@ -15,9 +15,10 @@ from codegen.lab.stability.extreme_steps import SILENT, WRONG, Answer, answer, c
 from codegen.lab.stability.largest_step import Limit, largest_step
 from codegen.lab.stability.linear_stability import Region, region
 from codegen.lab.stability.order_reduction import OrderReduction, order_reduction
-from codegen.lab.stability.stiff_variants import StiffVariant, variants_of
 from codegen.method import Method
 from codegen.scene.problem import Problem
+from codegen.scene.stiff_variant import StiffVariant
+from codegen.scenes import stiff_variants
 
 
 @dataclass(frozen=True)
@@ -97,7 +98,7 @@ def stiff_scenes(scene: Problem, progress: Progress) -> StiffScenes:
     """Return the stiff variants of a scene with their references."""
     variants: list[tuple[StiffVariant, Reference]] = []
     notes: list[str] = []
-    for variant in variants_of(scene):
+    for variant in stiff_variants(scene):
         progress(f"{variant.name}: reference solution")
         try:
             variants.append((variant, cached_reference(variant.scene)))

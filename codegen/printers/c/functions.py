@@ -40,7 +40,7 @@ MANY = 20
 ONE_TEST = "one test for all; where only their sum overflows, x - x is zero for a number, else NaN"
 
 
-class Spelling:
+class FunctionPrinter:
     """Spells the functions of one unit under a prefix."""
 
     def __init__(
@@ -88,8 +88,10 @@ class Spelling:
         storage = "" if function.public else "static inline " if function.often else "static "
         kind = "void" if function.returns is None else self.type_of(function.returns)
         listed = [self.parameter(function, p, header) for p in function.parameters]
-        pieces = (*(f"{p}," for p in listed[:-1]), f"{listed[-1]})")
-        return fill(f"{storage}{kind} {self.called(function.name)}(", pieces, ";" if header else "", joint="")
+        segments = (*(f"{p}," for p in listed[:-1]), f"{listed[-1]})")
+        return fill(
+            f"{storage}{kind} {self.called(function.name)}(", segments, ";" if header else "", separator=""
+        )
 
     def definition(self, function: Function) -> list[str]:
         """Return the lines of a function, with its comment."""
@@ -136,12 +138,12 @@ def _without_zeros(row: Sequence[str]) -> str:
 class _Body:
     """The lines of one function's body."""
 
-    def __init__(self, spelling: Spelling, function: Function) -> None:
-        self.spelling, self.function = spelling, function
-        self.identifiers = spelling.identifiers[function.name]
+    def __init__(self, printer: FunctionPrinter, function: Function) -> None:
+        self.printer, self.function = printer, function
+        self.identifiers = printer.identifiers[function.name]
         self.declared = declarations(function, self.identifiers)
         pointers = {p.text for p in function.parameters if p.kind is Kind.RECORD}
-        self.terms = Terms(self.identifiers, spelling.precision, spelling.prefix, pointers)
+        self.terms = Terms(self.identifiers, printer.precision, printer.prefix, pointers)
         self.pointers = pointers
 
     def lines(self) -> list[str]:
@@ -158,15 +160,15 @@ class _Body:
 
     def block(self, body: Body) -> list[str]:
         """Return the lines of some statements; short ones share lines where they are many."""
-        found: list[tuple[bool, list[str]]] = []
+        groups: list[tuple[bool, list[str]]] = []
         for statement in body:
             before = self.before(statement)
             own = list(self.statement(statement))
             short = isinstance(statement, Assign) and not before and len(own) == 1 and _is_short(own[0])
-            found += [(False, before)] if before else []
-            found.append((short, own))
+            groups += [(False, before)] if before else []
+            groups.append((short, own))
         lines: list[str] = []
-        for short, group in groupby(found, key=lambda x: x[0]):
+        for short, group in groupby(groups, key=lambda x: x[0]):
             flat = [line for _, part in group for line in part]
             lines += together(flat) if short and len(flat) > MANY else flat
         return lines
@@ -175,7 +177,7 @@ class _Body:
         """Return the declarations that stand before a statement, one line a type."""
         waiting = self.declared.before.get(id(statement), [])
         lines: list[str] = []
-        for kind, group in groupby(waiting, key=lambda x: self.spelling.type_of(x[1].kind)):
+        for kind, group in groupby(waiting, key=lambda x: self.printer.type_of(x[1].kind)):
             names = [name for name, _ in group]
             lines += fill(kind, (*(f"{n}," for n in names[:-1]), names[-1]), ";")
         return lines
@@ -190,7 +192,7 @@ class _Body:
             case Call():
                 yield from self.call(statement)
             case Return(value):
-                yield from fill("return", self.terms.text(value).pieces, ";")
+                yield from fill("return", self.terms.text(value).segments, ";")
             case Note(text):
                 yield f"/* {comment(text)} */"
             case If():
@@ -217,7 +219,7 @@ class _Body:
         finite = test.args[0] if test.op == "not" else test
         if finite.op == "finite" and len(finite.args) > 1:
             yield f"/* {ONE_TEST} */"
-        yield from fill("if (", self.terms.text(test).pieces, ") {", joint="")
+        yield from fill("if (", self.terms.text(test).segments, ") {", separator="")
         yield from self.inner(statement.body)
         orelse = statement.orelse
         if len(orelse) == 1 and isinstance(orelse[0], If) and not self.declared.before.get(id(orelse[0])):
@@ -232,13 +234,13 @@ class _Body:
 
     def loop(self, statement: While) -> Iterator[str]:
         """Yield the lines of a loop."""
-        test = self.terms.text(statement.test).pieces
+        test = self.terms.text(statement.test).segments
         if statement.at_least_once:
             yield "do {"
             yield from self.inner(statement.body)
-            yield from fill("} while (", test, ");", joint="")
+            yield from fill("} while (", test, ");", separator="")
             return
-        yield from fill("while (", test, ") {", joint="")
+        yield from fill("while (", test, ") {", separator="")
         yield from self.inner(statement.body)
         yield "}"
 
@@ -248,7 +250,7 @@ class _Body:
         constant = self.declared.by.get(id(statement), {}).get(name)
         if constant is None:
             return ""
-        return f"{'const ' if constant else ''}{self.spelling.type_of(target.kind)} "
+        return f"{'const ' if constant else ''}{self.printer.type_of(target.kind)} "
 
     def assign(self, statement: Assign) -> Iterator[str]:
         """Yield the lines of an assignment, a copy, or a record that is cleared."""
@@ -271,9 +273,9 @@ class _Body:
             if value.op in "+-" and more.line == "1":
                 yield f"{name}{value.op * 2};"
                 return
-            yield from fill(f"{name} {value.op}=", more.pieces, ";")
+            yield from fill(f"{name} {value.op}=", more.segments, ";")
             return
-        yield from fill(f"{kind}{name} =", self.terms.text(value).pieces, ";")
+        yield from fill(f"{kind}{name} =", self.terms.text(value).segments, ";")
 
     def extent(self, target: Term, value: Term) -> str:
         """Return how many bytes are copied: the size of an array of this function, or a count of numbers."""
@@ -292,18 +294,18 @@ class _Body:
         identifier = self.identifiers.of(name)
         size = "".join(f"[{n}]" for n in name.shape)
         if name.kind is Kind.RECORD:
-            yield f"{self.spelling.record_type(name.record)} {identifier}{size} = {{0}};"
+            yield f"{self.printer.record_type(name.record)} {identifier}{size} = {{0}};"
             return
-        kind = self.spelling.type_of(name.kind)
+        kind = self.printer.type_of(name.kind)
         if statement.zero:
-            yield f"{kind} {identifier}{size} = {{{literal(self.spelling.precision, 0.0)}}};"
+            yield f"{kind} {identifier}{size} = {{{literal(self.printer.precision, 0.0)}}};"
             return
         if not statement.values:
             yield f"{kind} {identifier}{size};"
             return
         entries = [self.terms.line(x) for x in statement.values]
-        pieces = closed("{", (*(f"{x}," for x in entries[:-1]), entries[-1]), "}")
-        yield from fill(f"const {kind} {identifier}{size} =", pieces, ";")
+        segments = closed("{", (*(f"{x}," for x in entries[:-1]), entries[-1]), "}")
+        yield from fill(f"const {kind} {identifier}{size} =", segments, ";")
 
     def argument(self, term: Term) -> str:
         """Return an argument: of a record its address."""
@@ -319,17 +321,17 @@ class _Body:
         if name == "sample":
             given = [given[0].partition(",")[0], *given[1:], self.terms.line(results[0]), "context"]
             callee, *given = given
-            yield from fill(f"{callee}(", _arguments(given), ";", joint="")
+            yield from fill(f"{callee}(", _arguments(given), ";", separator="")
             return
         if len(results) > 1:
             names = [self.identifiers.of(r) for r in results]
             given += [f"&{n}" for n in names]
             results = ()
-        start = f"{self.spelling.called(name)}("
+        start = f"{self.printer.called(name)}("
         if results:
             (target,) = results
             start = f"{self.kind(statement, target)}{self.terms.line(target)} = {start}"
-        yield from fill(start, _arguments(given), ";", joint="")
+        yield from fill(start, _arguments(given), ";", separator="")
 
 
 def _arguments(given: Sequence[str]) -> tuple[str, ...]:

@@ -5,14 +5,14 @@ from __future__ import annotations
 from codegen.ir.angle_depth import chain
 from codegen.ir.kernel import CHORD, NEWTON, Kernel
 from codegen.kernel.operations import costs
-from codegen.printers.c.functions import Spelling
+from codegen.printers.c.functions import FunctionPrinter
 from codegen.printers.c.terms import literal
 from codegen.printers.c.text import comment
 from codegen.printers.c.words import RESERVED
 from codegen.printers.interface import Interface
-from codegen.printers.layout import layout, times
 from codegen.printers.needs import functions_of
 from codegen.printers.recipe import Recipe, header
+from codegen.printers.state_fields import layout, times
 from codegen.run.identifiers import identify
 from codegen.run.language import Unit, terms
 from codegen.run.numbers import numbers_held
@@ -37,8 +37,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     plan = Plan(kernel, interface.format)
     unit = unit_of(plan)
     identifiers = identify(unit, RESERVED | own_names(interface))
-    spelling = Spelling(unit, identifiers, interface.format, interface.prefix)
-    found = needed(
+    printer = FunctionPrinter(unit, identifiers, interface.format, interface.prefix)
+    snippets = needed(
         *("c", helpers(unit), interface.format),
         sweeps=bool(interface.blocks),
         wide=inverted(kernel),
@@ -61,9 +61,9 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "adaptive": interface.adaptive,
         "variations": interface.variations,
         "variation": kernel.vary.state[-1].meaning if kernel.vary is not None else "",
-        "statistics": ["", *spelling.record("statistics")] if interface.blocks else [],
-        "heads": {name: spelling.head(function, header=True) for name, function in public.items()},
-        "parts": [*([text] for text in found.texts), *_definitions(unit, spelling, interface)],
+        "statistics": ["", *printer.record("statistics")] if interface.blocks else [],
+        "heads": {name: printer.head(function, header=True) for name, function in public.items()},
+        "parts": [*([text] for text in snippets.texts), *_definitions(unit, printer, interface)],
     }
     env = environment("c")
     return {
@@ -72,14 +72,14 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     }
 
 
-def _definitions(unit: Unit, spelling: Spelling, interface: Interface) -> list[list[str]]:
+def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> list[list[str]]:
     """Return the lines of what a module defines: records, tables, functions."""
-    found = [spelling.record(record.name) for record in unit.records if not record.public]
-    found += [spelling.table(table) for table in unit.tables]
+    definitions = [printer.record(record.name) for record in unit.records if not record.public]
+    definitions += [printer.table(table) for table in unit.tables]
     real, n = interface.format.c_type, len(interface.inputs)
     for function in unit.functions:
         if function.name == "step" and n:
-            found.append(
+            definitions.append(
                 [
                     "/* Run-time inputs that are constant: context holds them. */",
                     f"static void hold({real} t, {real} inputs[{n}], void *context)",
@@ -89,21 +89,20 @@ def _definitions(unit: Unit, spelling: Spelling, interface: Interface) -> list[l
                     "}",
                 ]
             )
-        found.append(spelling.definition(function))
-    return found
+        definitions.append(printer.definition(function))
+    return definitions
 
 
 def helpers(unit: Unit) -> list[str]:
     """Return the helpers and library functions that a unit calls, sorted."""
-    found = set(functions_of(unit)) | {"isfinite"}
+    names = set(functions_of(unit)) | {"isfinite"}
     for function in unit.functions:
         for term in terms(function.body):
             if term.op == "finite" and term.args[0].shape:
-                found.add("all_finite")
+                names.add("all_finite")
             elif term.op == "call":
-                name = {"abs": "fabs", "greatest": "greater"}.get(term.text, term.text)
-                found.add(name)
-    return sorted(found - {"power", "copysign"})
+                names.add({"abs": "fabs", "greatest": "greater"}.get(term.text, term.text))
+    return sorted(names - {"power", "copysign"})
 
 
 def inverted(kernel: Kernel) -> int:

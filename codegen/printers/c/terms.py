@@ -7,7 +7,20 @@ from typing import ClassVar
 
 from codegen.printers.c.text import closed_call, greatest
 from codegen.printers.expression import Style, spell
-from codegen.printers.infix import AND, ATOM, CHOICE, OR, PRODUCT, SIGN, SUM, Infix, Text, closed, joined
+from codegen.printers.infix import (
+    AND,
+    ATOM,
+    CHOICE,
+    COMPARED,
+    OR,
+    PRODUCT,
+    SIGN,
+    SUM,
+    Infix,
+    Text,
+    closed,
+    joined,
+)
 from codegen.run.identifiers import Identifiers
 from codegen.run.precision import DOUBLE, Precision
 from codegen.run.terms import Kind, Term, paired
@@ -55,10 +68,10 @@ class Terms(Infix):
 
     def one_test(self, values: Sequence[Term]) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Return the two tests of which one says that all values are numbers."""
-        finite = closed("isfinite(", self.text(paired(values)).pieces, ")")
+        finite = closed("isfinite(", self.text(paired(values)).segments, ")")
         differences = paired([x - x for x in values])
         zero = literal(self.precision, 0.0)
-        return finite, (*self.text(differences).pieces, f"== {zero}")
+        return finite, (*self.text(differences).segments, f"== {zero}")
 
     def special(self, term: Term) -> Text:
         """Return the text of any other term."""
@@ -129,9 +142,10 @@ class Terms(Infix):
 
     def choice(self, test: Term, yes: Term, no: Term) -> Text:
         """Return one of two values."""
-        pieces = self.text(test).within(OR)
-        first, second = self.text(yes).within(OR), self.text(no).within(CHOICE)
-        return Text((*joined(pieces), *closed("? ", joined(first), ""), *closed(": ", second, "")), CHOICE)
+        segments = self.text(test).within(OR)
+        first, second = self.text(yes).within(COMPARED), self.text(no)
+        last = second.segments if second.level == CHOICE else second.within(COMPARED)
+        return Text((*joined(segments), *closed("? ", joined(first), ""), *closed(": ", last, "")), CHOICE)
 
     def finite(self, values: Sequence[Term]) -> Text:
         """Return whether all values are numbers."""
@@ -139,7 +153,7 @@ class Terms(Infix):
         if first.shape:
             return Text((f"all_finite({self.line(first)}, {first.shape[0]})",))
         if len(values) == 1:
-            return Text(closed("isfinite(", self.text(first).pieces, ")"))
+            return Text(closed("isfinite(", self.text(first).segments, ")"))
         finite, exact = self.one_test(values)
         return Text((*finite, *closed("|| ", exact, "")), OR)
 
@@ -153,7 +167,7 @@ class Terms(Infix):
         name = FUNCTIONS.get(term.text, term.text)
         name += "" if name == "isfinite" else self.precision.suffix
         if len(term.args) == 1:
-            return Text(closed(f"{name}(", self.text(term.args[0]).pieces, ")"))
+            return Text(closed(f"{name}(", self.text(term.args[0]).segments, ")"))
         return Text(closed_call(name, [self.line(x) for x in term.args]))
 
     def converted(self, term: Term) -> Text:

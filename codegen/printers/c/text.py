@@ -29,8 +29,8 @@ def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
     >>> closed_call("f", ["a", "b"])
     ('f(a,', 'b)')
     """
-    pieces = [f"{x}," for x in arguments[:-1]] + [f"{x})" for x in arguments[-1:]]
-    return (f"{name}({pieces[0]}", *pieces[1:]) if pieces else (f"{name}()",)
+    segments = [f"{x}," for x in arguments[:-1]] + [f"{x})" for x in arguments[-1:]]
+    return (f"{name}({segments[0]}", *segments[1:]) if segments else (f"{name}()",)
 
 
 def comment(text: str) -> str:
@@ -47,21 +47,23 @@ def block_comment(text: str) -> list[str]:
     return ["/*", *(f" * {line}" for line in lines), " */"]
 
 
-def fill(start: str, pieces: tuple[str, ...], end: str, width: int = WIDTH, joint: str = " ") -> list[str]:
-    """Join start, pieces and end with spaces, breaking lines before pieces that do not fit.
+def fill(
+    start: str, segments: tuple[str, ...], end: str, width: int = WIDTH, separator: str = " "
+) -> list[str]:
+    """Join start, segments and end with spaces, breaking lines before segments that do not fit.
 
-    ``joint`` stands between start and the first piece.
+    ``separator`` stands between start and the first segment.
 
     >>> fill("x =", ("a", "+ b", "+ c"), ";", width=18)
     ['x = a + b', '    + c;']
     """
     lines = [start]
-    for position, piece in enumerate(pieces):
-        tail = end if position == len(pieces) - 1 else ""
-        if position and len(lines[-1]) + 1 + len(piece) + len(tail) > width - 8:
-            lines.append(f"    {piece}{tail}")
+    for position, segment in enumerate(segments):
+        tail = end if position == len(segments) - 1 else ""
+        if position and len(lines[-1]) + 1 + len(segment) + len(tail) > width - 8:
+            lines.append(f"    {segment}{tail}")
         else:
-            lines[-1] += f"{' ' if position else joint}{piece}{tail}"
+            lines[-1] += f"{' ' if position else separator}{segment}{tail}"
     return lines
 
 

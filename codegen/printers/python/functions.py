@@ -37,7 +37,7 @@ TOGETHER = 3
 """From so many neighbouring entries on they are read or written by one statement."""
 
 
-class Spelling:
+class FunctionPrinter:
     """Spells the functions of one unit."""
 
     def __init__(self, unit: Unit, identifiers: dict[str, Identifiers], constants: Constants) -> None:
@@ -124,10 +124,10 @@ def filled_words(text: str, width: int = 78) -> list[str]:
 class _Body:
     """The lines of one function's body."""
 
-    def __init__(self, spelling: Spelling, function: Function) -> None:
-        self.spelling = spelling
-        self.identifiers = spelling.identifiers[function.name]
-        self.terms = Terms(self.identifiers, spelling.constants)
+    def __init__(self, printer: FunctionPrinter, function: Function) -> None:
+        self.printer = printer
+        self.identifiers = printer.identifiers[function.name]
+        self.terms = Terms(self.identifiers, printer.constants)
 
     def block(self, body: Body, depth: int) -> list[str]:
         """Return the lines of some statements."""
@@ -145,33 +145,33 @@ class _Body:
 
     def entries(self, body: Sequence[Statement]) -> list[Assign]:
         """Return the statements at the beginning that read, or write, neighbouring entries of one list."""
-        found: list[Assign] = []
+        group: list[Assign] = []
         for statement in body:
             if not isinstance(statement, Assign):
                 break
-            if found and not (self.follow(found, statement, True) or self.follow(found, statement, False)):
+            if group and not (self.follow(group, statement, True) or self.follow(group, statement, False)):
                 break
-            if not found and _entry(statement.target) is None and _entry(statement.value) is None:
+            if not group and _entry(statement.target) is None and _entry(statement.value) is None:
                 break
-            found.append(statement)
-        return found
+            group.append(statement)
+        return group
 
-    def follow(self, found: Sequence[Assign], statement: Assign, reading: bool) -> bool:
+    def follow(self, group: Sequence[Assign], statement: Assign, reading: bool) -> bool:
         """Whether a statement goes on with what some statements do."""
 
         def one(s: Assign) -> Term:
             return s.value if reading else s.target
 
-        entries = [_entry(one(s)) for s in (*found, statement)]
+        entries = [_entry(one(s)) for s in (*group, statement)]
         if any(e is None for e in entries) or (
-            reading and any(s.target.op != "name" for s in (*found, statement))
+            reading and any(s.target.op != "name" for s in (*group, statement))
         ):
             return False
-        first = self.terms.line(one(found[0]).args[0])
+        first = self.terms.line(one(group[0]).args[0])
         neighbours = all(b == (entries[0] or 0) + k for k, b in enumerate(entries))
         same = self.terms.line(one(statement).args[0]) == first
         changed = root(one(statement)).text
-        apart = reading or all(x.text != changed for s in (*found, statement) for x in names([s.value]))
+        apart = reading or all(x.text != changed for s in (*group, statement) for x in names([s.value]))
         return neighbours and same and apart
 
     def together(self, group: Sequence[Assign], depth: int) -> list[str]:
@@ -198,7 +198,7 @@ class _Body:
             case Call():
                 yield from self.call(statement, depth)
             case Return(value):
-                yield from indented("return ", self.terms.text(value).pieces, depth)
+                yield from indented("return ", self.terms.text(value).segments, depth)
             case Note(text):
                 yield from (f"{space}# {line}" for line in filled_words(text))
             case If():
@@ -224,7 +224,7 @@ class _Body:
 
     def condition(self, word: str, test: Term, depth: int) -> list[str]:
         """Return the lines of a test."""
-        lines = indented(f"{word} ", self.terms.text(test).pieces, depth)
+        lines = indented(f"{word} ", self.terms.text(test).segments, depth)
         return [*lines[:-1], f"{lines[-1]}:"]
 
     def loop(self, statement: While, depth: int) -> Iterator[str]:
@@ -252,9 +252,9 @@ class _Body:
         text = self.terms.text(value)
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         if changed:
-            yield from indented(f"{name} {value.op}= ", self.terms.text(value.args[1]).pieces, depth)
+            yield from indented(f"{name} {value.op}= ", self.terms.text(value.args[1]).segments, depth)
             return
-        yield from indented(f"{name} = ", text.pieces, depth)
+        yield from indented(f"{name} = ", text.segments, depth)
 
     def array(self, statement: Array, depth: int) -> Iterator[str]:
         """Yield the lines that make a list."""
@@ -263,7 +263,7 @@ class _Body:
         if statement.values:
             yield from filled(f"{start}[", [self.terms.line(x) for x in statement.values], "]", depth)
             return
-        yield f"{'    ' * depth}{start}{self.spelling.zeros(name.shape, name.kind, name.record)}"
+        yield f"{'    ' * depth}{start}{self.printer.zeros(name.shape, name.kind, name.record)}"
 
     def call(self, statement: Call, depth: int) -> Iterator[str]:
         """Yield the lines of a call."""

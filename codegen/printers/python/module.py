@@ -9,13 +9,13 @@ from codegen.ir.angle_depth import chain
 from codegen.ir.kernel import Kernel
 from codegen.kernel.operations import costs
 from codegen.printers.interface import Interface
-from codegen.printers.layout import layout, times
 from codegen.printers.needs import functions_of
-from codegen.printers.python.functions import Spelling, class_of
+from codegen.printers.python.functions import FunctionPrinter, class_of
 from codegen.printers.python.terms import Constants
 from codegen.printers.python.text import quoted
 from codegen.printers.python.words import PUBLIC, RESERVED
 from codegen.printers.recipe import Recipe, header
+from codegen.printers.state_fields import layout, times
 from codegen.run.identifiers import Identifiers, identify
 from codegen.run.language import RAISES_STATUS, Unit, terms
 from codegen.run.plan import Plan
@@ -58,13 +58,13 @@ class _Module:
     @cached_property
     def constants(self) -> Constants:
         """How constants are spelled."""
-        taken = {name for found in self.identifiers.values() for name in found.spelled.values()}
+        taken = {name for of in self.identifiers.values() for name in of.spelled.values()}
         return Constants(self.interface.format, frozenset(taken))
 
     @cached_property
-    def spelling(self) -> Spelling:
+    def printer(self) -> FunctionPrinter:
         """What spells the unit."""
-        return Spelling(self.unit, self.identifiers, self.constants)
+        return FunctionPrinter(self.unit, self.identifiers, self.constants)
 
     @property
     def single(self) -> bool:
@@ -81,10 +81,10 @@ class _Module:
     def called(self) -> set[str]:
         """Functions of the library, by the names that the run representation gives them."""
         functions = [t for f in self.unit.functions for t in terms(f.body)]
-        found = {t.text for t in functions if t.op == "call"}
-        found |= {t.op for t in functions if t.op in ("finite", "infinity")}
+        names = {t.text for t in functions if t.op == "call"}
+        names |= {t.op for t in functions if t.op in ("finite", "infinity")}
         guards = {f.guard for f in self.unit.functions} - {"", RAISES_STATUS}
-        return found | ({"nan"} if guards else set())
+        return names | ({"nan"} if guards else set())
 
     @cached_property
     def needed(self) -> Needed:
@@ -95,20 +95,20 @@ class _Module:
 
     def imports(self) -> tuple[list[str], list[str]]:
         """Return what is imported from ``math`` and from NumPy."""
-        found = set(self.needed.library)
+        names = set(self.needed.library)
         plain = {"isfinite"} if self.called & {"finite", "isfinite"} else set[str]()
         plain |= {"inf"} if self.called & {"infinity", "power"} else set()
         plain |= self.called & {"nan", "copysign"}
         if not self.single:
-            return sorted(found | plain), []
-        return sorted(plain), ["errstate", "float32", *sorted(found - {"isfinite"})]
+            return sorted(names | plain), []
+        return sorted(plain), ["errstate", "float32", *sorted(names - {"isfinite"})]
 
     def parts(self) -> list[list[str]]:
         """Return the lines of what the module defines, before the functions for callers."""
-        found = [self.spelling.record(r) for r in self.unit.records if not r.public]
-        found += [[text] for text in self.needed.texts]
-        found += [self.spelling.table(table) for table in self.unit.tables]
-        return [*found, *map(self.spelling.definition, self.unit.functions)]
+        definitions = [self.printer.record(r) for r in self.unit.records if not r.public]
+        definitions += [[text] for text in self.needed.texts]
+        definitions += [self.printer.table(table) for table in self.unit.tables]
+        return [*definitions, *map(self.printer.definition, self.unit.functions)]
 
     def keyword_arguments(self) -> list[str]:
         """Return the run-time parameters with the scene's values, where these are known."""
@@ -139,7 +139,7 @@ class _Module:
             "single": self.single,
             "number": "float32" if self.single else "float",
             "blocks": [quoted(label) for label in interface.blocks],
-            "statistics": [line for record in public for line in self.spelling.record(record)],
+            "statistics": [line for record in public for line in self.printer.record(record)],
             "parts": parts,
             "size": interface.size,
             "inputs": interface.inputs,

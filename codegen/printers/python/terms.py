@@ -125,8 +125,8 @@ class Terms(Infix):
         if term.text == "largest":
             return (f"max(map(abs, {given[0]}))",)
         name = {"greatest": "max", "power": "_power"}.get(term.text, term.text)
-        pieces = closed(f"{name}(", (*(f"{x}," for x in given[:-1]), given[-1]), ")")
-        return closed("float32(", pieces, ")") if self.single and name == "copysign" else pieces
+        segments = closed(f"{name}(", (*(f"{x}," for x in given[:-1]), given[-1]), ")")
+        return closed("float32(", segments, ")") if self.single and name == "copysign" else segments
 
     def converted(self, term: Term) -> Text:
         """Return a term as a double, or a double rounded to the format."""
@@ -134,4 +134,4 @@ class Terms(Infix):
         inner = self.text(x)
         if not self.single or (term.op == "wide" and x.kind is not Kind.REAL):
             return inner
-        return Text(closed("float(" if term.op == "wide" else "float32(", inner.pieces, ")"))
+        return Text(closed("float(" if term.op == "wide" else "float32(", inner.segments, ")"))

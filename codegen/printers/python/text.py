@@ -26,29 +26,29 @@ def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
     return [f"{space}{start}", *packed([f"{term}," for term in terms], depth + 1), f"{space}{end}"]
 
 
-def packed(pieces: Sequence[str], depth: int) -> list[str]:
-    """Return lines of as many pieces as there is room for."""
+def packed(segments: Sequence[str], depth: int) -> list[str]:
+    """Return lines of as many segments as there is room for."""
     space = "    " * depth
-    lines = [f"{space}{pieces[0]}"]
-    for piece in pieces[1:]:
-        if len(lines[-1]) + 1 + len(piece) > WIDTH:
-            lines.append(f"{space}{piece}")
+    lines = [f"{space}{segments[0]}"]
+    for segment in segments[1:]:
+        if len(lines[-1]) + 1 + len(segment) > WIDTH:
+            lines.append(f"{space}{segment}")
         else:
-            lines[-1] += f" {piece}"
+            lines[-1] += f" {segment}"
     return lines
 
 
-def indented(start: str, pieces: tuple[str, ...], depth: int) -> list[str]:
-    """Return start and pieces on one line, or in parentheses on several where that is too long.
+def indented(start: str, segments: tuple[str, ...], depth: int) -> list[str]:
+    """Return start and segments on one line, or in parentheses on several where that is too long.
 
     >>> indented("x = ", ("a", "+ b"), 1)
     ['    x = a + b']
     """
     space = "    " * depth
-    line = f"{space}{start}{' '.join(pieces)}"
-    if len(line) <= WIDTH or len(pieces) == 1:
+    line = f"{space}{start}{' '.join(segments)}"
+    if len(line) <= WIDTH or len(segments) == 1:
         return [line]
-    return [f"{space}{start}(", *packed(pieces, depth + 1), f"{space})"]
+    return [f"{space}{start}(", *packed(segments, depth + 1), f"{space})"]
 
 
 def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:

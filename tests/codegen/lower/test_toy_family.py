@@ -10,7 +10,6 @@ import json
 
 import pytest
 from click.testing import CliRunner
-from codegen.lab.local_error import local_error, valuation
 
 from codegen import scenes
 from codegen.certify import certified_order
@@ -19,6 +18,7 @@ from codegen.commands.emit import command as emit
 from codegen.emitter import compile_method
 from codegen.errors import MethodError
 from codegen.ir.values import Kind, Var
+from codegen.lab.orders.local_error import local_error, valuation
 from codegen.lower import families_for, names, problem_for, register, unregister
 from codegen.lower.field import FieldLowering
 from codegen.lower.stages import Stages

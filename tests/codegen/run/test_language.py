@@ -10,9 +10,9 @@ from codegen.build import build
 from codegen.emitter import compile_method
 from codegen.ir.domain import FloatDomain
 from codegen.ir.kernel import NEWTON
-from codegen.printers.c.functions import Spelling as InC
+from codegen.printers.c.functions import FunctionPrinter as InC
 from codegen.printers.c.words import RESERVED as WORDS_OF_C
-from codegen.printers.python.functions import Spelling as InPython
+from codegen.printers.python.functions import FunctionPrinter as InPython
 from codegen.printers.python.terms import Constants
 from codegen.printers.python.words import RESERVED as WORDS_OF_PYTHON
 from codegen.run.execute import Machine
@@ -58,18 +58,18 @@ def one(*body, name="probe", parameters=(X,), **more):
 
 
 def in_python(unit, *arguments):
-    spelling = InPython(unit, identify(unit, WORDS_OF_PYTHON), Constants(DOUBLE, frozenset()))
+    printer = InPython(unit, identify(unit, WORDS_OF_PYTHON), Constants(DOUBLE, frozenset()))
     namespace = {"nan": math.nan, "isfinite": math.isfinite, "sqrt": math.sqrt}
     for function in unit.functions:
-        exec("\n".join(spelling.definition(function)), namespace)
+        exec("\n".join(printer.definition(function)), namespace)
     return namespace[f"_{unit.functions[-1].name}"](*arguments)
 
 
 def in_c(unit, *arguments):
     from cffi import FFI
 
-    spelling = InC(unit, identify(unit, WORDS_OF_C), DOUBLE, "")
-    lines = [line for function in unit.functions for line in (*spelling.definition(function), "")]
+    printer = InC(unit, identify(unit, WORDS_OF_C), DOUBLE, "")
+    lines = [line for function in unit.functions for line in (*printer.definition(function), "")]
     name = unit.functions[-1].name
     passed = ", ".join(f"x{k}" for k in range(len(arguments)))
     typed = ", ".join(f"double x{k}" for k in range(len(arguments)))

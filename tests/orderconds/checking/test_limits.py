@@ -44,6 +44,15 @@ def test_the_csv_of_a_composition_is_checked_against_all_its_claims(tmp_path: Pa
     assert {f.family: f.order for f in report.orders}["vcg"] == 8
 
 
+def test_one_coefficient_of_few_digits_leaves_few_conditions_to_evaluate() -> None:
+    text = find("kahan_li8").read_text(encoding="utf-8")
+    for kept in (4, 12, 18):
+        digits = "0.130202483088890080878817632809354147330815171467180665642633"
+        report = check(Tableau.loads(text.replace(digits, digits[: kept + 2])))
+        assert report.verdict == "fails"  # the proof is lost
+        assert all(f.certificate in ("decimal", "none") for f in report.orders)
+
+
 def test_a_composition_with_one_changed_entry_is_not_recognised(tmp_path: Path) -> None:
     path = plain("suzuki_umeno8", tmp_path)
     text = path.read_text(encoding="utf-8")

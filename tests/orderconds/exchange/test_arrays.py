@@ -7,7 +7,7 @@ import pytest
 from orderconds.errors import TableauError
 from orderconds.exchange.arrays import butcher, coefficient, from_arrays, to_arrays
 from orderconds.tableau import Tableau, find
-from orderconds.tableau.file import from_data
+from orderconds.tableau.record import from_data
 from orderconds.tableau.write import as_data
 
 

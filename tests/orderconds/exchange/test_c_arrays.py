@@ -7,7 +7,7 @@ import pytest
 from orderconds import Tableau
 from orderconds.errors import TableauError
 from orderconds.exchange import export, read_data
-from orderconds.tableau.file import from_data
+from orderconds.tableau.record import from_data
 
 
 def test_c_source_with_quotients_and_suffixes() -> None:
@@ -29,7 +29,7 @@ def test_long_decimals_are_rounded_numbers() -> None:
 
 
 def test_rounded_doubles_have_their_exact_value_beside_them() -> None:
-    source = export({"name": "t", "family": "rk", "A": [[]], "b": ["1/3", "0.5", "2"]}, "c").decode()
+    source = export({"name": "t", "family": "rk", "A": [[], [], []], "b": ["1/3", "0.5", "2"]}, "c").decode()
     assert "t_b[3] = {0.3333333333333333 /* 1/3 */, 0.5, 2.0};" in source
 
 

@@ -20,7 +20,7 @@ from orderconds.errors import InputError, TableauError
 from orderconds.exchange import FORMATS, export, read_data
 from orderconds.proof.certificate import certify
 from orderconds.tableau import Claims, available, dumps, find
-from orderconds.tableau.file import from_data
+from orderconds.tableau.record import from_data
 from orderconds.tableau.write import as_data
 from tests.orderconds.exchange.coefficients import COEFFICIENTS
 

@@ -8,7 +8,7 @@ from orderconds import Tableau
 from orderconds.errors import InputError
 from orderconds.exchange import export, read_data
 from orderconds.tableau import find
-from orderconds.tableau.file import from_data
+from orderconds.tableau.record import from_data
 
 
 def test_latex_from_a_paper() -> None:

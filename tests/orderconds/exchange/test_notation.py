@@ -6,7 +6,7 @@ import sympy
 from hypothesis import given
 
 from orderconds.exchange.notation import from_latex, from_python, to_latex, to_python
-from orderconds.tableau.file import from_data
+from orderconds.tableau.record import from_data
 from tests.orderconds.exchange.coefficients import COEFFICIENTS
 
 

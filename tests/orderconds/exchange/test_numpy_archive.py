@@ -13,7 +13,7 @@ from orderconds.errors import InputError
 from orderconds.exchange import read_data
 from orderconds.exchange.numpy_archive import nearest
 from orderconds.tableau import find
-from orderconds.tableau.file import from_data
+from orderconds.tableau.record import from_data
 
 
 def test_floats_of_numpy(tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ from orderconds import Tableau
 from orderconds.exchange import export, read_data
 from orderconds.exchange.sympy_source import from_sympy, to_sympy
 from orderconds.tableau import find
-from orderconds.tableau.file import from_data
+from orderconds.tableau.record import from_data
 
 
 def test_sympy_matrices_read_back_the_same() -> None:

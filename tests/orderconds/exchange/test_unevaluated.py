@@ -13,7 +13,7 @@ from orderconds.exchange.unevaluated import (
     with_names_inlined,
 )
 from orderconds.tableau import Tableau, find
-from orderconds.tableau.file import from_data
+from orderconds.tableau.record import from_data
 from orderconds.tableau.write import as_data
 
 RING = UnevaluatedNumbers()

@@ -7,9 +7,9 @@ below the 256 bits with which certificates are computed.
 
 from __future__ import annotations
 
-import contextlib
 import re
 from collections.abc import Callable
+from contextlib import suppress
 from random import Random
 
 import pytest
@@ -199,7 +199,7 @@ PERTURBATIONS: list[Callable[[str, Random], str]] = [
 def falsified(tableau: Tableau, family: str, order: int) -> list[str]:
     """Return the conditions up to ``order`` that the solution of the file's equations does not meet."""
     if tableau.proof is not None:
-        with contextlib.suppress(NotProved):
+        with suppress(NotProved):
             tableau = certify(tableau, BITS).tableau
     if not isinstance(tableau.ring, Balls):
         return []

@@ -9,7 +9,7 @@ from orderconds.checking import check
 from orderconds.proof.certificate import certify
 from orderconds.proof.krawczyk import NotProved
 from orderconds.proof.subfamily import independent_conditions
-from orderconds.solve.ansatz import ansatz
+from orderconds.solve.parametrise import ansatz
 from orderconds.solve.spec import Spec
 from orderconds.tableau import Tableau, find
 from orderconds.tableau.file import text_of

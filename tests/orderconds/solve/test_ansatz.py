@@ -11,11 +11,11 @@ from orderconds.errors import InputError
 from orderconds.families.elementary_weights import conjugate
 from orderconds.ring import QQ
 from orderconds.ring.laurent import LaurentPolynomials
-from orderconds.solve.ansatz import ansatz
 from orderconds.solve.linear import Elimination, equality
+from orderconds.solve.parametrise import ansatz
 from orderconds.solve.spec import Spec
 from orderconds.tableau import Tableau, find
-from orderconds.tableau.properties import explicit, fsal, symmetric
+from orderconds.tableau.method_properties import explicit, fsal, symmetric
 
 
 def member(family: str, spec: Spec, structure: str = "full"):

@@ -16,8 +16,8 @@ from click.testing import CliRunner
 from orderconds.checking import check, read
 from orderconds.cli import program
 from orderconds.ring import QQ
-from orderconds.solve.ansatz import ansatz
 from orderconds.solve.certify_solution import principal_error
+from orderconds.solve.parametrise import ansatz
 from orderconds.solve.solver import Order, solve
 from orderconds.solve.spec import Spec
 from orderconds.tableau import Tableau, available, find

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from orderconds.tableau import Tableau, find
-from orderconds.tableau.properties import PROPERTIES, properties
+from orderconds.tableau.method_properties import PROPERTIES
+from orderconds.tableau.properties import properties
 
 HOLDING = {
     "euler": {"explicit"},

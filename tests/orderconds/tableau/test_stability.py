@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 
 from orderconds.ring import QQ
 from orderconds.tableau import RungeKutta, Tableau, find
-from orderconds.tableau.file import from_data
 from orderconds.tableau.properties import properties, undecided
 from orderconds.tableau.rational_stability import determinant, stable
+from orderconds.tableau.record import from_data
 from orderconds.tableau.stability import (
     StabilityFunction,
     bounded_on_axis,

@@ -20,7 +20,8 @@ from codegen.lab.stability.endurance import Endurance, endure
 from codegen.lab.stability.largest_step import largest_step
 from codegen.lab.stability.linear_stability import reach, region
 from codegen.lab.stability.order_reduction import order_reduction
-from codegen.lab.stability.stiff_variants import body, spin, variants_of
+from codegen.scenes import stiff_variants
+from codegen.scenes.free_rigid_body import thin_body
 
 
 def method(scene, spelling):
@@ -66,18 +67,18 @@ def test_an_interval_ends_where_the_function_leaves_the_disk():
 
 
 def test_order_is_lost_on_a_thin_body_and_kept_by_nothing_that_is_resolved():
-    thin = body(10**6)
+    thin = thin_body(10**6)
     left = order_reduction(thin, method("free_rigid_body", "cf:cf4"), cached_reference(thin.scene))
     assert left.stated == 4
     assert "order reduction 4 to" in left.verdict
-    gentle = body(10)
+    gentle = thin_body(10)
     kept = order_reduction(gentle, method("free_rigid_body", "cf:cf4"), cached_reference(gentle.scene))
     assert "order reduction" not in kept.verdict
 
 
 def test_the_stiff_spin_answers_at_every_step_size():
     """Explicit methods find the solution where h times 2000 is near one; a tenth of the span shows it."""
-    thin = spin()
+    (thin,) = stiff_variants(scenes.load("stiff_driven_spin"))
     thin = replace(thin, scene=replace(thin.scene, span=(0, Fraction(1, 10))))
     left = order_reduction(thin, method("driven_spin", "rkmk:rk4"), cached_reference(thin.scene))
     assert len(left.runs) > 10
@@ -118,12 +119,12 @@ def test_the_command_prints_its_tables_and_needs_one_scene():
 
 def test_the_dipole_passes_the_charge_at_the_distance_that_its_scene_gives():
     """The charges of the dipole are at sqrt(1 + a^2) from the pivot, a = 1/10 in the scene."""
-    (variant,) = (v for v in variants_of(scenes.load("dipole")) if v.name.endswith("0.01"))
+    (variant,) = (v for v in stiff_variants(scenes.load("dipole")) if v.name.endswith("0.01"))
     depth = variant.scene.parameters["depth"].fraction() - Fraction(1, 100)
     assert depth**2 == pytest.approx(Fraction(101, 100), abs=1e-14)
 
 
 def test_a_scene_of_the_user_with_the_name_of_a_gallery_scene_has_no_stiff_variants():
     own = replace(scenes.load("free_rigid_body"), name="dipole")
-    assert variants_of(own) == ()
-    assert len(variants_of(scenes.load("dipole"))) == 3
+    assert stiff_variants(own) == ()
+    assert len(stiff_variants(scenes.load("dipole"))) == 3

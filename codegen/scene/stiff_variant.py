@@ -1,0 +1,27 @@
+"""Stiff variants of a scene: the same problem with a time scale far below its span, or near a singularity.
+
+A scene file may define ``stiff_variants()``, which returns a list of them. ``orderconds stability`` measures
+the order that methods keep on each.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from codegen.scene.problem import Problem
+
+RADIANS = 200
+"""Largest angle of the fastest rotation over the span, if that motion does not decay.
+
+Beyond a few hundred radians the phase error hides the order of every explicit method.
+"""
+
+
+@dataclass(frozen=True)
+class StiffVariant:
+    """A variant of a scene: its name, the stiff feature, the problem, and its fastest rate in 1/time."""
+
+    name: str
+    about: str
+    scene: Problem
+    rate: float

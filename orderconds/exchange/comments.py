@@ -1,0 +1,41 @@
+"""Texts of a tableau in comments of source files: one line each, so that no text ends its comment.
+
+A backslash and every character that could end a line, a comment, or change the direction of writing is
+escaped as in Python; ``*/`` and ``/*`` are parted for C.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+
+_ESCAPED = re.compile(r"\\(?:\\|/|u[0-9a-f]{4}|U[0-9a-f]{8})")
+
+
+def escaped(text: str) -> str:
+    r"""Return a text as one line without control characters.
+
+    >>> print(escaped("a\nb */ c\\d"))
+    a\u000ab *\/ c\\d
+    """
+    plain = text.replace("\\", "\\\\").replace("*/", "*\\/").replace("/*", "\\/*")
+    return "".join(_code_of(c) if _is_control(c) else c for c in plain)
+
+
+def unescaped(text: str) -> str:
+    r"""Return the text that :func:`escaped` has written.
+
+    >>> unescaped(escaped("a\nb */ c\\d")) == "a\nb */ c\\d"
+    True
+    """
+    return _ESCAPED.sub(lambda m: m[0][1:] if len(m[0]) == 2 else chr(int(m[0][2:], 16)), text)
+
+
+def _is_control(character: str) -> bool:
+    """Whether a character is a control or format character, or parts lines or paragraphs."""
+    return unicodedata.category(character) in ("Cc", "Cf", "Cs", "Zl", "Zp")
+
+
+def _code_of(character: str) -> str:
+    code = ord(character)
+    return f"\\u{code:04x}" if code < 1 << 16 else f"\\U{code:08x}"

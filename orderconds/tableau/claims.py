@@ -1,0 +1,34 @@
+"""Claims: the orders and properties that a tableau file states of its method, to be verified."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True)
+class OrderClaim:
+    """The claim that ``family`` (with ``cutoff``, where it takes one) has exactly this order."""
+
+    family: str
+    cutoff: int | None
+    order: int
+
+    @property
+    def label(self) -> str:
+        """The family as reports name it: ``vcg``, ``rkmk(1)``."""
+        return self.family if self.cutoff is None else f"{self.family}({self.cutoff})"
+
+
+@dataclass(frozen=True)
+class Claims:
+    """The stated orders and properties; a check compares each with the computed one."""
+
+    orders: tuple[OrderClaim, ...] = ()
+    properties: dict[str, bool] = field(default_factory=dict)
+
+    def order(self, family: str, cutoff: int | None = None) -> int | None:
+        """Return the claimed order of a family, or None where nothing is claimed."""
+        for claim in self.orders:
+            if (claim.family, claim.cutoff) == (family, cutoff):
+                return claim.order
+        return None

@@ -1,0 +1,52 @@
+"""Whether two tableaux have the same coefficients, as far as their digits tell."""
+
+from __future__ import annotations
+
+from typing import cast
+
+from flint import fmpq
+
+from orderconds.ring import Balls, NumberField, Rationals
+from orderconds.ring.decimals import endpoints
+from orderconds.ring.protocol import Element
+from orderconds.tableau.record import Tableau
+
+COMPARED = 160
+"""Bits to which an exported method is compared with what reads back."""
+
+
+def equal_coefficients(one: Tableau, other: Tableau) -> bool:
+    """Whether the coefficients agree in number and value, embedded rows included.
+
+    Balls agree if they meet and neither is much wider than the other: a written ball may be rounded
+    differently from the one that was read.
+
+    >>> from orderconds.tableau import find
+    >>> rk4, heun = (Tableau.load(find(name)) for name in ("rk4", "heun"))
+    >>> equal_coefficients(rk4, rk4), equal_coefficients(rk4, heun)
+    (True, False)
+    """
+    first, second = _coefficients(one), _coefficients(other)
+    return len(first) == len(second) and all(map(_agree, first, second))
+
+
+def _coefficients(tableau: Tableau) -> list[tuple[fmpq, fmpq]]:
+    """Return enclosures of the coefficients, those of the embedded row last."""
+    enclosures: list[tuple[fmpq, fmpq]] = []
+    ring = cast("Rationals | NumberField | Balls", tableau.ring)
+
+    def visit(x: Element) -> Element:
+        enclosures.append(endpoints(ring.ball(x, COMPARED)))
+        return x
+
+    tableau.method.map(visit)
+    if (lower := tableau.lower()) is not None:
+        lower.method.map(visit)
+    return enclosures
+
+
+def _agree(one: tuple[fmpq, fmpq], other: tuple[fmpq, fmpq]) -> bool:
+    """Whether two enclosures meet, and neither is much wider than the other."""
+    widths = sorted(high - low for low, high in (one, other))
+    meet = one[0] <= other[1] and other[0] <= one[1]
+    return bool(meet and widths[1] <= 4 * widths[0] + fmpq(1, 2**100))

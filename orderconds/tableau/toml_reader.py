@@ -1,0 +1,28 @@
+"""TOML of bounded depth: the standard reader takes gigabytes for keys of thousands of parts."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+
+from orderconds.tableau.file_format import Data
+
+MAX_PARTS = 24
+"""No key of a tableau file has more than two parts."""
+
+_PART = r"(?:[A-Za-z0-9_-]{1,99}+|\"[^\"\n]{0,99}+\"|'[^'\n]{0,99}+')"
+_LONG_KEY = re.compile(rf"(?<![\w.'\"-])(?>{_PART}[ \t]{{0,9}}+\.[ \t]{{0,9}}+){{{MAX_PARTS}}}")
+
+
+def parse_toml(text: str) -> Data:
+    """Return the keys and values; ValueError for what is no TOML, or has keys of very many parts.
+
+    >>> parse_toml('a.b = "1"')
+    {'a': {'b': '1'}}
+    >>> parse_toml("a." * 30000 + "a = 1")
+    Traceback (most recent call last):
+    tomllib.TOMLDecodeError: a key of more than 24 parts
+    """
+    if _LONG_KEY.search(text):
+        raise tomllib.TOMLDecodeError(f"a key of more than {MAX_PARTS} parts")
+    return tomllib.loads(text)
