@@ -25,7 +25,7 @@ from codegen import scenes
 from codegen.build import compile_files, find_compiler
 from codegen.emitter import Compiled, compile_method, emit_compiled, start_of
 from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON
-from codegen.run.solver_choice import AUTO, Candidate
+from codegen.run.solver_choice import AUTO, SWEEPS, Candidate
 from codegen.run.step_cost import Amounts
 from orderconds.errors import InputError
 
@@ -305,7 +305,7 @@ HEAD = f"""
   of 20 steps, and measured (median of CPU time). A prediction is missing where the trial does not converge, a
   measurement where a step fails.
 - *chosen*: by `--solver auto`; *(robust)* where the fastest solver was passed over because it does not
-  converge in a step of 8 h within 20 sweeps, and the chosen one does.
+  converge in a step of 8 h within {SWEEPS} sweeps, and the chosen one does.
 - *ratio*: the time with the chosen solver over the time with the fastest; asked is at most {ASKED}.
 """
 

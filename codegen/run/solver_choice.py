@@ -10,11 +10,13 @@ matrices of the first :data:`STEPS` steps of the usage example. The cost model (
 which was fitted to measurements of emitted C, predicts the time of a step from them.
 ``benchmarks/solver_choice.py`` compares the choices with the fastest solver measured.
 
-Robust solvers come first. A solver is robust if it also converges in a step :data:`LONGER` times as long, in
-at most :data:`SWEEPS` sweeps. A fixed point may converge at the step of the example and fail at a somewhat
+Robust solvers are preferred. A solver is robust if it also converges in a step :data:`LONGER` times as long,
+in at most :data:`SWEEPS` sweeps. A fixed point may converge at the step of the example and fail at a somewhat
 longer one: the number of its sweeps grows without bound towards the limit h L = 1, and a user's next step
 size is not known. Newton's method has no such limit where the equations are linear. So a solver that is not
-robust is taken only where none is.
+robust is taken only where every robust one is predicted to take more than :data:`PRICE` times as long; the
+reason then says that longer steps may fail. Without that bound, matrices of 24 and 36 unknowns would make
+steps of the gallery 5 to 14 times as long (``benchmarks/README.md``).
 
 Kernels of many unknowns take long to build and try. Before a kernel is built, its cost is estimated from
 below; where a robust solver is known that costs less, it is left out. Trials of more than :data:`LARGE`
@@ -48,8 +50,11 @@ ASKED = "as asked for"
 STEPS, FEW_STEPS, LONGER = 20, 5, 8
 """Steps of a trial, those of a large one, and how much longer the one step of the second trial is."""
 
-SWEEPS = 20
-"""The most sweeps that a robust solver takes in the longer step."""
+SWEEPS = 50
+"""The most sweeps that a robust solver takes in the longer step: half of those that a loop may make."""
+
+PRICE = 4.0
+"""How many times as long as with the fastest solver a step may take with a robust one."""
 
 LARGE = 64
 """With more unknowns, a trial makes few steps, and none by continuation in h, of thousands of sweeps."""
@@ -211,7 +216,10 @@ class _Selection:
         able = {s: c for s, c in self.candidates.items() if c.usual.converged}
         if not able:
             return self.by_continuation()
-        robust = {s: c for s, c in able.items() if c.robust} or able
+        robust = {s: c for s, c in able.items() if c.robust}
+        least = min(c.step() for c in able.values())
+        if all(c.step() > PRICE * least for c in robust.values()):
+            robust = able
         blocks = range(len(self.fixed.loops))
         best = [min(robust, key=lambda s: robust[s].block(k)) for k in blocks]
         candidate = self.combined(robust, best)
@@ -234,14 +242,8 @@ class _Selection:
         Of many unknowns, chords need not be tried once Newton's method converges, robust or not: they invert
         a matrix in each step.
         """
-        large = unknowns_of(self.fixed) > LARGE
-        known = [
-            c.step()
-            for s, c in self.candidates.items()
-            if c.robust or (large and s == NEWTON and c.usual.converged)
-        ]
         least = self.least(solver)
-        if known and min(known) <= least:
+        if any(self.allowed(s, c) <= least for s, c in self.candidates.items() if c.usual.converged):
             self.left_out[solver] = f"not tried: would take at least {least:.0f} ns a step"
             return
         try:
@@ -251,6 +253,11 @@ class _Selection:
             self.left_out[solver] = f"not possible: {error}"
             return
         self.candidates[solver] = Candidate(kernel, self.scene, self.initial)
+
+    def allowed(self, solver: str, candidate: Candidate) -> float:
+        """Return how many nanoseconds a step may take with another solver to be preferred to a candidate."""
+        sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
+        return candidate.step() * (1.0 if sure else PRICE)
 
     def kernel(self, solvers: Mapping[str, str]) -> Kernel:
         """Return the kernel with the solver of each block."""

@@ -193,3 +193,11 @@ def test_an_unknown_solver_is_named_with_those_there_are():
     with pytest.raises(UnknownName, match="unknown solver broyden") as failure:
         compile_method("dipole", "vcg:midpoint", solver="broyden")
     assert all(name in str(failure.value) for name in CHOICES)
+
+
+def test_a_robust_solver_may_not_take_many_times_as_long(monkeypatch):
+    """With no price at all to be paid, the faster fixed point stays; the reason warns of longer steps."""
+    monkeypatch.setattr(solver_choice, "PRICE", 1.0)
+    choice, _ = chosen_from(heat(32, 20), monkeypatch)
+    assert choice.solver == FIXED_POINT
+    assert choice.reason.endswith("; does not converge in a step of 8 h: longer steps may fail")
