@@ -25,7 +25,7 @@ ELAPSED = "elapsed.h"
 LONGEST = 256
 """The most steps for which a flow is deferred: its angles stay moderate."""
 
-FIXED_POINT, NEWTON, CHORD = "fixed-point", "newton", "chord"
+FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-newton"
 """The methods that a block may be solved by."""
 
 SLOWEST = 2.0**-12
@@ -115,7 +115,7 @@ class Loop:
         """The name of the method."""
         if self.newton is None:
             return FIXED_POINT
-        return CHORD if self.newton.leading else NEWTON
+        return SIMPLIFIED_NEWTON if self.newton.leading else NEWTON
 
     @property
     def close(self) -> float:
@@ -128,7 +128,7 @@ class Loop:
         # unknowns: their error is the rate times the last change.
         if self.read_anew and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
-        first_order = self.solver == CHORD or (self.newton is not None and self.newton.residuals)
+        first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
 
