@@ -103,8 +103,8 @@ class Method:
             )
         if self.kind.minimal_brackets and self.cutoff is None:
             raise MethodError(
-                f"an estimate of the error for {self.label}, whose brackets are chosen for its weights",
-                expected="a number of brackets",
+                f"no error estimate for {self.label}: its minimal set of brackets is valid for the main weights only",
+                expected="a fixed number of brackets",
                 hint=f"write rkmk(3):{self.tableau.name}",
             )
         if lower is None:

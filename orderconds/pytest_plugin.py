@@ -26,12 +26,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption(
         "--orderconds-complete",
         action="store_true",
-        help="the same, and require a claim for every family that a tableau can claim",
+        help="as --orderconds, and require a claim for every family that a tableau can claim",
     )
     group.addoption(
         "--orderconds-certified",
         action="store_true",
-        help="the same, and require a proof of every order",
+        help="as --orderconds, and require a proof of every order",
     )
 
 

@@ -249,7 +249,7 @@ static double largest(const double *x, size_t n)
     return size;
 }
 
-/* Replace an n x n matrix, by rows, by its inverse (Gauss-Jordan with row exchanges); return 0 if it is
+/* Invert an n x n matrix, stored row by row, in place (Gauss-Jordan with row exchanges). Return 0 if it is
  * singular, else 1. Here n is always 12. */
 static size_t invert(size_t n, double *restrict a)
 {

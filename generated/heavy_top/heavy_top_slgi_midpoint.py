@@ -291,7 +291,7 @@ def slope2(z):
 
 
 def invert(n, matrix):
-    """Replace an n x n matrix, by rows, by its inverse; return 0 if it is singular, else 1."""
+    """Invert an n x n matrix, stored row by row, in place; return 0 if it is singular, else 1."""
     a = [matrix[n * i : n * i + n] for i in range(n)]
     order = [0] * n
     for k in range(n):

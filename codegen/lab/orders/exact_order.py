@@ -57,8 +57,8 @@ class ExactLocalError:
         """Return the verdict and the orders in one line."""
         least = "at least " if self.vanishes else ""
         return (
-            f"{self.verdict}: exact order {least}{self.order} on this scene, "
-            f"order conditions {self.certified.order} ({self.certified.certificate})"
+            f"{self.verdict}: order {least}{self.order} in exact arithmetic on this scene; "
+            f"the order conditions give {self.certified.order} (certificate: {self.certified.certificate})"
         )
 
     def as_json(self) -> dict[str, object]:
