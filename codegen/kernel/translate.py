@@ -61,7 +61,8 @@ def to_kernel(
 ) -> Kernel:
     """Return the kernel of a program in its problem (:func:`codegen.lower.problem`).
 
-    ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or SIMPLIFIED_NEWTON, the others are iterated.
+    ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or SIMPLIFIED_NEWTON. Others use
+    fixed-point iteration.
     With ``variations`` the kernel also propagates a variation of the state (``Kernel.vary``). A value of
     ``chains`` other than :data:`AS_WRITTEN` is for programs without blocks. A ``whole`` step, or one with
     variations, begins and ends with the state's own momentum (:mod:`codegen.kernel.carried_momentum`).

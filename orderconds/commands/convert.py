@@ -47,7 +47,7 @@ def command(
         for key in lost:
             click.echo(f"note: its {key} is left out, which json and toml keep", err=True)
     elif to == "numpy" and output is None:
-        raise click.UsageError("--json cannot contain a NumPy archive, which is binary; write the archive to a file with -o FILE")
+        raise click.UsageError("--json cannot contain a NumPy archive, which is binary; give -o FILE")
     converted = content if of == to == "toml" and name is None else export(data, to)
     if output is not None:
         put(output, converted)
