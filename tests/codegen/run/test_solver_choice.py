@@ -59,7 +59,7 @@ def chosen_from(scene, monkeypatch):
 
 
 def test_a_stiff_linear_scene_is_solved_by_newtons_method(monkeypatch):
-    """With 64 unknowns the fixed point fails. Simplified Newton inverts too many matrices and is not built."""
+    """With 64 unknowns the fixed point fails; Simplified Newton needs too many matrices : not tried."""
     choice, built = chosen_from(heat(32, 800), monkeypatch)
     assert (choice.solver, choice.unknowns) == (NEWTON, LARGE)
     assert choice.compared[0] == f"fixed point: does not converge in {STEPS} steps of h = 8"

@@ -257,7 +257,7 @@ def test_sweeps_fall_with_the_step_faster_the_better_the_matrix():
 
 
 def test_many_unknowns_are_left_to_a_fixed_point_and_moved_together():
-    """Twenty-seven unknowns: the fixed point is the fastest. Both targets compare and update them in loops."""
+    """Twenty-seven unknowns: the fixed point is the fastest. Both targets update them in loops."""
     made = compile_method("dipole", "slgi:cg5")
     (choice,) = made.solvers
     assert (choice.solver, choice.unknowns) == ("fixed-point", 27)
