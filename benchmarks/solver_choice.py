@@ -301,8 +301,8 @@ HEAD = f"""
 `solver_choice.py` times emitted C of the implicit methods on the scenes of the gallery, with each solver:
 {STEPS} steps of the usage example's size from the initial state.
 
-- *fixed point*, *Newton*, *simplified Newton*: nanoseconds a step, predicted by `codegen/run/step_cost.py` from a trial
-  of 20 steps, and measured (median of CPU time). A prediction is missing where the trial does not converge, a
+- *fixed point*, *Newton*, *simplified Newton*: nanoseconds a step, predicted by `codegen/run/step_cost.py` from
+  a trial of 20 steps, and measured (median of CPU time). A prediction is missing where the trial does not converge, a
   measurement where a step fails.
 - *chosen*: by `--solver auto`; *(robust)* where the fastest solver was passed over because it does not
   converge in a step of 8 h within {SWEEPS} sweeps, and the chosen one does.

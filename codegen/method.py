@@ -103,7 +103,7 @@ class Method:
             )
         if self.kind.minimal_brackets and self.cutoff is None:
             raise MethodError(
-                f"no error estimate for {self.label}: its minimal brackets are valid for the main weights only",
+                f"no error estimate for {self.label}, whose minimal brackets suit the main weights only",
                 expected="a fixed number of brackets",
                 hint=f"write rkmk(3):{self.tableau.name}",
             )
